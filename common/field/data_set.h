@@ -73,7 +73,7 @@ struct UniformTopology {
   Mat3 axes{1.0};
 };
 
-/// Points at (x[i], y[j], z[k]), each strictly increasing; same point order.
+/// Points at (x[i], y[j], z[k]), each strictly rising or falling; same point order.
 struct RectilinearTopology {
   std::array<std::vector<double>, 3> coordinates;
 };
@@ -102,6 +102,8 @@ struct DataSet {
   std::vector<DataArray> arrays;
   /// Where not empty: one byte a point, 0 where the point is blanked (PLOT3D iblank, VTK ghost points).
   std::vector<std::uint8_t> visible;
+  /// Where not empty: one byte a cell, 1 where nothing is (VTK hidden cells), whatever its points hold.
+  std::vector<std::uint8_t> hidden_cells;
 
   [[nodiscard]] std::size_t point_count() const noexcept;
   [[nodiscard]] std::size_t cell_count() const noexcept;

@@ -28,6 +28,10 @@ class BlockCheck {
       refuse("blanking of " + std::to_string(block_.visible.size()) + " points",
              "one value for each of " + std::to_string(block_.point_count()) + " points");
     }
+    if (!block_.hidden_cells.empty() && block_.hidden_cells.size() != block_.cell_count()) {
+      refuse("marks of " + std::to_string(block_.hidden_cells.size()) + " hidden cells",
+             "one for each of " + std::to_string(block_.cell_count()) + " cells");
+    }
     if (const auto* grid = std::get_if<StructuredTopology>(&block_.topology)) {
       check_positions(grid->positions, block_.point_count());
     } else if (const auto* cells = std::get_if<UnstructuredTopology>(&block_.topology)) {

@@ -60,7 +60,35 @@ void check_widths(double width, double largest, const std::string& file) {
               "cells that double precision can tell apart");
 }
 
+/// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.
+std::size_t data_index(const FieldGrid& grid, const Index3& n, Index3 at) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (grid.reversed[as_size(axis)]) at[axis] = n[axis] - 1 - at[axis];
+  }
+  return index_in(n, at);
+}
+
+/// Marks the hidden cells of a box grid.
+void hide_cells(const FieldGrid& grid, const DataSet& block, BoxGrid& box) {
+  if (block.hidden_cells.empty()) return;
+  const Index3 n = box.points() - 1;
+  std::vector<std::uint8_t> hidden(count_of(n));
+  std::size_t cell = 0;
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i, ++cell) hidden[cell] = block.hidden_cells[data_index(grid, n, {i, j, k})];
+    }
+  }
+  box.hide_cells(std::move(hidden));
+}
+
 void note_blanking(FieldGrid& grid, const DataSet& block) {
+  const auto hidden =
+      as_size(std::count(block.hidden_cells.begin(), block.hidden_cells.end(), std::uint8_t{1}));
+  if (hidden > 0) {
+    grid.notes.lines.push_back(count_text(hidden, "hidden cell", "hidden cells") +
+                               ": bad data, nothing flows through");
+  }
   const auto blanked = as_size(std::count(block.visible.begin(), block.visible.end(), std::uint8_t{0}));
   if (blanked == 0) return;
   grid.blanked = true;
@@ -145,7 +173,9 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
     const double last = local_origin[axis] + local_spacing[axis] * (n[axis] - 1);
     check_widths(local_spacing[axis], std::max(std::abs(local_origin[axis]), std::abs(last)), file);
   }
-  grid->box = std::make_shared<BoxGrid>(n, local_origin, local_spacing);
+  const auto box = std::make_shared<BoxGrid>(n, local_origin, local_spacing);
+  hide_cells(*grid, block, *box);
+  grid->box = box;
   grid->notes.lines.push_back("uniform grid of " + size_text(n) + " points" +
                               (grid->frame.rotated ? ", turned against the axes" : "") +
                               ": trilinear interpolation");
@@ -184,7 +214,9 @@ std::shared_ptr<FieldGrid> make_rectilinear(const DataSet& block, const std::str
       check_widths(x[i] - x[i - 1], std::max(std::abs(x[i]), std::abs(x[i - 1])), file);
     }
   }
-  grid->box = std::make_shared<BoxGrid>(std::move(lines));
+  const auto box = std::make_shared<BoxGrid>(std::move(lines));
+  hide_cells(*grid, block, *box);
+  grid->box = box;
   grid->notes.lines.push_back("rectilinear grid of " + size_text(grid->box->points()) +
                               " points: trilinear interpolation");
   note_blanking(*grid, block);
@@ -207,7 +239,7 @@ void note_split(const SplitMesh& split, std::size_t cells, FieldNotes& notes) {
   add(split.corner_cells, "higher-order cell", "higher-order cells", " taken through their corners alone");
   add(split.dropped_cells, "cell", "cells", " without a volume left out");
   add(split.unknown_cells, "cell", "cells", " of a type that cannot be split left out");
-  add(split.blanked_cells, "cell", "cells", " with blanked or non-finite points left out");
+  add(split.blanked_cells, "cell", "cells", " hidden, or with blanked or non-finite points: left out");
   add(split.repeated_tets, "tetrahedron", "tetrahedra", " that several blocks hold counted once");
   add(split.left_handed_blocks, "block", "blocks", " with left-handed cell order: taken as such");
   add(split.inverted_cells, "cell", "cells", " inside out, against the rest of their block: turned");
@@ -279,14 +311,6 @@ struct Store {
   }
 };
 
-/// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.
-std::size_t data_index(const FieldGrid& grid, const Index3& n, Index3 at) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (grid.reversed[as_size(axis)]) at[axis] = n[axis] - 1 - at[axis];
-  }
-  return index_in(n, at);
-}
-
 void gather_box(const FieldGrid& grid, const DataSet& block, Association association, const TupleReader& read,
                 const Store& store, int threads) {
   const Index3 n = grid.box->points();
@@ -316,7 +340,7 @@ void gather_box(const FieldGrid& grid, const DataSet& block, Association associa
           }
           volume *= grid.box->coordinate(axis, cell[axis] + 1) - grid.box->coordinate(axis, cell[axis]);
         }
-        if (volume == 0.0) continue;
+        if (volume == 0.0 || grid.box->hidden(cell)) continue;
         read(block, data_index(grid, n - 1, cell), value.data());
         for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += volume * value[c];
         total += volume;

@@ -41,8 +41,14 @@ struct ComponentName {
   int component = 0;
 };
 
-/// Every way to read a name as a component: a letter x y z (first or last), a last digit, or u v w.
-std::vector<ComponentName> component_names(const std::string& name) {
+/// What solvers put before or behind "u v w" beside the velocity itself: "umean".
+bool is_average(const std::string& name) {
+  return name == "mean" || name == "avg" || name == "average" || name == "prime";
+}
+
+/// Every way to read a name as a component: a letter x y z (first or last), a last digit, u v w or i j k.
+std::vector<ComponentName> component_names(std::string_view given) {
+  const std::string name = plain(given);
   std::vector<ComponentName> out;
   if (name.empty()) return out;
   const auto add = [&](char c, std::string_view letters, const std::string& stem) {
@@ -50,22 +56,31 @@ std::vector<ComponentName> component_names(const std::string& name) {
     if (at != std::string_view::npos) out.push_back({stem, static_cast<int>(at)});
   };
   const std::string head = name.substr(0, name.size() - 1);
+  const std::string rest = name.substr(1);
+  const auto is_speed = [](const std::string& part) {
+    return part == "vel" || part.find("veloc") != std::string::npos || means_momentum(part);
+  };
   add(name.back(), "xyz", head + "*xyz");
-  if (name.size() > 1) add(name.front(), "xyz", "xyz*" + name.substr(1));
+  if (name.size() > 1) add(name.front(), "xyz", "xyz*" + rest);
   if (!head.empty() && std::isdigit(static_cast<unsigned char>(head.back())) == 0) {
     add(name.back(), "012", head + "*012");
     add(name.back(), "123", head + "*123");
   }
-  if (head.empty() || means_momentum(name) || head == "rho" || head == "vel") {
+  if (head.empty() || means_momentum(name) || head == "rho" || is_speed(head)) {
     add(name.back(), "uvw", head + "*uvw");
   }
+  if (is_speed(rest) || is_average(rest)) add(name.front(), "uvw", "uvw*" + rest);
+  // "Velocity[i]", "velocity_i"
+  const bool bracket = !given.empty() && (given.back() == ']' || given.back() == ')');
+  if (!head.empty() && (bracket || is_speed(head))) add(name.back(), "ijk", head + "*ijk");
   return out;
 }
 
 /// The stem without its marker: "velocity" for "velocity*xyz".
 std::string stem_name(const std::string& stem) {
   const auto star = stem.find('*');
-  return stem.starts_with("xyz*") ? stem.substr(4) : stem.substr(0, star);
+  return star == 3 && (stem.starts_with("xyz") || stem.starts_with("uvw")) ? stem.substr(4)
+                                                                           : stem.substr(0, star);
 }
 
 struct Candidate {
@@ -95,7 +110,7 @@ std::vector<Triple> component_triples(const std::vector<ArrayInfo>& arrays) {
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     const ArrayInfo& array = arrays[i];
     if (array.components != 1) continue;
-    for (const ComponentName& part : component_names(plain(array.name))) {
+    for (const ComponentName& part : component_names(array.name)) {
       auto slot = std::ranges::find_if(slots, [&](const Slot& s) {
         return s.stem == part.stem && s.first->association == array.association &&
                s.first->tuples == array.tuples;
@@ -105,7 +120,7 @@ std::vector<Triple> component_triples(const std::vector<ArrayInfo>& arrays) {
         fresh.stem = part.stem;
         fresh.first = &array;
         fresh.triple.name = stem_name(part.stem);
-        fresh.triple.uvw = part.stem.ends_with("*uvw");
+        fresh.triple.uvw = part.stem.ends_with("*uvw") || part.stem.starts_with("uvw*");
         fresh.triple.order = i;
         slot = slots.insert(slots.end(), fresh);
       }
@@ -156,7 +171,8 @@ std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
     VectorChoice choice{
         VectorChoice::Kind::kComponents, triple.arrays[0]->association, {}, bracketed(triple)};
     for (const ArrayInfo* array : triple.arrays) choice.arrays.push_back(array->name);
-    const bool velocity = means_velocity(triple.name) || (triple.uvw && (triple.name.empty()));
+    const bool velocity =
+        means_velocity(triple.name) || (triple.uvw && (triple.name.empty() || is_average(triple.name)));
     add(std::move(choice), velocity, is_real(triple.arrays[0]->type), triple.order);
   }
 

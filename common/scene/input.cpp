@@ -288,7 +288,7 @@ std::string Input::choice_sentence() const {
 std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress* progress) {
   if (!remeshed_) return read_file(names, progress);
   const DataSet& made = remeshed_->mesh;
-  DataSet mesh{.name = made.name, .topology = made.topology, .arrays = {}, .visible = {}};
+  DataSet mesh{.name = made.name, .topology = made.topology, .arrays = {}, .visible = {}, .hidden_cells = {}};
   std::vector<std::string> of_file;
   for (const std::string& name : names) {
     const DataArray* own = made.find(name, Association::kPoint);

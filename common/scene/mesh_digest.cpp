@@ -29,6 +29,7 @@ std::string mesh_digest(const DataSet& mesh, std::span<const DataArray* const> w
     return {};
   }
   add(bytes_of(std::span(mesh.visible)));
+  add(bytes_of(std::span(mesh.hidden_cells)));
   for (const DataArray* array : with)
     if (array != nullptr) add_array(*array);
   return sha256_in_pieces(runs, kinds, threads);

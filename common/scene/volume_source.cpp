@@ -51,6 +51,7 @@ DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& ch
     values.association = Association::kPoint;
   } else {
     source.visible = block.visible;
+    source.hidden_cells = block.hidden_cells;
   }
   source.topology = place;
   source.arrays.push_back(std::move(values));

@@ -1,8 +1,12 @@
 /// Cases of several files, EnSight and OpenFOAM, through VTK's readers: both offer their arrays by name and
 /// their time steps one by one.
+#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
+#include <sys/mman.h>
+#include <unistd.h>
 #include <vtkGenericEnSightReader.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -11,6 +15,8 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/load/find_format.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
@@ -19,38 +25,131 @@
 namespace palpate {
 namespace {
 
-void set_up(vtkGenericEnSightReader& reader, const std::string& file) {
-  reader.SetCaseFileName(file.c_str());
-  reader.ReadAllVariablesOff();
-}
+/// EnSight: its parts are all taken.
+class EnsightCase {
+ public:
+  using Reader = vtkGenericEnSightReader;
+  static constexpr bool kChecksFields = false;
 
-void set_up(vtkOpenFOAMReader& reader, const std::string& file) {
-  // The reader wants a file in the case's folder; it need not be there.
-  const bool folder = std::filesystem::is_directory(file);
-  reader.SetFileName(folder ? (std::filesystem::path(file) / "case.foam").c_str() : file.c_str());
-  // Cell values stay cell values and polyhedra polyhedra: how they become tetrahedra is the field's matter.
-  reader.CreateCellToPointOff();
-  reader.DecomposePolyhedraOff();
-  reader.SkipZeroTimeOff();
-}
+  void set_up(Reader& reader, const std::string& file, std::vector<std::string>& notes) {
+    text_ = read_head(file, kCaseBytes).bytes;
+    std::vector<std::string> lost;
+    const std::string text = ensight_case_for_vtk(text_, file, "../../..", lost);
+    if (lost.empty() && text_.find('"') == std::string::npos) {
+      reader.SetCaseFileName(file.c_str());
+    } else {
+      // From /proc/self/fd the names of its files lead back to the root.
+      reader.SetCaseFileName(memory_.write(text).c_str());
+    }
+    notes.insert(notes.end(), lost.begin(), lost.end());
+    reader.ReadAllVariablesOff();
+  }
 
-/// EnSight lists patches as parts; OpenFOAM's boundary patches are switched off, the mesh inside is not.
-void choose_parts(vtkGenericEnSightReader&) {}
-void choose_parts(vtkOpenFOAMReader& reader) {
-  reader.DisableAllPatchArrays();
-  reader.SetPatchArrayStatus("internalMesh", 1);
-  reader.DisableAllLagrangianArrays();
-}
+  static void choose_parts(Reader&) {}
 
-/// VTK's EnSight readers take what is there of a truncated file: its size has to account for the values.
-void check_values(const vtkGenericEnSightReader&, const std::string& file, const DataArray& total,
-                  std::size_t step, std::size_t steps) {
-  check_ensight_values(file, total.name, total.association,
-                       total.tuples * static_cast<std::size_t>(total.components), step, steps);
-}
-void check_values(const vtkOpenFOAMReader&, const std::string&, const DataArray&, std::size_t, std::size_t) {}
+  /// VTK's readers take what is there of a truncated file: its size has to account for the values. Those of
+  /// the nodes stand once in EnSight 6, which gives every part all nodes.
+  void check_values(const std::string& file, const std::vector<DataArray>& parts, std::size_t step,
+                    std::size_t steps) const {
+    std::size_t tuples = 0;
+    for (const DataArray& part : parts) tuples += part.tuples;
+    if (parts.front().association == Association::kPoint && is_ensight6(text_)) {
+      tuples = 0;
+      for (const DataArray& part : parts) tuples = std::max(tuples, part.tuples);
+    }
+    check_ensight_values(file, parts.front().name, parts.front().association,
+                         tuples * static_cast<std::size_t>(parts.front().components), step, steps);
+  }
 
-template <class Reader>
+ private:
+  /// Text under the name of a file that is in memory alone.
+  class MemoryText {
+   public:
+    MemoryText() = default;
+    MemoryText(const MemoryText&) = delete;
+    MemoryText& operator=(const MemoryText&) = delete;
+    ~MemoryText() {
+      if (file_ >= 0) ::close(file_);
+    }
+
+    /// @returns the name. @throws Error (work).
+    std::string write(const std::string& text) {
+      file_ = ::memfd_create("case", MFD_CLOEXEC);
+      for (std::size_t at = 0; at < text.size();) {
+        const ssize_t count = file_ < 0 ? -1 : ::write(file_, text.data() + at, text.size() - at);
+        if (count <= 0) throw work_error("no memory for a case file");
+        at += static_cast<std::size_t>(count);
+      }
+      return "/proc/self/fd/" + std::to_string(file_);
+    }
+
+   private:
+    int file_ = -1;
+  };
+
+  static constexpr std::size_t kCaseBytes = std::size_t{4} << 20U;
+  std::string text_;
+  MemoryText memory_;
+};
+
+/// OpenFOAM: the mesh inside each region; boundary patches are switched off.
+class OpenFoamCase {
+ public:
+  using Reader = vtkOpenFOAMReader;
+  /// A field of one time may hold what VTK cannot read (#calc, #codeStream, #include of a file elsewhere).
+  static constexpr bool kChecksFields = true;
+
+  static void set_up(Reader& reader, const std::string& file, std::vector<std::string>& notes) {
+    // The reader wants a file in the case's folder; it need not be there.
+    const bool is_folder = std::filesystem::is_directory(file);
+    const std::filesystem::path folder =
+        is_folder ? std::filesystem::path(file) : std::filesystem::path(file).parent_path();
+    reader.SetFileName(is_folder ? (folder / "case.foam").c_str() : file.c_str());
+    refuse_decomposed(folder.empty() ? std::filesystem::path(".") : folder, file, notes);
+    // Cell values stay cell values and polyhedra polyhedra: how they become tetrahedra is the field's matter.
+    reader.CreateCellToPointOff();
+    reader.DecomposePolyhedraOff();
+    reader.SkipZeroTimeOff();
+  }
+
+  static void choose_parts(Reader& reader) {
+    reader.DisableAllPatchArrays();
+    for (int i = 0; i < reader.GetNumberOfPatchArrays(); ++i) {
+      const std::string name = reader.GetPatchArrayName(i);
+      constexpr std::string_view kInside = "internalMesh";
+      if (name.size() >= kInside.size() && name.substr(name.size() - kInside.size()) == kInside)
+        reader.SetPatchArrayStatus(name.c_str(), 1);
+    }
+    reader.DisableAllLagrangianArrays();
+  }
+
+  static void check_values(const std::string&, const std::vector<DataArray>&, std::size_t, std::size_t) {}
+
+ private:
+  /// A case whose values stand in the folders of processors alone would open without any.
+  static void refuse_decomposed(const std::filesystem::path& folder, const std::string& file,
+                                std::vector<std::string>& notes) {
+    bool times = false;
+    bool processors = false;
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+         it.increment(error)) {
+      std::error_code ignored;
+      if (!it->is_directory(ignored)) continue;
+      const std::string name = it->path().filename().string();
+      if (number(name).has_value()) times = times || !std::filesystem::is_empty(it->path(), ignored);
+      processors = processors || name.compare(0, 9, "processor") == 0;
+    }
+    if (!processors) return;
+    if (!times) {
+      throw input_error({file, "", "has values in processor folders alone, which are not read",
+                         "folders of times", "run reconstructPar"});
+    }
+    notes.emplace_back("the case's own times are read, not those of its processor folders");
+  }
+};
+
+template <class Case>
 class CaseReader : public Loader {
  public:
   explicit CaseReader(Format format) : format_(format) {}
@@ -61,20 +160,27 @@ class CaseReader : public Loader {
                          "one " + std::string(row_of(format_).name) + " case"});
     }
     file_ = request.files.front().string();
-    reader_ = vtkSmartPointer<Reader>::New();
-    set_up(*reader_, file_);
-    reader_->UpdateInformation();
-    errors_.check(file_);
-    choose_parts(*reader_);
-
+    reader_ = vtkSmartPointer<typename Case::Reader>::New();
     FileInfo info;
+    case_.set_up(*reader_, file_, info.notes);
+    reader_->UpdateInformation();
+    // Complaints about one field must not cost the others: that field's own reading repeats them.
+    try {
+      errors_.check(file_);
+    } catch (const Error&) {
+      if (!Case::kChecksFields || arrays().empty()) throw;
+    }
+    case_.choose_parts(*reader_);
+
     vtkInformation* about = reader_->GetOutputInformation(0);
     auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
-    if (about->Has(steps) != 0) times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));
-    if (times_.size() > 1) info.times = times_;
-
+    if (about->Has(steps) != 0) {
+      times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));
+    }
     // VTK knows the arrays' shapes only once they are read: the last step has them all (at the first one an
     // OpenFOAM case often has no mesh values yet), and only that one is read here.
+    if (Case::kChecksFields) leave_out_broken(info.notes);
+    if (times_.size() > 1) info.times = times_;
     select(nullptr);
     update(times_.empty() ? 0 : times_.size() - 1);
     for (const VtkBlock& block : usable(&info.notes))
@@ -89,27 +195,27 @@ class CaseReader : public Loader {
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : usable(nullptr))
       blocks.push_back(convert_block(block.data, block.name, wanted, file_));
-    // The values of an array in all blocks together.
-    std::map<std::pair<std::string, Association>, DataArray> totals;
+    std::map<std::pair<std::string, Association>, std::vector<DataArray>> parts;
     for (const DataSet& block : blocks) {
-      for (const DataArray& array : block.arrays) {
-        DataArray& total = totals[{array.name, array.association}];
-        const std::size_t before = total.tuples;
-        total = array;
-        total.tuples += before;
-      }
+      for (const DataArray& array : block.arrays) parts[{array.name, array.association}].push_back(array);
     }
-    for (const auto& [key, total] : totals) {
-      check_values(*reader_, file_, total, step, std::max<std::size_t>(1, times_.size()));
-    }
+    for (const auto& [key, found] : parts)
+      case_.check_values(file_, found, step, std::max<std::size_t>(1, times_.size()));
     return blocks;
   }
 
  private:
-  /// Null: every array.
+  [[nodiscard]] std::set<std::string> arrays() const {
+    std::set<std::string> names;
+    for (int i = 0; i < reader_->GetNumberOfPointArrays(); ++i) names.insert(reader_->GetPointArrayName(i));
+    for (int i = 0; i < reader_->GetNumberOfCellArrays(); ++i) names.insert(reader_->GetCellArrayName(i));
+    return names;
+  }
+
+  /// Null: every array that can be read.
   void select(const std::set<std::string>* wanted) {
-    const auto status = [wanted](const char* name) {
-      return wanted == nullptr || wanted->count(name) > 0 ? 1 : 0;
+    const auto status = [this, wanted](const std::string& name) {
+      return broken_.count(name) == 0 && (wanted == nullptr || wanted->count(name) > 0) ? 1 : 0;
     };
     for (int i = 0; i < reader_->GetNumberOfPointArrays(); ++i) {
       reader_->SetPointArrayStatus(reader_->GetPointArrayName(i), status(reader_->GetPointArrayName(i)));
@@ -117,6 +223,40 @@ class CaseReader : public Loader {
     for (int i = 0; i < reader_->GetNumberOfCellArrays(); ++i) {
       reader_->SetCellArrayStatus(reader_->GetCellArrayName(i), status(reader_->GetCellArrayName(i)));
     }
+  }
+
+  /// Fields that cannot be read at the last time, and times before the first at which all others can be read.
+  void leave_out_broken(std::vector<std::string>& notes) {
+    const std::size_t last = times_.empty() ? 0 : times_.size() - 1;
+    if (!reads(nullptr, last).empty()) {
+      const std::set<std::string> none;
+      if (const std::string why = reads(&none, last); !why.empty())
+        throw input_error({file_, "", why, "", "the file may be damaged"});
+      for (const std::string& name : arrays()) {
+        const std::set<std::string> one{name};
+        const std::string why = reads(&one, last);
+        if (why.empty()) continue;
+        broken_.insert(name);
+        notes.push_back("field '" + name + "' left out: " + why);
+      }
+    }
+    while (times_.size() > 1) {
+      const std::string why = reads(nullptr, 0);
+      if (why.empty()) return;
+      notes.push_back("time " + short_number(times_.front()) + " left out: " + why);
+      times_.erase(times_.begin());
+    }
+  }
+
+  /// Reads; what VTK says against it, or empty.
+  std::string reads(const std::set<std::string>* wanted, std::size_t step) {
+    select(wanted);
+    try {
+      update(step);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
   }
 
   void update(std::size_t step) {
@@ -134,18 +274,20 @@ class CaseReader : public Loader {
 
   Format format_;
   VtkErrors errors_;
-  vtkSmartPointer<Reader> reader_;
+  Case case_;
+  vtkSmartPointer<typename Case::Reader> reader_;
   std::string file_;
   std::vector<double> times_;
+  std::set<std::string> broken_;  ///< fields that cannot be read
 };
 
 }  // namespace
 
 std::unique_ptr<Loader> make_ensight_reader() {
-  return std::make_unique<CaseReader<vtkGenericEnSightReader>>(Format::kEnsight);
+  return std::make_unique<CaseReader<EnsightCase>>(Format::kEnsight);
 }
 std::unique_ptr<Loader> make_openfoam_reader() {
-  return std::make_unique<CaseReader<vtkOpenFOAMReader>>(Format::kOpenFoam);
+  return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam);
 }
 
 }  // namespace palpate

@@ -36,7 +36,105 @@ std::map<unsigned long long, std::filesystem::path> matching_files(const std::fi
   return files;
 }
 
+/// The words of a line; those between double quotes are one, and lose the quotes.
+std::vector<std::string> quoted_words(std::string_view line) {
+  std::vector<std::string> found;
+  for (std::size_t at = 0;;) {
+    at = line.find_first_not_of(" \t\r", at);
+    if (at == std::string_view::npos) return found;
+    const bool quoted = line[at] == '"';
+    if (quoted) ++at;
+    const std::size_t end = std::min(line.find_first_of(quoted ? "\"" : " \t\r", at), line.size());
+    found.emplace_back(line.substr(at, end - at));
+    at = std::min(end + (quoted ? 1 : 0), line.size());
+  }
+}
+
+/// Whether a file fits `pattern`, which may hold asterisks in its folders, too.
+bool exists_any(const std::filesystem::path& pattern) {
+  std::filesystem::path known;
+  for (const auto& part : pattern) {
+    if (part.string().find('*') == std::string::npos) {
+      known /= part;
+      continue;
+    }
+    std::error_code error;
+    const bool last = part == pattern.filename();
+    if (!last) return std::filesystem::is_directory(known, error);
+    return !matching_files(known, part.string()).empty();
+  }
+  std::error_code error;
+  return std::filesystem::exists(known, error);
+}
+
+/// The index of the word that names a file on a line of `section`; 0 where none does.
+std::size_t file_word(const std::string& section, const std::string& kind, std::size_t words) {
+  if (section == "GEOMETRY" && (kind == "model" || kind == "measured")) {
+    // "model: [time set] [file set] file [change_coords_only …]"
+    return words > 0 ? 1 : 0;
+  }
+  const bool values = kind.find(" per ") != std::string::npos && kind.find("constant") == std::string::npos;
+  return section == "VARIABLE" && values && words > 1 ? words : 0;
+}
+
 }  // namespace
+
+bool is_ensight6(std::string_view case_text) {
+  std::istringstream lines{std::string(case_text)};
+  for (std::string line; std::getline(lines, line);) {
+    if (line.compare(0, 5, "type:") == 0) return line.find("gold") == std::string::npos;
+  }
+  return false;
+}
+
+std::string ensight_case_for_vtk(std::string_view text, const std::string& case_file,
+                                 const std::string& prefix, std::vector<std::string>& notes) {
+  const std::filesystem::path folder = std::filesystem::absolute(case_file).parent_path();
+  std::istringstream lines{std::string(text)};
+  std::string section;
+  std::string out;
+  for (std::string line; std::getline(lines, line);) {
+    while (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::size_t colon = line.find(':');
+    const std::vector<std::string> heads = quoted_words(line.substr(0, colon));
+    if (colon == std::string::npos && heads.size() == 1 &&
+        std::isupper(static_cast<unsigned char>(line[0])) != 0)
+      section = heads[0];
+    std::string kind;
+    for (const std::string& head : heads) kind += (kind.empty() ? "" : " ") + head;
+    std::vector<std::string> words;
+    if (colon != std::string::npos) words = quoted_words(std::string_view(line).substr(colon + 1));
+    std::size_t word = file_word(section, kind, words.size());
+    if (word == 0) {
+      out += line + "\n";
+      continue;
+    }
+    // Numbers of the time set and file set precede a geometry's file.
+    while (section == "GEOMETRY" && word < words.size() &&
+           std::all_of(words[word - 1].begin(), words[word - 1].end(),
+                       [](unsigned char c) { return std::isdigit(c) != 0; })) {
+      ++word;
+    }
+    std::string& file = words[word - 1];
+    const std::filesystem::path path = folder / file;
+    if (!exists_any(path)) {
+      if (section == "GEOMETRY")
+        throw input_error({path.string(), "", "is missing, the geometry of " + case_file});
+      notes.push_back("variable '" + words[words.size() - 2] + "' left out: its file " + path.string() +
+                      " is missing");
+      continue;
+    }
+    if (path.string().find(' ') != std::string::npos) {
+      throw input_error({case_file, "", "names the file '" + path.string() + "'",
+                         "names without blanks: VTK's reader knows none", "rename or link it"});
+    }
+    file = prefix + path.string();
+    out += line.substr(0, colon + 1);
+    for (const std::string& part : words) out += " " + part;
+    out += "\n";
+  }
+  return out;
+}
 
 std::vector<EnsightVariable> ensight_variables(std::string_view case_text) {
   std::vector<EnsightVariable> variables;
@@ -48,9 +146,7 @@ std::vector<EnsightVariable> ensight_variables(std::string_view case_text) {
     const bool on_points = kind.find(" per node") != std::string::npos;
     if (!on_points && kind.find(" per element") == std::string::npos) continue;
     // Optional numbers of the time set and file set, then the name and the file.
-    std::istringstream rest(line.substr(colon + 1));
-    std::vector<std::string> words;
-    for (std::string word; rest >> word;) words.push_back(word);
+    const std::vector<std::string> words = quoted_words(std::string_view(line).substr(colon + 1));
     if (words.size() < 2) continue;
     variables.push_back(
         {words[words.size() - 2], on_points ? Association::kPoint : Association::kCell, words.back()});

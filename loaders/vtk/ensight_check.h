@@ -21,6 +21,17 @@ struct EnsightVariable {
 /// The variables that the text of a case file lists.
 [[nodiscard]] std::vector<EnsightVariable> ensight_variables(std::string_view case_text);
 
+/// The case file `text` as VTK's reader, which knows neither quotes nor lost files, can read it from another
+/// folder: file names without quotes and absolute, behind `prefix`; lines of variables whose files are not
+/// there left out.
+/// @param case_file where the text is from. @param notes get a sentence for each variable left out.
+/// @throws Error (bad input) where a file name holds blanks, or the geometry is not there.
+[[nodiscard]] std::string ensight_case_for_vtk(std::string_view text, const std::string& case_file,
+                                               const std::string& prefix, std::vector<std::string>& notes);
+
+/// Whether the case is of EnSight 6, where all parts share one list of nodes.
+[[nodiscard]] bool is_ensight6(std::string_view case_text);
+
 /// Checks that the file of a variable at time step `step` of `steps` is large enough for `values` numbers: 12
 /// characters each in text, 4 bytes in binary (EnSight User Manual, ch. 9).
 /// @throws Error (bad input).

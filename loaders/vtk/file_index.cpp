@@ -24,8 +24,17 @@ constexpr int kMaxDepth = 8;
 constexpr std::size_t kMaxPieces = 1'000'000;
 
 std::optional<double> number_of(const std::string& text) {
-  const std::optional<double> value = parsed<double>(text);
+  const std::optional<double> value = number(text);
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+/// Whether the file is there and lists blocks; what is wrong with it shows when it is read.
+bool lists_blocks(const std::filesystem::path& file) {
+  try {
+    return find_format(file) == Format::kVtkMultiBlock;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// The blocks of a .vtm, also of those inside it.
@@ -47,7 +56,7 @@ void add_blocks(const std::filesystem::path& file, int depth, std::vector<FilePi
     std::string name = tag.at("name");
     if (name.empty() && !groups.empty()) name = groups.back();
     const std::filesystem::path path = file.parent_path() / tag.at("file");
-    if (find_format(path) == Format::kVtkMultiBlock) {
+    if (lists_blocks(path)) {
       add_blocks(path, depth + 1, pieces);
     } else {
       pieces.push_back({path, name});
@@ -64,6 +73,7 @@ struct Entry {
   double time = 0.0;
   std::string file;
   std::string name;
+  std::string part;  ///< .pvd: what the entry says of its place beside others of that time
 };
 
 std::vector<Entry> read_pvd(const std::filesystem::path& file, std::string_view text) {
@@ -77,7 +87,7 @@ std::vector<Entry> read_pvd(const std::filesystem::path& file, std::string_view 
     const std::string& time = tag.at("timestep");
     const auto value = time.empty() ? std::optional<double>(0.0) : number_of(time);
     if (!value) throw input_error({file.string(), "", "timestep=\"" + time.substr(0, 40) + "\"", "a number"});
-    entries.push_back({*value, tag.at("file"), tag.at("name")});
+    entries.push_back({*value, tag.at("file"), tag.at("name"), tag.at("part") + "/" + tag.at("group")});
     if (entries.size() > kMaxPieces) throw input_error({file.string(), "", "names too many files"});
   }
   if (!complete)
@@ -98,7 +108,7 @@ std::vector<Entry> read_series(const std::filesystem::path& file, std::string_vi
                        (!entry.contains("time") || entry["time"].is_number());
     if (!right) throw input_error({file.string(), "", "has an entry without a name or with a wrong time"});
     entries.push_back(
-        {entry.value("time", static_cast<double>(entries.size())), entry["name"].get<std::string>(), ""});
+        {entry.value("time", static_cast<double>(entries.size())), entry["name"].get<std::string>(), "", ""});
   }
   return entries;
 }
@@ -133,9 +143,65 @@ bool counts_parts(const std::string& before) {
   });
 }
 
+/// Entries that belong to the same part of the data: their names and the words of their files are alike.
+std::string part_of(const Entry& entry) {
+  return entry.part + "|" + entry.name + "|" + split_name(entry.file).before;
+}
+
+/// Whether the index was appended to, rather than being in no order: a part repeats a time, or few entries
+/// lie before the one that precedes them.
+bool goes_on_after_restart(const std::vector<Entry>& entries) {
+  std::map<std::string, std::pair<double, std::set<double>>> parts;
+  std::size_t falls = 0;
+  bool repeats = false;
+  for (const Entry& entry : entries) {
+    const auto [at, fresh] = parts.try_emplace(part_of(entry), entry.time, std::set<double>());
+    auto& [last, times] = at->second;
+    if (!fresh && entry.time < last) {
+      ++falls;
+      repeats = repeats || times.count(entry.time) > 0;
+    }
+    last = entry.time;
+    times.insert(entry.time);
+  }
+  return falls > 0 && (repeats || 4 * falls <= entries.size());
+}
+
+/// Leaves the later run of a restarted one: where a part begins again at an earlier time, what the file had
+/// from that time on goes. A file that stands twice at one time counts once.
+void leave_later_runs(std::vector<Entry>& entries, std::vector<std::string>& notes) {
+  const bool restarted = goes_on_after_restart(entries);
+  std::map<std::string, double> last;  // time of each part
+  std::vector<Entry> kept;
+  std::set<double> replaced;
+  std::set<std::pair<double, std::string>> seen;
+  for (Entry& entry : entries) {
+    const auto at = last.find(part_of(entry));
+    const bool again = !seen.emplace(entry.time, entry.file).second;
+    if (restarted && at != last.end() && entry.time < at->second) {
+      std::erase_if(kept, [&](const Entry& other) {
+        if (other.time < entry.time) return false;
+        replaced.insert(other.time);
+        return true;
+      });
+      last.clear();
+    } else if (again) {
+      continue;
+    }
+    last[part_of(entry)] = entry.time;
+    kept.push_back(std::move(entry));
+  }
+  entries.swap(kept);
+  if (replaced.empty()) return;
+  notes.push_back("the index goes on after a restart: " + counted(replaced.size(), "time") + " from " +
+                  short_number(*replaced.begin()) + " to " + short_number(*replaced.rbegin()) +
+                  " of the earlier run replaced by the later one");
+}
+
 }  // namespace
 
-std::vector<FileStep> read_index(const std::filesystem::path& file, Format format) {
+std::vector<FileStep> read_index(const std::filesystem::path& file, Format format,
+                                 std::vector<std::string>& notes) {
   if (format == Format::kVtkMultiBlock) {
     FileStep step;
     add_blocks(file, 0, step.pieces);
@@ -153,7 +219,9 @@ std::vector<FileStep> read_index(const std::filesystem::path& file, Format forma
   const bool json = mapped.text().find_first_not_of(" \t\r\n") != std::string_view::npos &&
                     mapped.text()[mapped.text().find_first_not_of(" \t\r\n")] == '{';
   std::map<double, FileStep> steps;
-  for (const Entry& entry : json ? read_series(file, mapped.text()) : read_pvd(file, mapped.text())) {
+  std::vector<Entry> entries = json ? read_series(file, mapped.text()) : read_pvd(file, mapped.text());
+  if (!json) leave_later_runs(entries, notes);
+  for (const Entry& entry : entries) {
     if (entry.file.empty()) throw input_error({file.string(), "", "has an entry without a file"});
     FileStep& step = steps[entry.time];
     step.time = entry.time;
@@ -164,6 +232,31 @@ std::vector<FileStep> read_index(const std::filesystem::path& file, Format forma
   list.reserve(steps.size());
   for (auto& [time, step] : steps) list.push_back(std::move(step));
   return list;
+}
+
+void leave_out_missing(std::vector<FileStep>& steps, std::vector<std::string>& notes) {
+  std::vector<std::string> missing;
+  for (FileStep& step : steps) {
+    std::erase_if(step.pieces, [&missing](const FilePiece& piece) {
+      std::error_code error;
+      if (std::filesystem::exists(piece.file, error)) return false;
+      missing.push_back(piece.file.string());
+      return true;
+    });
+  }
+  const std::size_t emptied = std::erase_if(steps, [](const FileStep& step) { return step.pieces.empty(); });
+  if (!missing.empty()) {
+    std::string note = counted(missing.size(), "file") + " missing, left out: ";
+    constexpr std::size_t kNamed = 3;
+    for (std::size_t i = 0; i < std::min(kNamed, missing.size()); ++i)
+      note += (i == 0 ? "" : ", ") + missing[i];
+    notes.push_back(note + (missing.size() > kNamed ? ", …" : ""));
+  }
+  if (steps.empty()) {
+    throw input_error({missing.empty() ? notes.back() : missing.front(), "",
+                       missing.empty() ? "no file is left" : "is missing, and so is every other file"});
+  }
+  if (emptied > 0) notes.push_back(counted(emptied, "time step") + " without a file left out");
 }
 
 std::vector<FileStep> arrange_files(const std::vector<std::filesystem::path>& files, std::string& note) {

@@ -4,13 +4,15 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/text.h"
 #include "loaders/vtk/saturated.h"
+#include "loaders/vtk/text_number.h"
 
 namespace palpate {
 namespace {
@@ -60,6 +62,11 @@ struct Stop {};
 class Walk {
  public:
   explicit Walk(std::string_view text) : text_(text) {}
+
+  /// Where words stand that are not finite.
+  [[nodiscard]] const std::vector<LegacyWord>& not_finite() const noexcept { return not_finite_; }
+
+  [[nodiscard]] bool ambiguous() const noexcept { return ambiguous_; }
 
   void run() {
     for (int i = 0; i < 2; ++i) (void)line();  // version and title
@@ -139,10 +146,10 @@ class Walk {
       values(times(tuples_, components), word());
     } else if (keyword == "COLOR_SCALARS") {
       (void)word();
-      values(times(tuples_, count()), binary_ ? "unsigned_char" : "float");
+      values(times(tuples_, count()), binary_ ? "unsigned_char" : "float", true);
     } else if (keyword == "LOOKUP_TABLE") {
       (void)word();
-      values(times(count(), 4), binary_ ? "unsigned_char" : "float");
+      values(times(count(), 4), binary_ ? "unsigned_char" : "float", true);
     } else if (keyword == "FIELD") {
       (void)word();
       const std::uint64_t arrays = count();
@@ -218,8 +225,8 @@ class Walk {
     return value;
   }
 
-  /// Passes over `number` values, which must be there.
-  void values(std::uint64_t number, std::string_view type) {
+  /// Passes over `number` values, which must be there. @param colors they must be finite.
+  void values(std::uint64_t number, std::string_view type, bool colors = false) {
     const auto bits = bits_of(type);
     const std::string name = upper(type);
     if (!bits && (name == "STRING" || name == "UTF8_STRING" || name == "VARIANT")) throw Stop{};
@@ -237,9 +244,9 @@ class Walk {
           throw Impossible{place() + keyword_.substr(0, 60) + ": the file ends after " + std::to_string(i) +
                            " of " + std::to_string(number) + " values"};
         }
-        if (!looks_numeric(value)) {
+        if (!is_value(value, name, *bits, colors)) {
           throw Impossible{place() + keyword_.substr(0, 60) + ": found '" + printable(value) +
-                           "', expected a number"};
+                           "', expected a number of type " + lowered(type)};
         }
       }
       return;
@@ -252,10 +259,33 @@ class Walk {
     ++binary_sections_;
   }
 
-  /// Digits, a sign or point, or the beginning of nan or inf.
-  static bool looks_numeric(std::string_view value) {
-    constexpr std::string_view kFirst = "0123456789+-.nNiI";
-    return kFirst.find(value.front()) != std::string_view::npos;
+  /// Whether `value` is one of the type `name`; where it is not finite, it is kept.
+  bool is_value(std::string_view value, const std::string& name, std::uint64_t bits, bool colors) {
+    if (name != "FLOAT" && name != "DOUBLE") {
+      // Bytes are written with a sign or without.
+      const bool with_sign = !name.starts_with("UNSIGNED") && name != "VTKTYPEUINT64";
+      const auto width = static_cast<unsigned>(bits == 1 ? 8 : bits);
+      return whole_number(value, width, with_sign).has_value() ||
+             (width == 8 && whole_number(value, width, !with_sign).has_value());
+    }
+    const bool windows = value.find(".#") != std::string_view::npos;  // 1.#QNAN, -1.#IND, 1.#INF
+    std::optional<double> number = real_number<double>(value);
+    if (windows) {
+      const double sign = value.front() == '-' ? -1.0 : 1.0;
+      number = value.find("INF") != std::string_view::npos ? sign * std::numeric_limits<double>::infinity()
+                                                           : std::numeric_limits<double>::quiet_NaN();
+    } else if (name == "FLOAT" && !real_number<float>(value)) {
+      return false;
+    }
+    if (!number) return false;
+    if (std::isfinite(*number)) {
+      for (const LegacyStandIn& stand_in : kStandIns)
+        ambiguous_ = ambiguous_ || static_cast<float>(*number) == static_cast<float>(stand_in.number);
+      return true;
+    }
+    const std::size_t kind = std::isnan(*number) ? 0 : (*number > 0.0 ? 1 : 2);
+    not_finite_.push_back({static_cast<std::size_t>(value.data() - text_.data()), value.size(), kind});
+    return !colors;
   }
 
   [[noreturn]] void impossible(std::uint64_t number, std::string_view type, std::uint64_t left) {
@@ -266,7 +296,8 @@ class Walk {
   }
 
   std::uint64_t count() {
-    const std::string_view text = word();
+    std::string_view text = word();
+    if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error == std::errc::result_out_of_range) return kHuge;
@@ -338,24 +369,39 @@ class Walk {
   std::uint64_t tuples_ = 0;
   std::string keyword_;
   std::string section_place_;  ///< where the keyword stands
+  std::vector<LegacyWord> not_finite_;
+  bool ambiguous_ = false;  ///< a stand-in is a value of the file
 };
 
 }  // namespace
 
-std::string legacy_problem(std::string_view text) {
+LegacyScan scan_legacy(std::string_view text) {
+  LegacyScan scan;
+  Walk walk(text);
   try {
-    Walk(text).run();
+    walk.run();
   } catch (const Impossible& impossible) {
-    return impossible.what;
+    scan.problem = impossible.what;
   } catch (const Stop&) {
   }
-  return "";
+  scan.not_finite = walk.not_finite();
+  if (scan.problem.empty() && walk.ambiguous() && !scan.not_finite.empty())
+    scan.problem =
+        "holds NaN or infinity together with 1.2764e37, 1.2874e37 or 1.2984e37: these are not told apart";
+  return scan;
 }
 
-void check_legacy(const std::string& file) {
-  const MappedFile mapped(file);
-  const std::string problem = legacy_problem(mapped.text());
-  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+std::string with_stand_ins(std::string_view text, const std::vector<LegacyWord>& words) {
+  std::string result;
+  result.reserve(text.size() + words.size() * kStandIns.front().text.size());
+  std::size_t from = 0;
+  for (const LegacyWord& word : words) {
+    result += text.substr(from, word.at - from);
+    result += kStandIns[word.kind].text;
+    from = word.at + word.size;
+  }
+  result += text.substr(from);
+  return result;
 }
 
 }  // namespace palpate

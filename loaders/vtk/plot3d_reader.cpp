@@ -94,6 +94,7 @@ class Plot3dReader : public Loader {
     const auto iblank = std::find_if(block.arrays.begin(), block.arrays.end(),
                                      [](const DataArray& array) { return array.name == "IBlank"; });
     if (iblank == block.arrays.end()) return;
+    block.hidden_cells.clear();
     block.visible.resize(iblank->tuples);
     for (std::size_t p = 0; p < iblank->tuples; ++p) block.visible[p] = iblank->at(p) != 0.0 ? 1 : 0;
     block.arrays.erase(iblank);

@@ -6,8 +6,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
-#include <vtkCompositeDataIterator.h>
-#include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
@@ -15,7 +13,6 @@
 #include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
-#include <vtkInformation.h>
 #include <vtkMatrix3x3.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
@@ -109,9 +106,10 @@ UniformTopology uniform(vtkImageData* image, const std::string& file) {
   return t;
 }
 
-/// Coordinates that increase along every axis; a decreasing axis would turn the cells inside out.
-bool increasing(const std::vector<double>& x) {
-  return std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
+/// Coordinates that rise, or fall, all along an axis.
+bool monotone(const std::vector<double>& x) {
+  return std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end() ||
+         std::adjacent_find(x.begin(), x.end(), std::less_equal<>()) == x.end();
 }
 
 std::vector<double> coordinates(vtkDataArray* array, int count, char axis, const std::string& file) {
@@ -134,9 +132,9 @@ RectilinearTopology rectilinear(vtkRectilinearGrid* grid, const std::string& fil
                    coordinates(grid->GetZCoordinates(), n.z, 'z', file)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& x = t.coordinates[axis];
-    if (!increasing(x) || !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
-      throw input_error({file, std::string("coordinates along ") + "xyz"[axis], "do not increase",
-                         "strictly increasing ones"});
+    if (!monotone(x) || !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
+      throw input_error({file, std::string("coordinates along ") + "xyz"[axis],
+                         "neither rise nor fall all along", "ones that do, each once"});
     }
   }
   return t;
@@ -242,34 +240,73 @@ UnstructuredTopology polygonal(vtkPolyData* data, const std::string& file) {
   return t;
 }
 
-/// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
-std::vector<std::uint8_t> visible_points(vtkDataSet* data) {
-  const auto points = static_cast<std::size_t>(data->GetNumberOfPoints());
-  std::vector<std::uint8_t> visible;
-  if (vtkUnsignedCharArray* ghosts = data->GetPointGhostArray();
-      ghosts != nullptr && ghosts->GetNumberOfTuples() == data->GetNumberOfPoints()) {
-    visible.assign(points, 1);
-    for (std::size_t p = 0; p < points; ++p) {
-      if ((ghosts->GetValue(static_cast<vtkIdType>(p)) & vtkDataSetAttributes::HIDDENPOINT) != 0)
-        visible[p] = 0;
-    }
+/// Marks of ghost points or cells, of whatever type the file stores them as; none where there are none.
+std::vector<unsigned> ghosts_of(vtkDataSetAttributes* attributes, vtkIdType tuples) {
+  vtkDataArray* const array = attributes->GetArray(vtkDataSetAttributes::GhostArrayName());
+  if (array == nullptr || array->GetNumberOfTuples() != tuples || array->GetNumberOfComponents() != 1)
+    return {};
+  std::vector<unsigned> marks(static_cast<std::size_t>(tuples));
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const double mark = array->GetComponent(static_cast<vtkIdType>(i), 0);
+    marks[i] = mark >= 0.0 && mark < 256.0 ? static_cast<unsigned>(mark) : 0U;
   }
-  vtkUnsignedCharArray* ghosts = data->GetCellGhostArray();
-  if (ghosts != nullptr && ghosts->GetNumberOfTuples() == data->GetNumberOfCells()) {
-    std::vector<std::uint8_t> in_visible_cell(points, 0);
+  return marks;
+}
+
+/// Where nothing is in a cell: hidden, or covered by finer cells.
+constexpr unsigned kHiddenCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
+
+/// One byte a cell, 1 where it is hidden; none where none is.
+std::vector<std::uint8_t> hidden_cells(vtkDataSet* data) {
+  const std::vector<unsigned> marks = ghosts_of(data->GetCellData(), data->GetNumberOfCells());
+  std::vector<std::uint8_t> hidden(marks.size());
+  std::transform(marks.begin(), marks.end(), hidden.begin(),
+                 [](unsigned mark) { return static_cast<std::uint8_t>((mark & kHiddenCell) != 0 ? 1 : 0); });
+  if (std::find(hidden.begin(), hidden.end(), 1) == hidden.end()) hidden.clear();
+  return hidden;
+}
+
+/// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
+std::vector<std::uint8_t> visible_points(vtkDataSet* data, const std::vector<std::uint8_t>& hidden) {
+  const auto points = static_cast<std::size_t>(data->GetNumberOfPoints());
+  std::vector<std::uint8_t> visible(points, 1);
+  if (!hidden.empty()) {
+    std::fill(visible.begin(), visible.end(), std::uint8_t{0});
     const auto corners = vtkSmartPointer<vtkIdList>::New();
     for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
-      if ((ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) != 0) continue;
+      if (hidden[static_cast<std::size_t>(cell)] != 0) continue;
       data->GetCellPoints(cell, corners);
       for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
-        in_visible_cell[static_cast<std::size_t>(corners->GetId(i))] = 1;
+        visible[static_cast<std::size_t>(corners->GetId(i))] = 1;
     }
-    if (visible.empty()) visible.assign(points, 1);
-    for (std::size_t p = 0; p < points; ++p)
-      visible[p] = static_cast<std::uint8_t>(visible[p] & in_visible_cell[p]);
+  }
+  const std::vector<unsigned> marks = ghosts_of(data->GetPointData(), data->GetNumberOfPoints());
+  for (std::size_t p = 0; p < marks.size(); ++p) {
+    if ((marks[p] & vtkDataSetAttributes::HIDDENPOINT) != 0) visible[p] = 0;
   }
   if (std::all_of(visible.begin(), visible.end(), [](std::uint8_t v) { return v == 1; })) visible.clear();
   return visible;
+}
+
+/// Without the cells that are hidden, or that another piece owns too: these would lie twice in a joined mesh.
+vtkSmartPointer<vtkDataSet> without_ghost_cells(vtkUnstructuredGrid* grid) {
+  constexpr unsigned kGone = kHiddenCell | vtkDataSetAttributes::DUPLICATECELL;
+  const std::vector<unsigned> marks = ghosts_of(grid->GetCellData(), grid->GetNumberOfCells());
+  if (std::none_of(marks.begin(), marks.end(), [](unsigned mark) { return (mark & kGone) != 0; }))
+    return grid;
+  const auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  copy->ShallowCopy(grid);
+  const auto gone = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  gone->SetName(vtkDataSetAttributes::GhostArrayName());
+  gone->SetNumberOfTuples(grid->GetNumberOfCells());
+  for (std::size_t c = 0; c < marks.size(); ++c) {
+    constexpr unsigned kDuplicate = vtkDataSetAttributes::DUPLICATECELL;
+    gone->SetValue(static_cast<vtkIdType>(c),
+                   static_cast<unsigned char>((marks[c] & kGone) != 0 ? kDuplicate : 0U));
+  }
+  copy->GetCellData()->AddArray(gone);
+  copy->RemoveGhostCells();
+  return copy;
 }
 
 }  // namespace
@@ -315,31 +352,6 @@ bool scalar_type_of(int vtk_type, ScalarType& type) {
     default:
       return false;
   }
-}
-
-std::vector<VtkBlock> leaves_of(vtkDataObject* object) {
-  std::vector<VtkBlock> blocks;
-  if (auto* single = vtkDataSet::SafeDownCast(object)) {
-    blocks.push_back({single, ""});
-    return blocks;
-  }
-  auto* composite = vtkCompositeDataSet::SafeDownCast(object);
-  if (composite == nullptr) return blocks;
-  const auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
-  it->SkipEmptyNodesOn();
-  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
-    auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
-    if (leaf == nullptr) continue;
-    vtkInformation* about = it->HasCurrentMetaData() != 0 ? it->GetCurrentMetaData() : nullptr;
-    const char* name = about != nullptr && about->Has(vtkCompositeDataSet::NAME()) != 0
-                           ? about->Get(vtkCompositeDataSet::NAME())
-                           : nullptr;
-    blocks.push_back({leaf, name != nullptr ? name : ""});
-  }
-  for (std::size_t b = 0; blocks.size() > 1 && b < blocks.size(); ++b) {
-    if (blocks[b].name.empty()) blocks[b].name = "block " + std::to_string(b + 1);
-  }
-  return blocks;
 }
 
 std::string why_not_readable(vtkDataSet* data) {
@@ -448,14 +460,7 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
   DataSet block;
   block.name = name;
   vtkSmartPointer<vtkDataSet> kept = data;
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
-      grid != nullptr && grid->GetCellGhostArray() != nullptr) {
-    // Cells that another piece owns too would lie twice in the joined mesh.
-    const auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
-    copy->ShallowCopy(grid);
-    copy->RemoveGhostCells();
-    kept = copy;
-  }
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) kept = without_ghost_cells(grid);
   if (auto* image = vtkImageData::SafeDownCast(kept)) {
     block.topology = uniform(image, file);
   } else if (auto* box = vtkRectilinearGrid::SafeDownCast(kept)) {
@@ -469,7 +474,8 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
   } else {
     throw input_error({file, name, why_not_readable(kept)});
   }
-  block.visible = visible_points(kept);
+  if (points_along_axes(kept) != Index3{0}) block.hidden_cells = hidden_cells(kept);
+  block.visible = visible_points(kept, block.hidden_cells);
   for_each_array(kept, [&](vtkDataArray* array, Association association, const std::string& array_name) {
     if (wanted.count(array_name) == 0) return;
     DataArray shared = share(array, association, array_name);

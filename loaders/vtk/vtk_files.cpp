@@ -97,11 +97,14 @@ class VtkFiles : public Loader {
     FileInfo info;
     arrange(request, format, info.notes);
     tensors_ = request.diffusion.has_value();
+    std::string why = "holds no data";
+    while (!describe_first_step(info, why)) {
+      info.notes.push_back("time " + short_number(steps_.front().time) + " left out with it");
+      steps_.erase(steps_.begin());
+    }
     if (steps_.size() > 1) {
       for (const FileStep& step : steps_) info.times.push_back(step.time);
     }
-    std::string why = "holds no data";
-    for (const FilePiece& piece : steps_.front().pieces) describe(piece, info, why);
     for (const BlockInfo& block : info.blocks) {
       for (const ArrayInfo& array : block.arrays) {
         if (!tensors_ || array.components != kSymmetric) continue;
@@ -165,29 +168,40 @@ class VtkFiles : public Loader {
       steps_ = arrange_files(request.files, note);
       notes.push_back(note);
     } else if (index) {
-      steps_ = read_index(request.files.front(), format);
+      steps_ = read_index(request.files.front(), format, notes);
     } else {
       steps_ = {{0.0, {{request.files.front(), ""}}}};
     }
     if (format == Format::kParaviewSeries && request.files.size() > 1) {
       throw input_error({request.files[1].string(), "", "is a second time series", "one"});
     }
+    if (index) leave_out_missing(steps_, notes);
+    if (format == Format::kLegacyVtk || format == Format::kVtkXml) return;
     // An index of time steps may name indices of blocks, and so may the files of a series.
     for (FileStep& step : steps_) {
-      for (std::size_t p = 0; p < step.pieces.size(); ++p) {
-        if (format == Format::kLegacyVtk || format == Format::kVtkXml) break;
-        const Format inner = find_format(step.pieces[p].file);
-        if (inner == Format::kVtkMultiBlock || inner == Format::kVtkParallel) {
-          std::vector<FilePiece> parts = read_index(step.pieces[p].file, inner).front().pieces;
-          step.pieces.erase(step.pieces.begin() + static_cast<std::ptrdiff_t>(p));
-          step.pieces.insert(step.pieces.begin() + static_cast<std::ptrdiff_t>(p), parts.begin(),
-                             parts.end());
-          p += parts.size() - 1;
-        } else if (inner != Format::kVtkXml && inner != Format::kLegacyVtk) {
-          throw input_error(
-              {step.pieces[p].file.string(), "", "is " + std::string(row_of(inner).name), "a VTK file"});
-        }
+      std::vector<FilePiece> pieces;
+      for (const FilePiece& piece : step.pieces) {
+        const std::vector<FilePiece> parts = parts_of(piece, index, notes);
+        pieces.insert(pieces.end(), parts.begin(), parts.end());
       }
+      step.pieces.swap(pieces);
+    }
+    if (index) leave_out_missing(steps_, notes);
+  }
+
+  /// The files that `piece` stands for. @param tolerant one that cannot be told costs itself and a word.
+  static std::vector<FilePiece> parts_of(const FilePiece& piece, bool tolerant,
+                                         std::vector<std::string>& notes) {
+    try {
+      const Format inner = find_format(piece.file);
+      if (inner == Format::kVtkXml || inner == Format::kLegacyVtk) return {piece};
+      if (inner == Format::kVtkMultiBlock || inner == Format::kVtkParallel)
+        return read_index(piece.file, inner, notes).front().pieces;
+      throw input_error({piece.file.string(), "", "is " + std::string(row_of(inner).name), "a VTK file"});
+    } catch (const Error& error) {
+      if (!tolerant) throw;
+      notes.push_back(std::string(error.what()) + ": left out");
+      return {};
     }
   }
 
@@ -200,6 +214,26 @@ class VtkFiles : public Loader {
       opened.xml = std::make_unique<XmlFile>(file, errors_);
     }
     return opened;
+  }
+
+  /// Adds the blocks of the first step to `info`. A damaged piece costs itself and a word where others are
+  /// left. False where none is, but another step.
+  bool describe_first_step(FileInfo& info, std::string& why) {
+    std::vector<FilePiece>& pieces = steps_.front().pieces;
+    std::vector<FilePiece> good;
+    for (const FilePiece& piece : pieces) {
+      try {
+        describe(piece, info, why);
+        good.push_back(piece);
+      } catch (const Error& error) {
+        if (pieces.size() == 1 && steps_.size() == 1) throw;
+        why = error.what();
+        info.notes.push_back(why + ": left out");
+      }
+    }
+    if (good.empty()) return steps_.size() == 1;
+    pieces.swap(good);
+    return true;
   }
 
   /// Adds the blocks of one file to `info`; notes what cannot be read, and why.

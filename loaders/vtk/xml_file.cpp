@@ -61,7 +61,20 @@ XmlFile::XmlFile(const std::string& file, VtkErrors& errors)
   reader_->vtk = make_reader(scan_.data_type);
   if (reader_->vtk == nullptr)
     throw input_error({file_, "", "is of type '" + scan_.data_type.substr(0, 40) + "', which is not read"});
-  reader_->vtk->SetFileName(file_.c_str());
+  if (scan_.empty_pieces.empty()) {
+    reader_->vtk->SetFileName(file_.c_str());
+  } else {
+    const MappedFile mapped(file_);
+    std::string rest;
+    std::size_t from = 0;
+    for (const auto& [first, last] : scan_.empty_pieces) {
+      rest += mapped.text().substr(from, first - from);
+      from = last;
+    }
+    rest += mapped.text().substr(from);
+    reader_->vtk->ReadFromInputStringOn();
+    reader_->vtk->SetInputString(rest);
+  }
   reader_->vtk->UpdateInformation();
   errors_.check(file_);
 }

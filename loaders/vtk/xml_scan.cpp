@@ -7,7 +7,9 @@
 #include <optional>
 #include <sstream>
 
+#include "common/base/text.h"
 #include "loaders/vtk/saturated.h"
+#include "loaders/vtk/xml_values.h"
 
 namespace palpate {
 namespace {
@@ -36,11 +38,15 @@ std::string resolve_entities(std::string_view text) {
   return result;
 }
 
+/// A count as XML's and Fortran's writers put it: blanks around it, a plus sign before it.
 std::optional<std::uint64_t> count_of(const std::string& text) {
+  std::string_view digits = trimmed(text);
+  if (digits.size() > 1 && digits.front() == '+') digits.remove_prefix(1);
   std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (end != digits.data() + digits.size()) return std::nullopt;
   if (error == std::errc::result_out_of_range) return kHuge;
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc()) return std::nullopt;
   return value;
 }
 
@@ -48,54 +54,60 @@ std::optional<std::uint64_t> count_of(const std::string& text) {
 struct Extent {
   std::uint64_t points = 0;
   std::uint64_t cells = 0;
+  std::array<std::uint64_t, 3> along{};  ///< points along each axis
 };
+/// Empty pieces write a last number one below the first.
 std::optional<Extent> extent_of(const std::string& text) {
   std::istringstream stream(text);
-  Extent extent{1, 1};
+  Extent extent{1, 1, {}};
   for (int axis = 0; axis < 3; ++axis) {
     long long first = 0;
     long long last = 0;
     if (!(stream >> first >> last)) return std::nullopt;
     constexpr long long kLargest = 2'147'483'647;
-    if (first < -kLargest || last > kLargest || last < first) return std::nullopt;
-    const auto points = static_cast<std::uint64_t>(last - first) + 1;
+    if (first < -kLargest || last > kLargest || last < first - 1) return std::nullopt;
+    const auto points = static_cast<std::uint64_t>(last - first + 1);
+    extent.along[static_cast<std::size_t>(axis)] = points;
     extent.points = times(extent.points, points);
-    extent.cells = times(extent.cells, std::max<std::uint64_t>(1, points - 1));
+    extent.cells = times(extent.cells, points <= 1 ? points : points - 1);
   }
   return extent;
-}
-
-std::uint64_t bytes_of_type(const std::string& type) {
-  if (type.find("64") != std::string::npos) return 8;
-  if (type.find("32") != std::string::npos) return 4;
-  if (type.find("16") != std::string::npos) return 2;
-  return 1;
 }
 
 struct Broken {
   std::string what;
 };
 
-/// An array in the appended data: where, and how many bytes its values take (0: not known from the tags).
+/// An array in the appended data: where, and how many bytes its values take, where the tags say so.
 struct Appended {
   std::string name;
   std::uint64_t offset = 0;
-  std::uint64_t bytes = 0;
+  std::optional<std::uint64_t> bytes;
+};
+
+/// A list and the list of where its parts end, as far as both stand in text.
+struct Lists {
+  std::optional<std::uint64_t> count;  ///< values of the list
+  std::optional<std::uint64_t> end;    ///< largest offset
 };
 
 /// What the tags before a DataArray said about it.
 struct Context {
-  bool big_endian = false;
-  std::uint64_t header_bytes = 4;  ///< of the numbers that precede binary data
+  BinaryHeader header;
   std::uint64_t file_size = 0;
-  bool compressed = false;
   bool structured = false;
   Extent whole;
   std::uint64_t cells_in_pieces = 0;
   int pieces = 0;
-  std::uint64_t points = 0;  ///< of the current piece
-  std::uint64_t cells = 0;
-  std::string section;  ///< "PointData"
+  Extent piece;
+  std::size_t piece_start = 0;                 ///< in the text
+  bool listed = false;                         ///< an earlier piece had points: its arrays are those of all
+  std::vector<XmlArray> of_piece;              ///< of this piece
+  std::map<std::string, std::uint64_t> lists;  ///< cells by the section that lists them: "Cells", "Polys"
+  std::string section;                         ///< "PointData"
+  std::size_t axis = 0;                        ///< of the next array of "Coordinates"
+  Lists corners;
+  Lists faces;
   std::vector<Appended> appended;
 };
 
@@ -115,27 +127,77 @@ void begin_piece(const XmlTag& tag, Context& context) {
     if (!extent)
       throw Broken{"a Piece has Extent=\"" + tag.at("Extent").substr(0, 60) +
                    "\", expected six increasing numbers"};
-    context.points = extent->points;
-    context.cells = extent->cells;
+    context.piece = *extent;
     std::uint64_t sum = 0;
     context.cells_in_pieces =
         __builtin_add_overflow(context.cells_in_pieces, extent->cells, &sum) ? kHuge : sum;
   } else {
-    context.points = count("NumberOfPoints");
-    context.cells = 0;
+    context.piece = {};
+    context.piece.points = count("NumberOfPoints");
     // Polygonal data counts its kinds of cells apart.
-    for (const char* kind :
-         {"NumberOfCells", "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"}) {
-      if (__builtin_add_overflow(context.cells, count(kind), &context.cells)) context.cells = kHuge;
+    for (const auto& [section, attribute] : {std::pair{"Cells", "NumberOfCells"},
+                                             {"Verts", "NumberOfVerts"},
+                                             {"Lines", "NumberOfLines"},
+                                             {"Strips", "NumberOfStrips"},
+                                             {"Polys", "NumberOfPolys"}}) {
+      context.lists[section] = count(attribute);
+      if (__builtin_add_overflow(context.piece.cells, context.lists[section], &context.piece.cells))
+        context.piece.cells = kHuge;
     }
   }
 }
 
-void check_array(const XmlTag& tag, Context& context) {
-  const std::string& name = tag.at("Name");
-  std::uint64_t tuples = 0;
-  if (context.section == "PointData" || context.section == "Points") tuples = context.points;
-  if (context.section == "CellData") tuples = context.cells;
+/// Tuples that an array must have by what the tags before it say; nothing where they do not.
+std::optional<std::uint64_t> tuples_of(const std::string& name, Context& context) {
+  if (context.pieces == 0) return std::nullopt;
+  if (context.section == "PointData" || context.section == "Points") return context.piece.points;
+  if (context.section == "CellData") return context.piece.cells;
+  if (context.section == "Coordinates")
+    return context.axis < 3 ? std::optional(context.piece.along[context.axis++]) : std::nullopt;
+  const auto cells = context.lists.find(context.section);
+  if (cells == context.lists.end()) return std::nullopt;
+  if (name == "offsets" || name == "types") return cells->second;
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_count(const std::string& name, std::uint64_t found, std::uint64_t expected) {
+  throw Broken{"array '" + name + "' has " + std::to_string(found) + " values, expected " +
+               std::to_string(expected)};
+}
+
+/// Lists that have another length than their offsets say.
+void check_lists(const Context& context) {
+  for (const auto& [name, lists] :
+       {std::pair{"connectivity", context.corners}, std::pair{"faces", context.faces}}) {
+    if (lists.count && lists.end && *lists.count != *lists.end) refuse_count(name, *lists.count, *lists.end);
+  }
+}
+
+/// Counts the values that stand as text behind the tag.
+void check_text(std::string_view text, const XmlTag& tag, const std::string& name,
+                std::optional<std::uint64_t> expected, Context& context) {
+  if (!is_xml_number(tag.at("type"))) return;
+  const TextValues values = text_values(text.substr(0, text.find('<')), tag.at("type"));
+  if (!values.wrong.empty()) {
+    throw Broken{"array '" + name + "', value " + std::to_string(values.count + 1) + ": found '" +
+                 values.wrong + "', expected a number of type " + tag.at("type")};
+  }
+  if (expected && values.count != *expected) refuse_count(name, values.count, *expected);
+  const auto cells = context.lists.find(context.section);
+  if (cells == context.lists.end()) return;
+  // Meshes without polyhedra may have an empty list.
+  if (name == "faceoffsets" && values.count != 0 && values.count != cells->second)
+    refuse_count(name, values.count, cells->second);
+  if (name == "connectivity") context.corners.count = values.count;
+  if (name == "offsets") context.corners.end = values.largest;
+  if (name == "faces") context.faces.count = values.count;
+  if (name == "faceoffsets") context.faces.end = values.largest;
+}
+
+/// @param text what follows the tag.
+void check_array(const XmlTag& tag, std::string_view text, Context& context) {
+  const std::string& name = tag.at("Name").empty() ? context.section : tag.at("Name");
+  const std::optional<std::uint64_t> tuples = tuples_of(name, context);
   std::uint64_t components = context.section == "Points" ? 3 : 1;
   if (!tag.at("NumberOfComponents").empty()) {
     const auto given = count_of(tag.at("NumberOfComponents"));
@@ -146,14 +208,15 @@ void check_array(const XmlTag& tag, Context& context) {
     components = *given;
   }
   const std::string& format = tag.at("format");
-  const std::uint64_t values = times(tuples, components);
+  const bool number = is_xml_number(tag.at("type"));
+  const std::uint64_t values = times(tuples.value_or(0), components);
   std::uint64_t possible = context.file_size;
   std::uint64_t needed = 0;
   if (format == "ascii") {
     needed = 2 * (values / 2);  // a digit and a separator
   } else {
-    needed = times(values, bytes_of_type(tag.at("type")));
-    if (context.compressed) possible = times(possible, kMaxCompression);
+    needed = times(values, bytes_of_xml_type(tag.at("type")));
+    if (context.header.compressed) possible = times(possible, kMaxCompression);
   }
   if (needed > possible) {
     throw Broken{"array '" + name + "' claims " + (values == kHuge ? "over 2^63" : std::to_string(values)) +
@@ -165,68 +228,79 @@ void check_array(const XmlTag& tag, Context& context) {
       throw Broken{"array '" + name + "' lies at offset \"" + tag.at("offset").substr(0, 40) +
                    "\", past the end of the file"};
     }
-    const bool sized =
-        context.section == "PointData" || context.section == "Points" || context.section == "CellData";
-    const bool text = tag.at("type") == "String" || tag.at("type") == "Bit";
-    context.appended.push_back({name, *offset, sized && !text ? needed : 0});
+    context.appended.push_back(
+        {name, *offset, tuples && number ? std::optional(needed) : std::optional<std::uint64_t>()});
+  } else if (format == "ascii") {
+    check_text(text, tag, name, tuples ? std::optional(values) : tuples, context);
+  } else if (tuples && number && values > 0) {
+    if (claim_of_base64(text.substr(0, text.find('<')), context.header) != needed)
+      throw Broken{"array '" + name + "' does not have its " + std::to_string(needed) + " bytes"};
   }
 }
 
 /// Checks that the arrays of raw appended data lie inside it and have the sizes that the tags say. `data`
 /// goes from behind the underscore to the end of the file. VTK would read a short array as far as it goes.
 void check_raw(std::string_view data, const Context& context) {
-  const auto number = [&](std::uint64_t offset) {
-    std::uint64_t value = 0;
-    if (offset > data.size() || data.size() - offset < context.header_bytes) return kHuge;
-    for (std::uint64_t i = 0; i < context.header_bytes; ++i) {
-      const std::uint64_t at = context.big_endian ? offset + i : offset + context.header_bytes - 1 - i;
-      value = value << 8 | static_cast<unsigned char>(data[at]);
-    }
-    return value;
-  };
   for (const Appended& array : context.appended) {
     const auto refuse = [&](const std::string& what) {
       throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) + " " + what};
     };
-    const std::uint64_t first = number(array.offset);
-    std::uint64_t stored = first;
-    std::uint64_t header = context.header_bytes;
-    if (context.compressed) {
-      // Block count, block size, size of a last partial block, then the compressed size of every block.
-      const std::uint64_t blocks = first;
-      if (blocks > data.size()) refuse("reaches past the end of the file");
-      header = (3 + blocks) * context.header_bytes;
-      stored = 0;
-      for (std::uint64_t block = 0; block < blocks; ++block) {
-        const std::uint64_t size = number(array.offset + (3 + block) * context.header_bytes);
-        if (size > data.size()) refuse("reaches past the end of the file");
-        stored += size;
-      }
-      const std::uint64_t block_bytes = number(array.offset + context.header_bytes);
-      const std::uint64_t partial = number(array.offset + 2 * context.header_bytes);
-      const std::uint64_t full = blocks - (partial > 0 && blocks > 0 ? 1 : 0);
-      const std::uint64_t bytes =
-          times(full, block_bytes) == kHuge ? kHuge : times(full, block_bytes) + partial;
-      if (array.bytes > 0 && bytes != array.bytes)
-        refuse("does not have its " + std::to_string(array.bytes) + " bytes");
-    } else if (array.bytes > 0 && stored != array.bytes) {
-      refuse("does not have its " + std::to_string(array.bytes) + " bytes");
-    }
-    if (header > data.size() - array.offset || stored > data.size() - array.offset - header) {
-      refuse("reaches past the end of the file");
-    }
+    if (array.offset > data.size()) refuse("reaches past the end of the file");
+    const std::uint64_t left = data.size() - array.offset;
+    const BinaryClaim claim = claim_of(data.substr(array.offset), context.header);
+    if (claim.header > left || claim.stored > left - claim.header) refuse("reaches past the end of the file");
+    if (array.bytes.value_or(0) > 0 && claim.values != *array.bytes)
+      refuse("does not have its " + std::to_string(*array.bytes) + " bytes");
   }
 }
 
-/// The same for base64: four characters for three bytes, so a lower bound only.
+/// The same for base64: four characters for three bytes, so a lower bound only of what follows a header.
 void check_base64(std::string_view data, const Context& context) {
   for (const Appended& array : context.appended) {
-    const std::uint64_t characters = context.compressed ? 0 : array.bytes / 3 * 4;
-    if (array.offset > data.size() || characters > data.size() - array.offset) {
-      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) +
-                   " reaches past the end of the file"};
-    }
+    const auto refuse = [&](const std::string& what) {
+      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) + " " + what};
+    };
+    const std::uint64_t characters = context.header.compressed ? 0 : array.bytes.value_or(0) / 3 * 4;
+    if (array.offset > data.size() || characters > data.size() - array.offset)
+      refuse("reaches past the end of the file");
+    if (array.bytes.value_or(0) > 0 &&
+        claim_of_base64(data.substr(array.offset), context.header) != *array.bytes)
+      refuse("does not have its " + std::to_string(*array.bytes) + " bytes");
   }
+}
+
+/// At the end of a piece, which ends at `end` of the text. VTK takes it that all pieces have the arrays of the
+/// first: one that a piece lacks would be whatever stood in memory.
+void end_piece(std::size_t end, Context& context, XmlScan& result) {
+  std::vector<XmlArray> arrays;
+  arrays.swap(context.of_piece);
+  if (context.piece.points == 0 && !context.structured) {
+    if (!context.listed || !result.empty_pieces.empty())
+      result.empty_pieces.emplace_back(context.piece_start, end);
+    return;
+  }
+  if (context.piece.points == 0) return;
+  if (!context.listed) {
+    context.listed = true;
+    result.arrays = std::move(arrays);
+    return;
+  }
+  const auto lacks = [&context](const std::vector<XmlArray>& some, const std::vector<XmlArray>& all) {
+    for (const XmlArray& wanted : all) {
+      if (!wanted.on_points && context.piece.cells == 0) continue;
+      const bool there = std::any_of(some.begin(), some.end(), [&wanted](const XmlArray& array) {
+        return array.name == wanted.name && array.on_points == wanted.on_points &&
+               array.components == wanted.components;
+      });
+      if (!there) return wanted.name;
+    }
+    return std::string();
+  };
+  const std::string piece = "piece " + std::to_string(context.pieces);
+  if (const std::string name = lacks(arrays, result.arrays); !name.empty())
+    throw Broken{piece + " has no array '" + name + "' of that shape, which the pieces before it have"};
+  if (const std::string name = lacks(result.arrays, arrays); !name.empty())
+    throw Broken{piece + " has an array '" + name + "' that the pieces before it do not have in that shape"};
 }
 
 /// Whether the file closes its root element; what follows it may be white space only.
@@ -243,16 +317,20 @@ void scan(std::string_view text, XmlScan& result) {
   XmlTag tag;
   std::string encoding;
   bool appended = false;
-  while (tags.next(tag)) {
+  for (std::size_t before = 0; tags.next(tag); before = tags.position()) {
     if (tag.closes && !tag.opens) {
-      if (tag.name == context.section) context.section.clear();
+      if (tag.name == context.section) {
+        check_lists(context);
+        context.section.clear();
+      }
+      if (tag.name == "Piece") end_piece(tags.position(), context, result);
       continue;
     }
     if (tag.name == "VTKFile") {
       result.data_type = tag.at("type");
-      context.compressed = !tag.at("compressor").empty();
-      context.big_endian = tag.at("byte_order") == "BigEndian";
-      context.header_bytes = tag.at("header_type") == "UInt64" ? 8 : 4;
+      context.header.compressed = !tag.at("compressor").empty();
+      context.header.big_endian = tag.at("byte_order") == "BigEndian";
+      context.header.number_bytes = tag.at("header_type") == "UInt64" ? 8 : 4;
       context.structured = result.data_type == "ImageData" || result.data_type == "RectilinearGrid" ||
                            result.data_type == "StructuredGrid";
     } else if (context.structured && tag.name == result.data_type) {
@@ -263,16 +341,21 @@ void scan(std::string_view text, XmlScan& result) {
       context.whole = *whole;
       result.whole_cells = whole->cells;
     } else if (tag.name == "Piece") {
+      context.piece_start = before;
       begin_piece(tag, context);
+      if (tag.closes) end_piece(tags.position(), context, result);
     } else if (tag.name == "PointData" || tag.name == "CellData" || tag.name == "Points" ||
-               tag.name == "Cells" || tag.name == "Coordinates" || tag.name == "FieldData") {
+               tag.name == "Coordinates" || tag.name == "FieldData" || context.lists.count(tag.name) > 0) {
+      context.axis = 0;
+      context.corners = {};
+      context.faces = {};
       if (!tag.closes) context.section = tag.name;
     } else if (tag.name == "DataArray") {
-      check_array(tag, context);
+      check_array(tag, tag.closes ? std::string_view() : text.substr(tags.position()), context);
       const bool on_points = context.section == "PointData";
-      if (context.pieces == 1 && (on_points || context.section == "CellData")) {
+      if (context.pieces > 0 && (on_points || context.section == "CellData")) {
         const auto components = count_of(tag.at("NumberOfComponents"));
-        result.arrays.push_back(
+        context.of_piece.push_back(
             {tag.at("Name"), tag.at("type"), static_cast<int>(components.value_or(1)), on_points});
       }
     } else if (tag.name == "AppendedData") {
@@ -281,6 +364,7 @@ void scan(std::string_view text, XmlScan& result) {
       break;
     }
   }
+  if (!context.listed) result.empty_pieces.clear();
   if (!has_end(text)) throw Broken{"its end is missing (no </VTKFile>)"};
   if (appended) {
     const std::size_t underscore = text.find('_', tags.position());

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace palpate {
@@ -47,9 +48,12 @@ struct XmlArray {
 
 struct XmlScan {
   std::string data_type;          ///< "UnstructuredGrid"
-  std::vector<XmlArray> arrays;   ///< of PointData and CellData, of the first piece
+  std::vector<XmlArray> arrays;   ///< of PointData and CellData, of the first piece that has points
   std::uint64_t whole_cells = 0;  ///< structured kinds: cells of the whole extent
   std::string problem;            ///< what is wrong, or empty
+  /// Meshes: where pieces without points stand in the text, if the first is one. VTK takes the arrays of the
+  /// first piece for those of all.
+  std::vector<std::pair<std::size_t, std::size_t>> empty_pieces;
 };
 
 /// Cells of an extent "i0 i1 j0 j1 k0 k1" (one along an axis of one point), or nothing where that is none.

@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       }
       break;
     case 2:
-      (void)legacy_problem(text);
+      (void)scan_legacy(text).problem;
       break;
     case 3:
       (void)scan_xml(text);

@@ -1,4 +1,8 @@
 // EnSight and OpenFOAM cases through the helper program.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
@@ -83,6 +87,132 @@ TEST(OpenFoam, FolderAndFoamFileGiveTheSameCase) {
       EXPECT_EQ(std::get<UnstructuredTopology>(blocks[0].topology).types.size(), 1U);
     }
   }
+}
+
+bool says(const Source& source, const std::string& words) {
+  for (const std::string& note : source.info().notes) {
+    if (note.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Ensight, QuotedFileNamesAreRead) {
+  const test::TempFolder folder;
+  (void)test::write_ensight_text(folder);
+  const auto file = folder.write(
+      "quoted.case",
+      "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: \"cube.geo\"\n\nVARIABLE\nvector per node: 1 velocity "
+      "\"cube.vel*\"\nscalar per element: 1 pressure \"cube.p*\"\n\nTIME\ntime set: 1\nnumber of steps: 2\n"
+      "filename start number: 0\nfilename increment: 1\ntime values: 0.0 0.5\n");
+  Source source = Source::open({{file}, {}});
+  expect_cube_steps(source, {0, 1, 0});
+}
+
+TEST(Ensight, AMissingVariableCostsItselfAndAWord) {
+  const test::TempFolder folder;
+  (void)test::write_ensight_text(folder);
+  const auto file = folder.write(
+      "lost.case",
+      "FORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: cube.geo\n\nVARIABLE\nvector per node: 1 velocity cube.vel*\n"
+      "scalar per node: 1 gone cube.gone*\n\nTIME\ntime set: 1\nnumber of steps: 2\nfilename start number: 0\n"
+      "filename increment: 1\ntime values: 0.0 0.5\n");
+  Source source = Source::open({{file}, {}});
+  EXPECT_TRUE(says(source, "variable 'gone' left out"));
+  const auto blocks = source.read({"velocity"}, 1);
+  EXPECT_EQ(blocks.at(0).find("velocity", Association::kPoint)->at(2, 1), test::cube_velocity(2, 1)[1]);
+}
+
+TEST(Ensight, PartsOfEnsight6ShareTheirNodes) {
+  // Twelve nodes; two hexahedra that share a face, each a part of its own; velocity of node n: (n, 2 n, -1).
+  const test::TempFolder folder;
+  std::string nodes;
+  std::string values;
+  for (int n = 0; n < 12; ++n) {
+    std::array<char, 64> line{};
+    std::snprintf(line.data(), line.size(), "%12.5e%12.5e%12.5e\n", n % 3 * 1.0, n / 3 % 2 * 1.0,
+                  n / 6 * 1.0);
+    nodes += line.data();
+    std::snprintf(line.data(), line.size(), "%12.5e%12.5e%12.5e%s", n * 1.0, n * 2.0, -1.0,
+                  n % 2 == 1 ? "\n" : "");
+    values += line.data();
+  }
+  const auto part = [](int number, int first) {
+    std::string text = "part       " + std::to_string(number) + "\npart\nhexa8\n       1\n";
+    for (const int corner : {0, 1, 4, 3, 6, 7, 10, 9}) {
+      std::array<char, 16> word{};
+      std::snprintf(word.data(), word.size(), "%8d", first + corner);
+      text += word.data();
+    }
+    return text + "\n";
+  };
+  folder.write("e6.geo", "one\ntwo\nnode id off\nelement id off\ncoordinates\n      12\n" + nodes +
+                             part(1, 1) + part(2, 2));
+  folder.write("e6.vel", "velocity\n" + values);
+  const auto file = folder.write(
+      "e6.case",
+      "FORMAT\ntype: ensight\n\nGEOMETRY\nmodel: e6.geo\n\nVARIABLE\nvector per node: velocity e6.vel\n");
+  Source source = Source::open({{file}, {}});
+  const auto blocks = source.read({"velocity"});
+  ASSERT_EQ(blocks.size(), 2U);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const auto& mesh = std::get<UnstructuredTopology>(blocks[b].topology);
+    const DataArray* velocity = blocks[b].find("velocity", Association::kPoint);
+    ASSERT_EQ(mesh.types.size(), 1U);
+    ASSERT_NE(velocity, nullptr);
+    for (const std::int64_t corner : mesh.connectivity) {
+      const auto p = static_cast<std::size_t>(corner);
+      const double node =
+          mesh.positions.at(p, 0) + 3.0 * mesh.positions.at(p, 1) + 6.0 * mesh.positions.at(p, 2);
+      EXPECT_EQ(velocity->at(p, 1), 2.0 * node);
+    }
+  }
+}
+
+TEST(OpenFoam, AFieldOrATimeThatCannotBeReadCostsItselfAndAWord) {
+  const test::TempFolder folder;
+  const auto file = test::write_openfoam(folder);
+  const std::string head = test::foam_header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n";
+  folder.write("0/U", head + "#includeEtc \"caseDicts/none\"\ninternalField uniform (1 2 3);\n");
+  folder.write("0.5/p", test::foam_header("volScalarField", "p") +
+                            "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform #calc \"1\";\n");
+  Source source = Source::open({{file}, {}});
+  EXPECT_TRUE(says(source, "time 0 left out"));
+  EXPECT_TRUE(says(source, "field 'p' left out"));
+  const auto blocks = source.read({"U"});
+  EXPECT_EQ(blocks.at(0).find("U", Association::kCell)->at(0, 1), 5.0);
+}
+
+TEST(OpenFoam, RegionsAreBlocks) {
+  const test::TempFolder folder;
+  (void)test::write_openfoam(folder);
+  const auto base = folder.path("constant").parent_path();
+  for (const char* region : {"fluid", "solid"}) {
+    std::filesystem::create_directories(base / "constant" / region);
+    std::filesystem::copy(base / "constant/polyMesh", base / "constant" / region / "polyMesh",
+                          std::filesystem::copy_options::recursive);
+    for (const char* time : {"0", "0.5"}) {
+      std::filesystem::create_directories(base / time / region);
+      std::filesystem::copy(base / time / "U", base / time / region / "U");
+    }
+  }
+  std::filesystem::remove_all(base / "constant/polyMesh");
+  for (const char* time : {"0", "0.5"}) std::filesystem::remove(base / time / "U");
+  Source source = Source::open({{base}, {}});
+  const auto blocks = source.read({"U"}, 1);
+  ASSERT_EQ(blocks.size(), 2U);
+  EXPECT_NE(blocks[0].name, blocks[1].name);
+  for (const DataSet& block : blocks) EXPECT_EQ(block.find("U", Association::kCell)->at(0, 2), 6.0);
+}
+
+TEST(OpenFoam, ValuesInProcessorFoldersAloneAreNoEmptyCase) {
+  const test::TempFolder folder;
+  (void)test::write_openfoam(folder);
+  const auto base = folder.path("constant").parent_path();
+  std::filesystem::create_directories(base / "processor0");
+  Source whole = Source::open({{base}, {}});
+  EXPECT_TRUE(says(whole, "processor folders"));
+  for (const char* time : {"0", "0.5"}) std::filesystem::rename(base / time, base / "processor0" / time);
+  EXPECT_THROW((void)Source::open({{base}, {}}), Error);
 }
 
 }  // namespace

@@ -14,42 +14,48 @@ const std::string kLegacyHead =
     "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\n";
 
 TEST(LegacyCheck, AGoodTextFilePasses) {
-  EXPECT_EQ(legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\n"), "");
+  EXPECT_EQ(scan_legacy(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\n").problem,
+            "");
 }
 
 TEST(LegacyCheck, MetadataIsPassedOver) {
   EXPECT_EQ(
-      legacy_problem(kLegacyHead +
-                     "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\nMETADATA\nINFORMATION 1\n"
-                     "NAME RANGE LOCATION array\nDATA 2 0 7\n\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
-                     "0 0 0 0 0 0 0 0 0 0\n"),
+      scan_legacy(kLegacyHead +
+                  "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 7\nMETADATA\nINFORMATION 1\n"
+                  "NAME RANGE LOCATION array\nDATA 2 0 7\n\nVECTORS v float\n0 0 0 0 0 0 0 0 0 0 0 0 0 0 "
+                  "0 0 0 0 0 0 0 0 0 0\n")
+          .problem,
       "");
 }
 
 TEST(LegacyCheck, AMissingValueIsNamedWithItsLine) {
   const std::string problem =
-      legacy_problem(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6\n");
+      scan_legacy(kLegacyHead + "SCALARS s float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6\n").problem;
   EXPECT_NE(problem.find("7 of 8 values"), std::string::npos) << problem;
 }
 
 TEST(LegacyCheck, AHugeCountIsRefusedWithItsLine) {
-  const std::string problem = legacy_problem(
-      "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1099511627776 float\n");
+  const std::string problem =
+      scan_legacy(
+          "# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 1099511627776 float\n")
+          .problem;
   EXPECT_EQ(problem.find("line 5"), 0U) << problem;
   EXPECT_NE(problem.find("POINTS claims 3298534883328 values"), std::string::npos) << problem;
 }
 
 TEST(LegacyCheck, ACountThatWrapsIsRefused) {
   // 2^64 / 3 + 1 points have 2 values modulo 2^64.
-  EXPECT_NE(legacy_problem("# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS "
-                           "6148914691236517206 float\nxxxx"),
+  EXPECT_NE(scan_legacy("# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS "
+                        "6148914691236517206 float\nxxxx")
+                .problem,
             "");
 }
 
 TEST(LegacyCheck, UnknownWordsAreNamedAndRareSectionsLeftToVtk) {
-  EXPECT_EQ(legacy_problem(kLegacyHead + "GLOBAL_IDS 1 2 3\n"), "");
-  EXPECT_NE(legacy_problem(kLegacyHead + "SOMETHING_NEW 1 2 3\n").find("SOMETHING_NEW"), std::string::npos);
-  EXPECT_NE(legacy_problem("# vtk DataFile Version 3.0\nt\nASCII\nDATASET TABLE\n").find("TABLE"),
+  EXPECT_EQ(scan_legacy(kLegacyHead + "GLOBAL_IDS 1 2 3\n").problem, "");
+  EXPECT_NE(scan_legacy(kLegacyHead + "SOMETHING_NEW 1 2 3\n").problem.find("SOMETHING_NEW"),
+            std::string::npos);
+  EXPECT_NE(scan_legacy("# vtk DataFile Version 3.0\nt\nASCII\nDATASET TABLE\n").problem.find("TABLE"),
             std::string::npos);
 }
 
@@ -103,6 +109,83 @@ TEST(XmlScan, PiecesMustCoverTheWholeExtent) {
   };
   EXPECT_EQ(scan_xml(image("0 4 0 4 0 4")).problem, "");
   EXPECT_NE(scan_xml(image("0 4 0 4 0 2")).problem, "");
+}
+
+/// One hexahedron with a text array `given` in the place of the same array that is right.
+std::string hexahedron(const std::string& name = "", const std::string& given = "",
+                       const std::string& type = "") {
+  const auto array = [&](const char* own, const char* own_type, int components, const char* right) {
+    const bool other = name == own;
+    return std::string("<DataArray type=\"") + (other && !type.empty() ? type : own_type) + "\" Name=\"" +
+           own + "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"ascii\">" +
+           (other ? given : right) + "\n<InformationKey name=\"x\"/></DataArray>";
+  };
+  return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"8\" NumberOfCells=\"1\">"
+         "<PointData>" +
+         array("p", "Float32", 1, "0 1 2 3 4 5 6 7") + "</PointData><CellData>" +
+         array("c", "Int8", 1, "-5") + "</CellData><Points>" +
+         array("x", "Float64", 3, "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1") + "</Points><Cells>" +
+         array("connectivity", "Int64", 1, "0 1 2 3 4 5 6 7") + array("offsets", "Int64", 1, "8") +
+         array("types", "UInt8", 1, "12") + "</Cells></Piece></UnstructuredGrid></VTKFile>";
+}
+
+TEST(XmlScan, TextMustHoldAsManyNumbersAsTheTagsSay) {
+  EXPECT_EQ(scan_xml(hexahedron()).problem, "");
+  struct Wrong {
+    const char* array;
+    const char* text;
+    const char* message;
+  };
+  for (const Wrong& wrong :
+       {Wrong{"p", "0 1 2 3 4 5 6 7 8", "array 'p' has 9 values, expected 8"},
+        {"p", "0 1 2 3 4 5 6", "array 'p' has 7 values, expected 8"},
+        {"p", "", "array 'p' has 0 values, expected 8"},
+        {"p", "0 1 2 3 4 5 6 0.1234-100", "value 8: found '0.1234-100'"},
+        {"p", "0 1 2 3 4 5 6 1.0D+00", "value 8: found '1.0D+00'"},
+        {"p", "0 1 2 3 4 5 6 1e39", "value 8: found '1e39', expected a number of type Float32"},
+        {"c", "1 2", "array 'c' has 2 values, expected 1"},
+        {"c", "128", "found '128', expected a number of type Int8"},
+        {"c", "1.0", "found '1.0'"},
+        {"x", "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1 7", "array 'x' has 25 values, expected 24"},
+        {"connectivity", "0 1 2 3 4 5 6 7 7", "array 'connectivity' has 9 values, expected 8"},
+        {"connectivity", "0 1 2 3 4 5 6", "array 'connectivity' has 7 values, expected 8"},
+        {"offsets", "8 8", "array 'offsets' has 2 values, expected 1"},
+        {"offsets", "7", "array 'connectivity' has 8 values, expected 7"},
+        {"types", "12 12", "array 'types' has 2 values, expected 1"},
+        {"types", "268", "found '268'"}}) {
+    const std::string problem = scan_xml(hexahedron(wrong.array, wrong.text)).problem;
+    EXPECT_NE(problem.find(wrong.message), std::string::npos) << wrong.array << ": " << problem;
+  }
+  for (const char* right : {"+0 +1.5 -2. .3 4e0 5E+00 nan inf", "-nan -inf 1e-60 0 0 0 0 0"})
+    EXPECT_EQ(scan_xml(hexahedron("p", right)).problem, "") << right;
+  EXPECT_EQ(scan_xml(hexahedron("c", "200", "UInt8")).problem, "");
+}
+
+/// Characters that base64 has for bytes.
+std::string base64(std::string bytes) {
+  static constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  while (bytes.size() % 3 != 0) bytes += '\0';
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t b = 0; b < 3; ++b) group = group << 8U | static_cast<unsigned char>(bytes[i + b]);
+    for (unsigned shift = 24; shift > 0; shift -= 6) text += kDigits[group >> (shift - 6) & 63U];
+  }
+  return text;
+}
+
+TEST(XmlScan, BinaryArraysMustHaveTheBytesThatTheTagsSay) {
+  for (const std::uint32_t bytes : {16U, 12U, 20U}) {
+    std::string header(4, '\0');
+    header[0] = static_cast<char>(bytes);
+    const std::string text =
+        "<VTKFile type=\"ImageData\" byte_order=\"LittleEndian\"><ImageData WholeExtent=\"0 1 0 1 0 0\"><Piece "
+        "Extent=\"0 1 0 1 0 0\"><PointData><DataArray type=\"Float32\" Name=\"p\" format=\"binary\">\n " +
+        base64(header + std::string(bytes, '\0')) +
+        "\n</DataArray></PointData></Piece></ImageData></VTKFile>";
+    EXPECT_EQ(scan_xml(text).problem.empty(), bytes == 16U) << scan_xml(text).problem;
+  }
 }
 
 /// A netCDF classic header with one dimension and one float variable of that length.

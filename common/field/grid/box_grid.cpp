@@ -74,6 +74,11 @@ BoxGrid::BoxGrid(std::array<std::vector<double>, 3> coordinates) : coordinates_(
   }
 }
 
+void BoxGrid::hide_cells(std::vector<std::uint8_t> hidden) {
+  PALPATE_CHECK(hidden.size() == as_size(points_.x - 1) * as_size(points_.y - 1) * as_size(points_.z - 1));
+  hidden_ = std::move(hidden);
+}
+
 Box BoxGrid::bounds() const noexcept {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -121,7 +126,7 @@ void BoxGrid::load(const Index3& cell, const PointVectors& values, BoxCell& out)
     load_coefficients(doubles->data() + first, 3 * row, 3 * slice, values.scale, out.c);
   }
   // c_xyz is a sum over all corners: finite if and only if they all are.
-  out.bad_data = !is_finite(out.c[7]);
+  out.bad_data = !is_finite(out.c[7]) || hidden(cell);
 
   out.index = cell;
   if (uniform()) {

@@ -26,7 +26,7 @@ struct BoxCell {
   Vec3 inverse_size{1.0};   ///< 1 / d
   std::array<Vec3, 8> c{};  ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz, local speed
   Index3 index{0};          ///< cell index
-  bool bad_data = false;    ///< a corner's value is not finite or blanked
+  bool bad_data = false;    ///< hidden, or a corner's value is not finite or blanked
 
   [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept {
     const Vec3 u = (x - lower) * inverse_size;
@@ -50,6 +50,15 @@ class BoxGrid {
   BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing);
   /// Rectilinear: strictly increasing coordinates, at least two an axis, frame L.
   explicit BoxGrid(std::array<std::vector<double>, 3> coordinates);
+  /// Makes cells bad data whatever their corners hold. @pre one byte a cell, 1 where hidden.
+  void hide_cells(std::vector<std::uint8_t> hidden);
+  [[nodiscard]] bool hidden(const Index3& cell) const noexcept {
+    if (hidden_.empty()) return false;
+    const auto row = static_cast<std::size_t>(points_.x - 1);
+    const auto column = static_cast<std::size_t>(points_.y - 1);
+    return hidden_[static_cast<std::size_t>(cell.x) +
+                   row * (static_cast<std::size_t>(cell.y) + column * static_cast<std::size_t>(cell.z))] != 0;
+  }
 
   [[nodiscard]] const Index3& points() const noexcept { return points_; }
   [[nodiscard]] Box bounds() const noexcept;
@@ -70,6 +79,7 @@ class BoxGrid {
   Vec3 inverse_spacing_{1.0};
   std::array<std::vector<double>, 3> coordinates_;
   std::array<std::vector<double>, 3> inverse_widths_;  ///< rectilinear: 1 / width of each interval
+  std::vector<std::uint8_t> hidden_;                   ///< cells; empty where none is
 };
 
 }  // namespace palpate

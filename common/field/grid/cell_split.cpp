@@ -135,6 +135,12 @@ class Splitter {
            is_finite(mesh_.points[input]);
   }
 
+  /// Whether the data hides the cell in hand.
+  [[nodiscard]] bool hidden() const {
+    const DataSet& block = blocks_[block_];
+    return !block.hidden_cells.empty() && block.hidden_cells[cell_ - first_cell_] != 0;
+  }
+
   void split_structured() {
     const Index3 n = structured_points(blocks_[block_]);
     cell_ = first_cell_;
@@ -151,7 +157,7 @@ class Splitter {
         for (int i = 0; i + 1 < n.x; ++i, ++p, ++cell_) {
           std::array<std::uint32_t, 8> v{p,         p + 1,         p + 1 + row,         p + row,
                                          p + slice, p + 1 + slice, p + 1 + row + slice, p + row + slice};
-          if (!std::ranges::all_of(v, [this](std::uint32_t id) { return usable(id); })) {
+          if (hidden() || !std::ranges::all_of(v, [this](std::uint32_t id) { return usable(id); })) {
             ++mesh_.blanked_cells;
             continue;
           }

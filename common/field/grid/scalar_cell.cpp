@@ -54,7 +54,7 @@ void load_scalar_cell(const BoxGrid& grid, const PointScalars& values, const Ind
         values.values);
   }
   // c_xyz is a sum over all corners: finite if and only if they all are.
-  out.bad_data = !std::isfinite(out.c[7]);
+  out.bad_data = !std::isfinite(out.c[7]) || grid.hidden(cell);
   out.index = cell;
   for (int axis = 0; axis < 3; ++axis) {
     out.lower[axis] = grid.coordinate(axis, cell[axis]);

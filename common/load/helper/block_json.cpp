@@ -172,9 +172,9 @@ RectilinearTopology decode_rectilinear(const json& object, const Memory& memory)
         memory.copy<double>(count_at(object, keys[a]), static_cast<std::uint64_t>(counts[axis]));
     const auto& x = t.coordinates[a];
     const bool finite = std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
-    if (!finite || std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end()) {
-      malformed("rectilinear coordinates do not increase");
-    }
+    const bool rise = std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) == x.end();
+    const bool fall = std::adjacent_find(x.begin(), x.end(), std::less_equal<>()) == x.end();
+    if (!finite || (!rise && !fall)) malformed("rectilinear coordinates neither rise nor fall");
   }
   return t;
 }
@@ -307,6 +307,7 @@ json encode_block(const DataSet& block, MemoryFile& memory) {
               {"topology", std::visit(TopologyEncoder{memory}, block.topology)},
               {"arrays", std::move(arrays)}};
   if (!block.visible.empty()) object["visible"] = append(block.visible, memory);
+  if (!block.hidden_cells.empty()) object["hidden_cells"] = append(block.hidden_cells, memory);
   return object;
 }
 
@@ -344,6 +345,9 @@ DataSet decode_block(const json& object, std::span<const std::byte> bytes,
   }
   if (object.contains("visible")) {
     block.visible = memory.copy<std::uint8_t>(count_at(object, "visible"), counts.points);
+  }
+  if (object.contains("hidden_cells")) {
+    block.hidden_cells = memory.copy<std::uint8_t>(count_at(object, "hidden_cells"), counts.cells);
   }
   return block;
 }

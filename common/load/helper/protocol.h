@@ -11,7 +11,8 @@
 ///   "blocks": [{"name", "grid", "points": [i, j, k],
 ///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
 ///                                                                                          to "open"
-///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?}…]}  to "read"
+///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?,
+///   "hidden_cells": offset?}…]}  to "read"
 ///   A = {"name", "on": "point" or "cell", "components", "type": "float32"…, "tuples", "sparse_bytes"},
 ///     with its numbers as a NanoVDB grid (sparse_numbers.h) also "tree_bytes", "points", "shift": [i, j, k]
 ///   T = {"kind": "uniform", "points", "origin", "axes": 9 numbers, column by column}

@@ -39,7 +39,10 @@ TEST(VectorChoice, ComponentsAreFoundUnderTheNamesThatSolversGive) {
        {std::array{"velocity_x", "velocity_y", "velocity_z"}, std::array{"VX", "VY", "VZ"},
         std::array{"x_velocity", "y_velocity", "z_velocity"},
         std::array{"Velocity:0", "Velocity:1", "Velocity:2"}, std::array{"vel-1", "vel-2", "vel-3"},
-        std::array{"u", "v", "w"}, std::array{"Ux", "Uy", "Uz"}}) {
+        std::array{"u", "v", "w"}, std::array{"Ux", "Uy", "Uz"},
+        std::array{"Velocity[i]", "Velocity[j]", "Velocity[k]"},
+        std::array{"U-velocity", "V-velocity", "W-velocity"}, std::array{"u-vel", "v-vel", "w-vel"},
+        std::array{"velocity_u", "velocity_v", "velocity_w"}, std::array{"UMean", "VMean", "WMean"}}) {
     const std::vector<ArrayInfo> arrays{points("pressure", 1), points(names[2], 1), points(names[0], 1),
                                         points(names[1], 1)};
     const VectorChoice choice = choose_vector(arrays, {}, "file");
@@ -47,6 +50,10 @@ TEST(VectorChoice, ComponentsAreFoundUnderTheNamesThatSolversGive) {
     ASSERT_EQ(choice.arrays.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(choice.arrays[i], names[i]);
   }
+}
+
+TEST(VectorChoice, ReynoldsStressesAreNoVelocity) {
+  EXPECT_EQ(chosen({points("uu", 1), points("uv", 1), points("uw", 1), points("B", 3)}), "B");
 }
 
 TEST(VectorChoice, MomentumOverDensityIsAVelocityWhileMomentumIsNone) {

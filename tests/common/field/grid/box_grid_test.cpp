@@ -179,5 +179,25 @@ TEST(BoxGrid, LocateAndLoadAllocateNothing) {
   EXPECT_EQ(guard.count(), 0U);
 }
 
+TEST(BoxGrid, HiddenCellsAreBadDataWhateverTheirCornersHold) {
+  BoxGrid grid(Index3(4, 3, 3), Vec3(0.0), Vec3(1.0));
+  std::vector<std::uint8_t> hidden(12, 0);
+  for (std::size_t cell = 1; cell < 12; cell += 3) hidden[cell] = 1;
+  grid.hide_cells(hidden);
+  const std::vector<double> numbers(std::size_t{3} * 36, 1.0);
+  PointVectors values;
+  values.values = std::span<const double>(numbers);
+  BoxCell cell;
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        grid.load({i, j, k}, values, cell);
+        EXPECT_EQ(cell.bad_data, i == 1);
+        EXPECT_EQ(grid.hidden({i, j, k}), i == 1);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate

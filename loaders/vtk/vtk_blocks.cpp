@@ -1,0 +1,67 @@
+/// The leaves of composite VTK data (vtk_convert.h).
+#include <map>
+
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDataSet.h>
+#include <vtkInformation.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkSmartPointer.h>
+
+#include "loaders/vtk/vtk_convert.h"
+
+namespace palpate {
+namespace {
+
+std::string name_in(vtkInformation* about) {
+  const char* name =
+      about->Has(vtkCompositeDataSet::NAME()) != 0 ? about->Get(vtkCompositeDataSet::NAME()) : nullptr;
+  return name != nullptr ? name : "";
+}
+
+/// The name of the group around each leaf.
+void name_parents(vtkMultiBlockDataSet* tree, const std::string& name,
+                  std::map<vtkDataSet*, std::string>& parents) {
+  for (unsigned b = 0; b < tree->GetNumberOfBlocks(); ++b) {
+    vtkDataObject* const child = tree->GetBlock(b);
+    if (auto* leaf = vtkDataSet::SafeDownCast(child)) parents[leaf] = name;
+    auto* const group = vtkMultiBlockDataSet::SafeDownCast(child);
+    if (group == nullptr) continue;
+    const std::string own = tree->HasMetaData(b) != 0 ? name_in(tree->GetMetaData(b)) : "";
+    name_parents(group, own.empty() ? name : (name.empty() ? own : name + "/" + own), parents);
+  }
+}
+
+}  // namespace
+
+std::vector<VtkBlock> leaves_of(vtkDataObject* object) {
+  std::vector<VtkBlock> blocks;
+  if (auto* single = vtkDataSet::SafeDownCast(object)) {
+    blocks.push_back({single, ""});
+    return blocks;
+  }
+  auto* composite = vtkCompositeDataSet::SafeDownCast(object);
+  if (composite == nullptr) return blocks;
+  std::map<vtkDataSet*, std::string> parents;
+  if (auto* tree = vtkMultiBlockDataSet::SafeDownCast(object)) name_parents(tree, "", parents);
+  const auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(composite->NewIterator());
+  it->SkipEmptyNodesOn();
+  for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
+    auto* leaf = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
+    if (leaf == nullptr) continue;
+    blocks.push_back({leaf, it->HasCurrentMetaData() != 0 ? name_in(it->GetCurrentMetaData()) : ""});
+  }
+  // Leaves of one name, as the mesh inside each region of a case, go by the groups they are in.
+  std::map<std::string, int> uses;
+  for (const VtkBlock& block : blocks) ++uses[block.name];
+  for (std::size_t b = 0; blocks.size() > 1 && b < blocks.size(); ++b) {
+    VtkBlock& block = blocks[b];
+    const std::string parent = parents[block.data];
+    if (!block.name.empty() && uses[block.name] > 1 && !parent.empty())
+      block.name = parent + "/" + block.name;
+    if (block.name.empty()) block.name = "block " + std::to_string(b + 1);
+  }
+  return blocks;
+}
+
+}  // namespace palpate

@@ -1,0 +1,49 @@
+/// Values as VTK XML files hold them, as text or as bytes behind a header: how many there are. VTK takes what
+/// it needs of them, so that one too many shifts all that follow, and says nothing.
+///
+/// File format: "VTK File Formats for VTK Version 4.2", "XML File Formats".
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace palpate {
+
+/// Numbers that stand in text.
+struct TextValues {
+  std::uint64_t count = 0;
+  std::uint64_t largest = 0;  ///< of whole numbers, at least 0: where a list of offsets ends
+  std::string wrong;          ///< the first word that is no number of the type, or empty; counting ends there
+};
+
+/// Bytes of one number of a type ("Float32"); 1 where the type is not known.
+[[nodiscard]] std::uint64_t bytes_of_xml_type(const std::string& type);
+
+/// Whether the values of a type are numbers: not text, nor bits.
+[[nodiscard]] bool is_xml_number(const std::string& type);
+
+/// Counts the numbers of `text`. A plus sign may precede them; NaN and infinity are numbers of a Float type.
+/// What a type cannot hold is none: VTK stops there. @pre is_xml_number(type).
+[[nodiscard]] TextValues text_values(std::string_view text, const std::string& type);
+
+/// How the bytes of binary arrays begin.
+struct BinaryHeader {
+  bool big_endian = false;
+  bool compressed = false;
+  std::uint64_t number_bytes = 4;  ///< of the numbers of a header
+};
+
+/// What a header says.
+struct BinaryClaim {
+  std::uint64_t header = 0;  ///< bytes of the header
+  std::uint64_t stored = 0;  ///< bytes that follow
+  std::uint64_t values = 0;  ///< bytes of the values, uncompressed
+};
+/// Of the array that begins at `data[0]`. Numbers that lie past the end of `data` are kHuge.
+[[nodiscard]] BinaryClaim claim_of(std::string_view data, const BinaryHeader& header);
+
+/// Bytes of the values that base64 text claims, which blanks may precede; kHuge where it is too short.
+[[nodiscard]] std::uint64_t claim_of_base64(std::string_view text, const BinaryHeader& header);
+
+}  // namespace palpate

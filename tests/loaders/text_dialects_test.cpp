@@ -1,0 +1,269 @@
+// VTK files as other programs write them, right and wrong: read through the helper program.
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+using test::TempFolder;
+
+Source opened(const std::filesystem::path& file) { return Source::open({.files = {file}, .solution = {}}); }
+
+/// The message of a refusal as bad input.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    Source source = opened(file);
+    (void)source.read({"U"});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    return error.what();
+  }
+  return {};
+}
+
+bool says(const Source& source, const std::string& words) {
+  for (const std::string& note : source.info().notes) {
+    if (note.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string array(const std::string& name, const std::string& type, int components, const std::string& text) {
+  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
+         std::to_string(components) + "\" format=\"ascii\">" + text + "</DataArray>";
+}
+
+/// One piece of the unit cube, moved by `x` along x, with U = (x, 0.5, 2) at its corners.
+std::string cube_piece(int x, const std::string& arrays, const std::string& points = "8") {
+  std::string corners;
+  for (const char* plane : {"0", "1"}) {
+    for (const char* y : {"0", "1"}) {
+      const bool back = *y == '1';
+      for (const int along : {back ? 1 : 0, back ? 0 : 1})
+        corners += std::to_string(x + along) + " " + y + " " + plane + " ";
+    }
+  }
+  return "<Piece NumberOfPoints=\"" + points + "\" NumberOfCells=\"1\"><PointData>" + arrays +
+         "</PointData><Points>" + array("Points", "Float64", 3, corners) + "</Points><Cells>" +
+         array("connectivity", "Int64", 1, "0 1 2 3 4 5 6 7") + array("offsets", "Int64", 1, "8") +
+         array("types", "UInt8", 1, "12") + "</Cells></Piece>";
+}
+
+std::string mesh(const std::string& pieces) {
+  return "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid>" + pieces +
+         "</UnstructuredGrid></VTKFile>";
+}
+
+std::string velocity(double first) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) text += std::to_string(first) + " 0.5 2 ";
+  return array("U", "Float64", 3, text);
+}
+
+TEST(TextDialects, PiecesWithoutPointsStandAnywhere) {
+  const TempFolder folder;
+  const std::string empty = "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><PointData/><Points>" +
+                            array("Points", "Float64", 3, "") + "</Points><Cells>" +
+                            array("connectivity", "Int64", 1, "") + array("offsets", "Int64", 1, "") +
+                            array("types", "UInt8", 1, "") + "</Cells></Piece>";
+  for (const std::string& pieces :
+       {empty + cube_piece(0, velocity(3.0)), cube_piece(0, velocity(3.0)) + empty}) {
+    Source source = opened(folder.write("a.vtu", mesh(pieces)));
+    const DataSet block = source.read({"U"}).at(0);
+    ASSERT_NE(block.find("U", Association::kPoint), nullptr);
+    EXPECT_EQ(block.find("U", Association::kPoint)->at(7, 0), 3.0);
+    EXPECT_EQ(block.cell_count(), 1U);
+  }
+}
+
+TEST(TextDialects, AnArrayThatAPieceLacksIsNamed) {
+  const TempFolder folder;
+  const auto file = folder.write("a.vtu", mesh(cube_piece(0, velocity(1.0)) + cube_piece(1, "")));
+  EXPECT_NE(refusal(file).find("piece 2 has no array 'U'"), std::string::npos) << refusal(file);
+}
+
+TEST(TextDialects, CountsMayHavePlusSignsAndBlanks) {
+  const TempFolder folder;
+  for (const char* count : {"+8", " 8", "8 "}) {
+    Source source = opened(folder.write("a.vtu", mesh(cube_piece(0, velocity(1.0), count))));
+    EXPECT_EQ(source.read({"U"}).at(0).point_count(), 8U);
+  }
+}
+
+/// A rectilinear grid of 3 x 2 x 2 points with U = (-y, x, 0.3), coordinates as given along x.
+std::string rectilinear(const std::array<double, 3>& x, const std::string& more = "") {
+  std::string values;
+  std::string lines;
+  for (const double v : x) lines += std::to_string(v) + " ";
+  for (int k = 0; k < 2; ++k) {
+    for (int j = 0; j < 2; ++j) {
+      for (const double v : x) values += std::to_string(-j) + " " + std::to_string(v) + " 0.3 ";
+    }
+  }
+  const std::string extent = "0 2 0 1 0 1";
+  return "<VTKFile type=\"RectilinearGrid\" version=\"0.1\"><RectilinearGrid WholeExtent=\"" + extent +
+         "\"><Piece Extent=\"" + extent + "\"><PointData>" + array("U", "Float64", 3, values) +
+         "</PointData><Coordinates>" + array("x", "Float64", 1, lines + more) +
+         array("y", "Float64", 1, "0 1") + array("z", "Float64", 1, "0 1") +
+         "</Coordinates></Piece></RectilinearGrid></VTKFile>";
+}
+
+TEST(TextDialects, AxesMayFallAndCoordinatesAreCounted) {
+  const TempFolder folder;
+  Source source = opened(folder.write("a.vtr", rectilinear({3.0, 1.0, 0.5})));
+  const DataSet block = source.read({"U"}).at(0);
+  const auto& x = std::get<RectilinearTopology>(block.topology).coordinates[0];
+  ASSERT_EQ(x.size(), 3U);
+  EXPECT_EQ(x[0], 3.0);
+  EXPECT_EQ(block.find("U", Association::kPoint)->at(2, 1), 0.5);
+  const auto more = folder.write("b.vtr", rectilinear({0.0, 1.0, 2.0}, "3"));
+  EXPECT_NE(refusal(more).find("array 'x' has 4 values, expected 3"), std::string::npos) << refusal(more);
+  EXPECT_NE(refusal(folder.write("c.vtr", rectilinear({0.0, 2.0, 1.0}))), "");
+}
+
+TEST(TextDialects, LegacyTextMayHoldWhatIsNotFinite) {
+  const TempFolder folder;
+  const std::array<const char*, 8> words{"nan",     "-NaN",    "inf", "-Infinity",
+                                         "1.#QNAN", "-1.#INF", "+2",  "1e-400"};
+  for (const char* type : {"float", "double"}) {
+    std::string text =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n"
+        "ORIGIN 0 0 0\nSPACING 1 1 1\nPOINT_DATA 8\nSCALARS U ";
+    text += std::string(type) + " 1\nLOOKUP_TABLE default\n";
+    for (const char* word : words) text += std::string(word) + "\n";
+    Source source = opened(folder.write("a.vtk", text));
+    const DataSet block = source.read({"U"}).at(0);
+    const DataArray& u = *block.find("U", Association::kPoint);
+    EXPECT_TRUE(std::isnan(u.at(0)) && std::isnan(u.at(1)) && std::isnan(u.at(4)));
+    EXPECT_TRUE(std::isinf(u.at(2)) && u.at(2) > 0.0);
+    EXPECT_TRUE(std::isinf(u.at(3)) && u.at(3) < 0.0);
+    EXPECT_TRUE(std::isinf(u.at(5)) && u.at(5) < 0.0);
+    EXPECT_EQ(u.at(6), 2.0);
+    EXPECT_EQ(u.at(7), 0.0);
+  }
+}
+
+TEST(TextDialects, GluedNumbersInLegacyTextAreNamedWithTheirLine) {
+  const TempFolder folder;
+  const auto file = folder.write(
+      "a.vtk",
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+      "SPACING 1 1 1\nPOINT_DATA 8\nSCALARS U float 1\nLOOKUP_TABLE default\n0 1 2 3 4 5 6 0.1234-100\n");
+  EXPECT_NE(refusal(file).find("line 11"), std::string::npos) << refusal(file);
+  EXPECT_NE(refusal(file).find("'0.1234-100'"), std::string::npos) << refusal(file);
+}
+
+/// An image of 3 x 2 x 2 cells whose middle layer of cells is hidden.
+std::string wall(const std::string& type) {
+  std::string values;
+  for (int i = 0; i < 36; ++i) values += "1 0 0 ";
+  std::string marks;
+  for (int i = 0; i < 12; ++i) marks += i % 3 == 1 ? "32 " : "0 ";
+  return "<VTKFile type=\"ImageData\" version=\"0.1\"><ImageData WholeExtent=\"0 3 0 2 0 2\" Origin=\"0 0 0\" "
+         "Spacing=\"1 1 1\"><Piece Extent=\"0 3 0 2 0 2\"><PointData>" +
+         array("U", "Float64", 3, values) + "</PointData><CellData>" + array("vtkGhostType", type, 1, marks) +
+         "</CellData></Piece></ImageData></VTKFile>";
+}
+
+TEST(TextDialects, HiddenCellsOneLayerThickStayHidden) {
+  const TempFolder folder;
+  for (const char* type : {"UInt8", "Int32", "Float32"}) {
+    Source source = opened(folder.write("a.vti", wall(type)));
+    const DataSet block = source.read({"U"}).at(0);
+    EXPECT_TRUE(block.visible.empty());
+    ASSERT_EQ(block.hidden_cells.size(), 12U) << type;
+    for (std::size_t c = 0; c < 12; ++c) EXPECT_EQ(block.hidden_cells[c], c % 3 == 1 ? 1 : 0);
+  }
+}
+
+TEST(TextDialects, HiddenCellsOfAMeshAreNotThere) {
+  const TempFolder folder;
+  for (const char* type : {"UInt8", "Int32"}) {
+    std::string second = cube_piece(1, velocity(1.0));
+    std::string first = cube_piece(0, velocity(1.0));
+    const std::string cells = "<CellData>";
+    first.insert(first.find("<Points>"), cells + array("vtkGhostType", type, 1, "32") + "</CellData>");
+    second.insert(second.find("<Points>"), cells + array("vtkGhostType", type, 1, "0") + "</CellData>");
+    Source source = opened(folder.write("a.vtu", mesh(first + second)));
+    EXPECT_EQ(source.read({"U"}).at(0).cell_count(), 1U) << type;
+  }
+}
+
+std::string index_of(const std::vector<std::array<std::string, 3>>& entries) {
+  std::string text = "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>";
+  for (const auto& [time, part, file] : entries)
+    text += "<DataSet timestep=\"" + time + "\" part=\"" + part + "\" file=\"" + file + "\"/>";
+  return text + "</Collection></VTKFile>";
+}
+
+TEST(TextDialects, TheLaterRunOfARestartedIndexCounts) {
+  const TempFolder folder;
+  for (int i = 0; i < 5; ++i)
+    folder.write("a_" + std::to_string(i) + ".vtu", mesh(cube_piece(0, velocity(i))));
+  for (int i = 2; i < 5; ++i)
+    folder.write("a_r" + std::to_string(i) + ".vtu", mesh(cube_piece(0, velocity(10.0 + i))));
+  // Numbers as Fortran's and XML's writers put them; the second run begins at 2 and goes to 3.
+  Source source = opened(folder.write("a.pvd", index_of({{" 0", "0", "a_0.vtu"},
+                                                         {"+1.0", "0", "a_1.vtu"},
+                                                         {"2", "0", "a_2.vtu"},
+                                                         {"3", "0", "a_3.vtu"},
+                                                         {"4", "0", "a_4.vtu"},
+                                                         {"2", "0", "a_2.vtu"},
+                                                         {"3", "0", "a_1.vtu"}})));
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 1.0, 2.0, 3.0}));
+  EXPECT_TRUE(says(source, "restart"));
+  const std::vector<DataSet> blocks = source.read({"U"}, 3);
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(blocks[0].find("U", Association::kPoint)->at(0, 0), 1.0);
+}
+
+TEST(TextDialects, PartsListedOneAfterTheOtherAreNoRestart) {
+  const TempFolder folder;
+  for (int i = 0; i < 2; ++i) {
+    folder.write("a_" + std::to_string(i) + ".vtu", mesh(cube_piece(0, velocity(i))));
+    folder.write("b_" + std::to_string(i) + ".vtu", mesh(cube_piece(1, velocity(i))));
+  }
+  for (const char* part : {"0", "1"}) {
+    Source source = opened(folder.write(
+        "a.pvd",
+        index_of(
+            {{"0", "0", "a_0.vtu"}, {"1", "0", "a_1.vtu"}, {"0", part, "b_0.vtu"}, {"1", part, "b_1.vtu"}})));
+    EXPECT_EQ(source.info().times.size(), 2U);
+    EXPECT_EQ(source.read({"U"}, 1).size(), 2U);
+    EXPECT_FALSE(says(source, "restart"));
+  }
+}
+
+TEST(TextDialects, ALostPieceCostsItselfAndAWord) {
+  const TempFolder folder;
+  folder.write("a_0.vtu", mesh(cube_piece(0, velocity(1.0))));
+  folder.write("a_2.vtu", mesh(cube_piece(0, velocity(2.0))));
+  folder.write("cut.vtu", mesh(cube_piece(1, velocity(1.0))).substr(0, 400));
+  folder.write("empty.vtu", "");
+  for (const char* lost : {"gone.vtu", "cut.vtu", "empty.vtu"}) {
+    Source blocks = opened(
+        folder.write("a.vtm", std::string("<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\">"
+                                          "<vtkMultiBlockDataSet><DataSet index=\"0\" file=\"a_0.vtu\"/>"
+                                          "<DataSet index=\"1\" file=\"") +
+                                  lost + "\"/></vtkMultiBlockDataSet></VTKFile>"));
+    EXPECT_EQ(blocks.info().blocks.size(), 1U) << lost;
+    EXPECT_EQ(blocks.read({"U"}).size(), 1U);
+    EXPECT_TRUE(says(blocks, lost)) << lost;
+    for (const char* first : {"0", "9"}) {  // the lost one first, or last
+      Source steps = opened(folder.write(
+          "a.pvd", index_of({{first, "0", lost}, {"1", "0", "a_0.vtu"}, {"2", "0", "a_2.vtu"}})));
+      EXPECT_TRUE(says(steps, lost) || std::string(first) == "9") << lost;
+      EXPECT_GE(steps.info().times.size(), 2U);
+    }
+  }
+  EXPECT_NE(refusal(folder.write("b.pvd", index_of({{"0", "0", "gone.vtu"}}))), "");
+}
+
+}  // namespace
+}  // namespace palpate
