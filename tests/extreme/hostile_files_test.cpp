@@ -183,8 +183,23 @@ TEST(HostileFiles, TheSamplesThemselvesAreFine) {
   }
 }
 
+// Tracts behind a whole header open as far as they go, with a warning.
+bool opens_when_cut(const std::string& name, std::string_view part) {
+  return name.ends_with(".tck") && part.find("\nEND\n") != std::string_view::npos;
+}
+
 TEST(HostileFiles, TruncatedAnywhereTheyAreRefused) {
   const test::TempFolder folder;
+  const auto expect = [&](const Sample& sample, std::size_t size) {
+    const std::string part = sample.content.substr(0, size);
+    const std::string what = std::string(sample.name) + " cut to " + std::to_string(size);
+    const std::filesystem::path file = folder.write(sample.name, part);
+    if (opens_when_cut(sample.name, part)) {
+      EXPECT_EQ(attempt({{file}, {}}), "") << what;
+    } else {
+      expect_refused(file, what);
+    }
+  };
   for (const Sample& sample : samples()) {
     const std::size_t whole = sample.content.size() - sample.trailing;
     const std::size_t stride = std::max<std::size_t>(1, whole / 24);
@@ -193,11 +208,9 @@ TEST(HostileFiles, TruncatedAnywhereTheyAreRefused) {
       const std::string_view section = sample.section;
       if (!section.empty() && size >= section.size() && part.substr(size - section.size()) == section)
         continue;
-      expect_refused(folder.write(sample.name, sample.content.substr(0, size)),
-                     std::string(sample.name) + " cut to " + std::to_string(size));
+      expect(sample, size);
     }
-    expect_refused(folder.write(sample.name, sample.content.substr(0, whole - 1)),
-                   std::string(sample.name) + " without its last byte");
+    expect(sample, whole - 1);
   }
 }
 
@@ -418,7 +431,12 @@ TEST(HostileFiles, DamagedCasesAreRefused) {
     const auto file = test::write_openfoam(folder);
     const std::string content = test::read_file(folder.path(part));
     folder.write(part, content.substr(0, content.size() * 3 / 4));
-    expect_refused(file, std::string("OpenFOAM with a part of ") + part);
+    // A field that is damaged at one time is taken at another, and that is said.
+    if (std::string(part) == "0/U") {
+      EXPECT_EQ(attempt({{file}, {}}), "") << part;
+    } else {
+      expect_refused(file, std::string("OpenFOAM with a part of ") + part);
+    }
     std::string noise(2000, '\0');
     for (char& c : noise) c = static_cast<char>(random());
     folder.write(part, noise);

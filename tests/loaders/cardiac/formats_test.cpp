@@ -177,17 +177,31 @@ TEST_F(CardiacFormats, DamagedSeriesFilesAreNamed) {
   const std::string good = entry(step("heart_0.vtu", 0.0), "0");
   for (const auto& [files, what] : std::vector<std::pair<std::string, std::string>>{
            {"", "no step"},
-           {good + "," + entry("heart_9.vtu", "1"), "a step that is not there"},
            {good + R"(,{"time":1})", "a step without a file"},
            {good + "," + entry("heart_0.vtu", "\"late\""), "a time that is a word"},
            {good + "," + entry("heart_0.vtu", "1e999"), "a time beyond all numbers"},
-           {good + "," + entry("heart.vtu.series", "1"), "a series that is its own step"},
+           {entry("heart_9.vtu", "1"), "its only step is not there"},
+           {entry("heart.vtu.series", "1"), "a series that is its own step"},
            {good + ",7", "a number for a step"},
            {good + ",", "a comma too many"}})
     expect_refused(series(files), what);
   for (const std::string& text : {std::string("{"), std::string("[]"), std::string(R"({"files":{}})"),
                                   std::string(R"({"files":)") + std::string(100'000, '[')})
     expect_refused(folder_.write("heart.vtu.series", text).string(), text.substr(0, 40));
+}
+
+TEST_F(CardiacFormats, AStepThatCannotBeReadCostsItselfAndAWord) {
+  const std::string good =
+      entry(step("heart_0.vtu", 0.0), "0") + "," + entry(step("heart_1.vtu", 0.5), "0.5");
+  for (const std::string lost : {"heart_9.vtu", "heart.vtu.series"}) {
+    const std::string file = series(good + "," + entry(lost, "1"));
+    EXPECT_EQ(json({"info", file})["times"], Json({0.0, 0.5})) << lost;
+    const ProgramResult traced =
+        run({"trace", file, "--seeds", "point:0.2,0.2,0.3", "--out", "l.csv", "--force"});
+    EXPECT_EQ(traced.exit_code, 0) << traced.err;
+    EXPECT_NE(traced.err.find(lost), std::string::npos) << traced.err;
+    EXPECT_NE(traced.err.find("left out"), std::string::npos) << traced.err;
+  }
 }
 
 // What `cardiac mesh` writes of the long axis is taken from any VTK file that says it; what is no direction
