@@ -70,7 +70,7 @@ TEST(WallSurfacesByShape, RimsOfAnyShapeStayFree) {
   for (const auto& [name, rim] : rims) {
     for (const double mu_base : {0.5 * kPi, 1.9}) {
       for (const double size : {0.0, 0.06, 0.12, 0.2}) {
-        const auto scaled = [&](double theta) { return size * rim(theta); };
+        const auto scaled = [size, &shape = rim](double theta) { return size * shape(theta); };
         const WallLayer found = make_wall_layer(with_rim(scaled, false, mu_base), "heart");
         const WallLayer named = make_wall_layer(with_rim(scaled, true, mu_base), "heart");
         double worst = 0.0;
