@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -48,16 +49,16 @@ DataSet cropped(const DataSet& block, const Document& options) {
   return result;
 }
 
-/// What is written: colours where the volume has them and nothing else is asked for, else its scalar.
-DataSet written_block(Input& input, Progress* progress) {
+/// The colours of the voxels, where the volume has some and nothing else is asked for.
+std::optional<DataSet> color_block(Input& input, Progress* progress) {
   const ScalarChoice choice = input.scalar_choice();
-  if (choice.array != kColorArray || choice.component != ScalarChoice::kMagnitude)
-    return load_volume_block(input, progress);
+  if (choice.array != kColorArray || choice.component != ScalarChoice::kMagnitude) return std::nullopt;
   std::vector<DataSet> blocks = input.read({choice.array}, progress);
   const bool bytes = blocks.size() == 1 && blocks.front().arrays.size() == 1 &&
                      blocks.front().arrays.front().type == ScalarType::kUint8 &&
                      std::holds_alternative<UniformTopology>(blocks.front().topology);
-  return bytes ? blocks.front() : load_volume_block(input, progress);
+  if (!bytes) return std::nullopt;
+  return std::move(blocks.front());
 }
 
 /// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
@@ -86,7 +87,8 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
     throw usage_error("clip needs something to cut voxels with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
-  const DataSet block = cropped(written_block(input, &context.progress), options);
+  const std::optional<DataSet> colors = color_block(input, &context.progress);
+  const DataSet block = cropped(colors ? *colors : load_volume_block(input, &context.progress), options);
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = std::get<UniformTopology>(block.topology);
@@ -151,9 +153,11 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
 
 DrawnScene make_scene(Input& input, const Document& options, const VerbContext& context, double aspect) {
   const DataSet block = cropped(load_volume_block(input, &context.progress), options);
-  const auto image =
-      with_own_colors(make_volume_image(block, block.arrays.front().name, input.title()),
-                      cropped(written_block(input, &context.progress), options).arrays.front());
+  auto image = make_volume_image(block, block.arrays.front().name, input.title());
+  if (const std::optional<DataSet> colors = color_block(input, &context.progress)) {
+    image = with_own_colors(std::move(image), cropped(*colors, options).arrays.front());
+    context.console.note(kOwnColorsNote);
+  }
   DrawnScene drawn;
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();

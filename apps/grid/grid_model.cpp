@@ -4,6 +4,7 @@
 
 #include "common/compose/view_keep.h"
 #include "common/compose/volume_fields.h"
+#include "common/compose/volume_scene.h"
 
 namespace palpate {
 
@@ -28,6 +29,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   state.info = std::move(info);
   state.looks = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
+  if (view.volume->colored) state.notes.emplace_back(kOwnColorsNote);
   state.volume = std::move(view.volume);
   state.volume_label = document.input.field;
   state.haptic_scalar = volume.field;

@@ -58,6 +58,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, volume, options, aspect);
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
+  if (drawn.view.volume->colored) context.console.note(kOwnColorsNote);
   if (touched) show_touch(drawn.view, modes, volume, options, context);
   return drawn;
 }

@@ -46,6 +46,11 @@ inline constexpr const char* kBoundariesPreset = "boundaries";
 /// Checks what can be checked of the options "Volume" before anything is read. @throws Error (usage).
 void check_volume_options(const VolumeOptions& options);
 
+/// Said of a volume that is drawn in colours of its own.
+inline constexpr const char* kOwnColorsNote =
+    "drawn in the voxels' own colours: a transfer function gives the opacity, by their magnitude, and no colour; a "
+    "fourth number is left out, and slices show the magnitude; --field colors:0, 1 or 2 shows one of them";
+
 /// `image` with the colours of its points, where `colors` holds red, green and blue from 0 to 255 (a fourth
 /// number is left out) for each; else as it is. They are drawn in place of those of transfer functions, which
 /// give opacity alone.

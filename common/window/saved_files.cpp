@@ -34,8 +34,11 @@ DataArray in_type(const std::vector<double>& values, ScalarType type) {
 /// The values in the type of the data as far as the single precision of `image` holds them, else in doubles.
 DataArray as_stored(const std::vector<double>& values, const VolumeImage& image, bool& exact) {
   constexpr double kWhole = 0x1p24;  // whole numbers up to this are exact in single precision
-  const bool whole = std::max(-image.lowest, image.highest) < kWhole;
-  exact = true;
+  const bool floating = image.stored == ScalarType::kFloat32 || image.stored == ScalarType::kFloat64;
+  const bool whole = !floating && std::max(-image.lowest, image.highest) < kWhole;
+  exact = whole || image.stored == ScalarType::kFloat32;
+  // Points without a value have no whole number.
+  if (!exact || (whole && !image.all_finite)) return in_type<double>(values, ScalarType::kFloat64);
   switch (image.stored) {
     case ScalarType::kInt8:
       return in_type<std::int8_t>(values, image.stored);
@@ -46,23 +49,18 @@ DataArray as_stored(const std::vector<double>& values, const VolumeImage& image,
     case ScalarType::kUint16:
       return in_type<std::uint16_t>(values, image.stored);
     case ScalarType::kInt32:
-      if (whole) return in_type<std::int32_t>(values, image.stored);
-      break;
+      return in_type<std::int32_t>(values, image.stored);
     case ScalarType::kUint32:
-      if (whole) return in_type<std::uint32_t>(values, image.stored);
-      break;
+      return in_type<std::uint32_t>(values, image.stored);
     case ScalarType::kInt64:
-      if (whole) return in_type<std::int64_t>(values, image.stored);
-      break;
+      return in_type<std::int64_t>(values, image.stored);
     case ScalarType::kUint64:
-      if (whole) return in_type<std::uint64_t>(values, image.stored);
-      break;
+      return in_type<std::uint64_t>(values, image.stored);
     case ScalarType::kFloat32:
       return in_type<float>(values, image.stored);
     case ScalarType::kFloat64:
       break;
   }
-  exact = false;
   return in_type<double>(values, ScalarType::kFloat64);
 }
 

@@ -77,6 +77,14 @@ TEST_F(GridRegion, TheWindowCropsInTheTypeOfTheData) {
   compare(true);
   stored_as(ScalarType::kInt32, std::int32_t());
   compare(true);
+  // A point without a value has no whole number: doubles.
+  block.visible.assign(values.size(), 1);
+  block.visible[values.size() / 2] = 0;
+  const auto holed = make_volume_image(block, kVolumeArray, "shells");
+  const auto hole = files.save_region(*holed, holed->bounds(), ".nrrd", ImageSpace::kUnknown);
+  EXPECT_TRUE(hole.exact);
+  EXPECT_NE(bytes_of(hole.file).find("type: double"), std::string::npos);
+  block.visible.clear();
   stored_as(ScalarType::kFloat32, float());
   compare(true);
   stored_as(ScalarType::kFloat64, double());

@@ -70,6 +70,7 @@ TEST_F(Grid, DrawsColoursAsColours) {
     int width = 0, height = 0, channels = 0;
     stbi_uc* const pixels = stbi_load(folder_.path("a.png").c_str(), &width, &height, &channels, 3);
     ASSERT_NE(pixels, nullptr);
+    EXPECT_NE(result.err.find("own colours"), std::string::npos) << result.err;
     int red = 0, blue = 0;
     for (int i = 0; i < width * height; ++i) {
       const int difference = pixels[3 * i] - pixels[3 * i + 2];
