@@ -88,20 +88,28 @@ TEST(CommandLine, AnswersHelpAndVersionWithoutAVerb) {
   EXPECT_EQ(parse({"info", "--help"}).text.find("--seeds"), std::string::npos);
 }
 
-/// A program without files, whose verbs take words in an order.
+/// A program without files, whose verbs take words in an order. It outlives what is parsed for it: a parsed command
+/// points at its verb.
+const Explorer& devices() {
+  static const Explorer explorer = [] {
+    Explorer made{.name = "devices", .summary = "to test", .kind = FieldKind::kNone};
+    const auto nothing = [](const Document&, const VerbContext&) { return ExitCode::kDone; };
+    made.verbs.push_back({.name = "fit",
+                          .summary = "s",
+                          .details = "What a table holds.",
+                          .groups = {Group::kCalibrate},
+                          .examples = {{"devices fit arm a.csv", "e"}},
+                          .run = nothing});
+    made.verbs.push_back(
+        {.name = "report", .summary = "s", .groups = {Group::kReport}, .examples = {}, .run = nothing});
+    made.default_verb = "report";
+    return made;
+  }();
+  return explorer;
+}
+
 ParsedCommand parse_for_devices(const std::vector<std::string>& arguments) {
-  Explorer explorer{.name = "devices", .summary = "to test", .kind = FieldKind::kNone};
-  const auto nothing = [](const Document&, const VerbContext&) { return ExitCode::kDone; };
-  explorer.verbs.push_back({.name = "fit",
-                            .summary = "s",
-                            .details = "What a table holds.",
-                            .groups = {Group::kCalibrate},
-                            .examples = {{"devices fit arm a.csv", "e"}},
-                            .run = nothing});
-  explorer.verbs.push_back(
-      {.name = "report", .summary = "s", .groups = {Group::kReport}, .examples = {}, .run = nothing});
-  explorer.default_verb = "report";
-  return parse_command_line(explorer, arguments);
+  return parse_command_line(devices(), arguments);
 }
 
 std::string refusal_for_devices(const std::vector<std::string>& arguments) {
