@@ -43,8 +43,11 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
     state.seeds = before->seeds;
     state.seconds_trace = before->seconds_trace;
   } else if (document.tracts.seeds.empty()) {
-    const ViewTracts read = read_view_tracts({.file = document.tract_appearance.file}, &progress);
+    const TensorField* const field = state.tensors ? state.tensors->image->field.get() : nullptr;
+    const ViewTracts read =
+        read_view_tracts({.file = document.tract_appearance.file}, field, document.common.threads, &progress);
     show(read.bundle);
+    state.notes.insert(state.notes.end(), read.notes.begin(), read.notes.end());
     if (!read.left_out.empty()) state.notes.push_back(read.left_out);
   } else if (!state.tensors) {
     throw usage_error("there are no tensors to trace tracts through");

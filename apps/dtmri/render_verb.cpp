@@ -22,8 +22,10 @@ SceneUse use_of(const Document& options, const Input& input) {
 
 ViewTracts tracts_of(const Document& options, const VerbContext& context,
                      const std::optional<TensorView>& tensors) {
-  if (!options.tract_appearance.file.empty())
-    return read_view_tracts(options.tract_appearance, &context.progress);
+  if (!options.tract_appearance.file.empty()) {
+    const TensorField* const field = tensors ? tensors->image->field.get() : nullptr;
+    return read_view_tracts(options.tract_appearance, field, options.common.threads, &context.progress);
+  }
   ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
   return tracts;

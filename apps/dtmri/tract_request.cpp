@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <random>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -13,14 +14,15 @@
 #include "common/render/tract/tract_bundle.h"
 #include "common/scene/seeds.h"
 #include "common/scene/voxel_seeds.h"
+#include "common/trace/tract/tract_orientation.h"
 
 namespace palpate {
 namespace {
 
 constexpr const char* kRegionGrammar = "a region is mask:FILE or sphere:x,y,z,r";
 constexpr const char* kSeedGrammar =
-    "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, fa:T, cl:T, mask:FILE or "
-    "sphere:x,y,z,r";
+    "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, grid:nx,ny,nz, random:n, fa:T, "
+    "cl:T, mask:FILE or sphere:x,y,z,r";
 constexpr std::size_t kMostSeeds = 100'000'000;
 
 /// What stands behind "kind:", or empty where `text` is of another kind.
@@ -82,6 +84,32 @@ std::function<bool(const Vec3&)> above(const TensorField& field, TractMeasure me
       };
 }
 
+/// At (i + 1/2) / n of what lies between the outer centres of voxels, along the image's axes; x fastest.
+std::vector<Vec3> grid_seeds(const Index3& n, const UniformTopology& image) {
+  std::vector<Vec3> seeds;
+  const Vec3 reach = Vec3(image.points) - 1.0;
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i)
+        seeds.push_back(image.origin + image.axes * (reach * (Vec3(i, j, k) + 0.5) / Vec3(n)));
+    }
+  }
+  return seeds;
+}
+
+/// Uniform between the outer centres of voxels. The same for the same `random_seed` and image.
+std::vector<Vec3> random_seeds(std::size_t count, const UniformTopology& image, std::uint64_t random_seed) {
+  std::mt19937_64 random{random_seed};
+  std::vector<Vec3> seeds;
+  for (std::size_t s = 0; s < count; ++s) {
+    Vec3 index{0.0};
+    for (int axis = 0; axis < 3; ++axis)
+      index[axis] = static_cast<double>(random() >> 11U) * 0x1p-53 * (image.points[axis] - 1);
+    seeds.push_back(image.origin + image.axes * index);
+  }
+  return seeds;
+}
+
 }  // namespace
 
 void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look) {
@@ -95,13 +123,20 @@ void check_view_tracts(const TractTracingOptions& options, const TractAppearance
   (void)tract_request(numbers, 1);
 }
 
-ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress) {
+ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
+                            Progress* progress) {
   TractogramFile file = read_tractogram(look.file, progress);
   ViewTracts tracts;
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(file.lines)));
   if (tracts.bundle->order.empty())
     throw input_error({look.file, "", "holds no line of two points and more", "tracts", ""});
   tracts.left_out = tracts_left_out(*tracts.bundle);
+  tracts.notes = file.info.notes;
+  if (field != nullptr && field->voxels()) {
+    const TractFit fit = fit_of_tracts(*field, *tracts.bundle->lines, threads);
+    if (fit.suspicious) tracts.notes.push_back(fit_sentence(fit, "dtmri tracts --turn"));
+  }
+  for (std::string& note : tracts.notes) note.insert(0, look.file + ": ");
   return tracts;
 }
 
@@ -197,9 +232,14 @@ std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t 
     return seeds_in(mask.mask->voxels(), [&](const Vec3& x) { return mask.mask->contains(x); });
   }
   const SeedSpec spec = parse_seeds(text, kSeedGrammar);
-  const auto* const list = std::get_if<SeedList>(&spec);
-  if (list == nullptr) throw usage_error("--seeds " + text + ": " + kSeedGrammar);
-  return list->points;
+  if (seed_count(spec) > kMostSeeds)
+    throw usage_error("--seeds " + text + ": more than " + std::to_string(kMostSeeds) + " seeds");
+  if (const auto* const list = std::get_if<SeedList>(&spec)) return list->points;
+  if (const auto* const grid = std::get_if<SeedGrid>(&spec))
+    return grid_seeds(grid->n, voxels_of(image, text));
+  const SeedRandom& drawn = std::get<SeedRandom>(spec);
+  if (drawn.by_speed) throw usage_error("--seeds " + text + ": " + kSeedGrammar);
+  return random_seeds(drawn.count, voxels_of(image, text), random_seed);
 }
 
 }  // namespace palpate

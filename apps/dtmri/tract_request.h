@@ -3,6 +3,7 @@
 ///   region    mask:FILE          voxels of an image above 0.5 (voxel_mask.h)
 ///             sphere:x,y,z,r     a ball
 ///   seeds     a region, or fa:T, cl:T: the voxels that it takes the centres of; of a mask its own voxels
+///             grid:, random: between the outer centres of an image's voxels
 ///             whatever parse_seeds() knows that does not depend on a field: file.csv, point:, line:, plane:
 #pragma once
 
@@ -52,14 +53,17 @@ struct ViewTracts {
   double seconds = 0.0;                       ///< that tracing took
   std::string why_none;                       ///< what became of the seeds, where there is no line
   std::string left_out;                       ///< what a picture has no room for; empty: it shows all lines
-  std::vector<std::string> notes;             ///< of masks
+  std::vector<std::string> notes;             ///< of masks and axes
 };
 
 /// Checks what can be checked before anything is read. @throws Error (usage).
 void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look);
 
-/// The lines of a tractogram. @throws Error (bad input): not readable, or no line in it; Cancelled.
-[[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& look, Progress* progress);
+/// The lines of a tractogram. Where they are shown over `field`, a note says if they would fit it better turned:
+/// LPS taken for RAS, another image. @param field null: none, or of no image.
+/// @throws Error (bad input): not readable, or no line in it; Cancelled.
+[[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
+                                          Progress* progress);
 
 /// Traces through `voxels` as the verb `trace` does. @pre options.seeds is not empty.
 /// @throws Error (usage), (bad input) as tract_options() and tract_seeds(); Cancelled.

@@ -169,7 +169,7 @@ TEST_F(Dtmri, ShowsTractsAndUnderlaysWithAndWithoutTensors) {
   const ProgramResult seeds = run({"trace", "--example", "helix", "--seeds", "nowhere", "--out", "x.tck"});
   EXPECT_EQ(seeds.exit_code, 2);
   EXPECT_NE(seeds.err.find("fa:T"), std::string::npos) << seeds.err;
-  EXPECT_EQ(seeds.err.find("grid:"), std::string::npos) << seeds.err;
+  EXPECT_NE(seeds.err.find("grid:nx,ny,nz"), std::string::npos) << seeds.err;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("x.png")));
 }
 

@@ -106,6 +106,20 @@ TEST_F(DtmriTrace, CountsWhatRegionsDrop) {
   EXPECT_EQ(stopped["ends"]["stopped_by_rule"], all["lines"]);
 }
 
+TEST_F(DtmriTrace, TakesSeedsOnAGridAndAtRandom) {
+  const auto seeds = [this](const std::string& words, const std::string& number) {
+    return json({"trace", "--example", "straight", "--cutoff", "0", "--seeds", words, "--seed", number,
+                 "--out", "s.csv", "--force"});
+  };
+  EXPECT_EQ(seeds("grid:3,2,4", "1")["seeds"], 24);
+  EXPECT_EQ(seeds("random:50", "1")["seeds"], 50);
+  const std::string one = read_file(folder_.path("s.csv"));
+  (void)seeds("random:50", "2");
+  EXPECT_NE(read_file(folder_.path("s.csv")), one);
+  (void)seeds("random:50", "1");
+  EXPECT_EQ(read_file(folder_.path("s.csv")), one);
+}
+
 TEST_F(DtmriTrace, RefusesWhatItCannotDo) {
   const auto refused = [this](std::vector<std::string> more, int exit_code, const std::string& word) {
     more.insert(more.begin(), {"trace", "--example", "helix", "--out", "a.tck"});
@@ -115,7 +129,7 @@ TEST_F(DtmriTrace, RefusesWhatItCannotDo) {
   };
   refused({}, 2, "--seeds");
   refused({"--seeds", "fa:2"}, 2, "no voxel");
-  refused({"--seeds", "grid:2,2,2"}, 2, "sphere:x,y,z,r");
+  refused({"--seeds", "speed:10"}, 2, "sphere:x,y,z,r");
   refused({"--seeds", "sphere:0,0,0,0"}, 2, "radius");
   refused({"--seeds", "point:20,0,0", "--integrator", "rodas4"}, 2, "dp54");
   refused({"--seeds", "point:20,0,0", "--measure", "md"}, 2, "fa, cl");

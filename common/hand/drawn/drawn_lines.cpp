@@ -37,7 +37,8 @@ DrawnLines::Entry entry_of(int number, DrawnTract line) {
   DrawnLines::Entry entry{.number = number,
                           .line = std::make_shared<const Line>(std::move(line.line)),
                           .forces = std::move(line.forces),
-                          .measures = std::move(line.measures)};
+                          .measures = std::move(line.measures),
+                          .image = line.image};
   for (const double force : entry.forces) entry.largest_force = std::fmax(entry.largest_force, force);
   return entry;
 }
@@ -110,7 +111,7 @@ void DrawnLines::clear() {
 void DrawnLines::save(const std::filesystem::path& path, bool overwrite) const {
   std::vector<DrawnTract> lines;
   for (const Entry& entry : entries()) {
-    lines.push_back({*entry.line, entry.forces, entry.measures});
+    lines.push_back({*entry.line, entry.forces, entry.measures, entry.image});
     lines.back().line.seed = static_cast<std::uint32_t>(entry.number);
   }
   write_drawn(path, lines, overwrite);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,12 +32,13 @@ class DrawnLines {
     std::shared_ptr<const Line> line;
     std::vector<double> forces;            ///< [N], one a point; NaN where none was felt
     std::vector<TensorMeasures> measures;  ///< one a point of a tract; none of a streamline
+    std::optional<TractogramImage> image;  ///< as DrawnTract::image
     double largest_force = 0.0;
   };
 
   using Entries = std::vector<Entry>;
 
-  void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}}}); }
+  void keep(Line line, std::vector<double> forces) { keep({{std::move(line), std::move(forces), {}, {}}}); }
   void keep(std::vector<DrawnTract> lines);
   /// Whether the last one has been kept with these points and forces.
   [[nodiscard]] bool ends_with(const Line& line, const std::vector<double>& forces) const;

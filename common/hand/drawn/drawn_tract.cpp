@@ -55,6 +55,8 @@ void TractPen::begin(double time, const Vec3& proxy) {
     tracts_.emplace_back();
     tracts_.back().line.end = End::kStoppedByRule;
     tracts_.back().line.seed = static_cast<std::uint32_t>(tracts_.size() - 1);
+    if (const auto& voxels = field_->voxels())
+      tracts_.back().image = TractogramImage{voxels->points, voxels->axes, voxels->origin};
     start_ = time;
     return;
   }
@@ -180,7 +182,9 @@ void write_drawn(const std::filesystem::path& path, std::span<const DrawnTract> 
       columns[3].values.push_back(measures.fractional_anisotropy);
     }
   }
-  write_lines(path, written, overwrite, columns);
+  const auto placed =
+      std::find_if(lines.begin(), lines.end(), [](const DrawnTract& line) { return line.image.has_value(); });
+  write_lines(path, written, overwrite, columns, placed == lines.end() ? nullptr : &*placed->image);
 }
 
 std::size_t save_tracts(const std::filesystem::path& path, const std::vector<DrawnTract>& tracts,

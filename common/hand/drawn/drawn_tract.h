@@ -6,12 +6,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/tensor/tensor_measure.h"
 #include "common/geometry/line.h"
+#include "common/geometry/tractogram.h"
 
 namespace palpate {
 
@@ -20,6 +22,7 @@ struct DrawnTract {
   Line line;                             ///< data coordinates; of a tract, time since its first point [s]
   std::vector<double> forces;            ///< the largest felt at the point [N]; NaN where none was
   std::vector<TensorMeasures> measures;  ///< none of a streamline
+  std::optional<TractogramImage> image;  ///< that a tract was drawn in: of voxels
 };
 
 /// What a stroke does with the tracts that were drawn before the hand took the probe.
@@ -89,7 +92,7 @@ class TractPen {
 };
 
 /// Writes `lines` with the columns `force` and, where they have measures, `cl`, `cp` and `fa`, where the
-/// format has columns (.vtp, .trk, .csv). @throws Error as write_lines().
+/// format has columns (.vtp, .trk, .csv), over the image of the first that has one. @throws Error as write_lines().
 void write_drawn(const std::filesystem::path& path, std::span<const DrawnTract> lines, bool overwrite);
 
 /// The same for those of at least two points. @return how many these are.

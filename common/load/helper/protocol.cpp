@@ -58,9 +58,8 @@ DiffusionInfo decode_diffusion(const json& object) {
     table.directions.emplace_back(number_of(gradient[1], "gradients"), number_of(gradient[2], "gradients"),
                                   number_of(gradient[3], "gradients"));
     if (table.weightings.back() < 0.0) malformed("a negative b-value");
-    constexpr double kLongest = 1.001;  // unit, but for rounding
-    if (glm::length(table.directions.back()) > kLongest)
-      malformed("a gradient direction is not of unit length");
+    constexpr double kLongest = 1e9;  // its square is finite, times any weighting
+    if (!(glm::length(table.directions.back()) < kLongest)) malformed("a gradient direction is too long");
   }
   diffusion.gradients = std::move(table);
   return diffusion;

@@ -30,7 +30,7 @@ std::size_t count_points(const std::vector<Line>& lines) {
 
 /// VTK XML, PolyData, raw appended data (VTK File Formats, "XML File Formats"). `termination` is text; its
 /// number stands beside it since ParaView cannot colour by text.
-void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
+void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns, const TractogramImage*) {
   const std::size_t points = count_points(lines);
   const std::uint64_t per_point = points * sizeof(double);
   const std::uint64_t per_line = lines.size() * sizeof(std::int64_t);
@@ -138,9 +138,9 @@ TractogramImage image_around(const std::vector<Line>& lines) {
 }
 
 /// The lines in single precision, with the numbers of their points and why they end.
-Tractogram tractogram_of(const std::vector<Line>& lines) {
+Tractogram tractogram_of(const std::vector<Line>& lines, const TractogramImage* image) {
   Tractogram packed;
-  packed.image = image_around(lines);
+  packed.image = image != nullptr ? *image : image_around(lines);
   packed.of_points = {
       {.name = "time", .values = {}}, {.name = "speed", .values = {}}, {.name = "error", .values = {}}};
   packed.of_lines = {{.name = "termination", .values = {}}};
@@ -158,12 +158,14 @@ Tractogram tractogram_of(const std::vector<Line>& lines) {
   return packed;
 }
 
-void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, Columns) {
-  write_tck(file, tractogram_of(lines));
+void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, Columns,
+                     const TractogramImage* image) {
+  write_tck(file, tractogram_of(lines, image));
 }
 
-void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
-  Tractogram packed = tractogram_of(lines);
+void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns columns,
+                     const TractogramImage* image) {
+  Tractogram packed = tractogram_of(lines, image);
   for (const PointColumn& column : columns) {
     auto& values =
         packed.of_points.emplace_back(Tractogram::Column{.name = column.name, .values = {}}).values;
@@ -175,7 +177,7 @@ void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns c
 
 // ---- .csv ----------------------------------------------------------------------------------------------
 
-void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns) {
+void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns, const TractogramImage*) {
   std::string header = "line,seed,point,x,y,z,time,arc,speed,error,termination";
   for (const PointColumn& column : columns) (header += ',') += column.name;
   file.write(header + "\n");
@@ -200,7 +202,7 @@ void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns
   }
 }
 
-using Writer = void (*)(OutputFile&, const std::vector<Line>&, Columns);
+using Writer = void (*)(OutputFile&, const std::vector<Line>&, Columns, const TractogramImage*);
 
 Writer writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
@@ -219,12 +221,12 @@ void check_line_output(const std::filesystem::path& path, bool overwrite) {
 }
 
 void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,
-                 std::span<const PointColumn> columns) {
+                 std::span<const PointColumn> columns, const TractogramImage* image) {
   const Writer write = writer_for(path);
   for (const PointColumn& column : columns) PALPATE_CHECK(column.values.size() == count_points(lines));
   OutputFile file(path, overwrite);
   try {
-    write(file, lines, columns);
+    write(file, lines, columns, image);
   } catch (const Error& error) {
     const bool named = std::string_view(error.what()).substr(0, path.string().size()) == path.string();
     if (named) throw;

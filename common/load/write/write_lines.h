@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/geometry/line.h"
+#include "common/geometry/tractogram.h"
 
 namespace palpate {
 
@@ -24,8 +25,9 @@ struct PointColumn {
 
 /// @param columns written by .vtp (point arrays), .trk (scalars, seven at most besides time, speed and error)
 /// and .csv; .tck has no place for them.
+/// @param image that the lines belong to, for the header of a .trk; null: a grid is laid around them.
 /// @throws Error as check_line_output(); (work failed) where the disk refuses.
 void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,
-                 std::span<const PointColumn> columns = {});
+                 std::span<const PointColumn> columns = {}, const TractogramImage* image = nullptr);
 
 }  // namespace palpate

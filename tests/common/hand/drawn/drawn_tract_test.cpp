@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/tensor_examples.h"
+#include "common/hand/drawn/drawn_lines.h"
+#include "common/load/trk_header.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
@@ -222,6 +225,32 @@ TEST(TractPen, SavesLinesOfTwoPointsAndMoreWithTheirColumns) {
   EXPECT_NE(text.find(",force,cl,cp,fa\n"), std::string::npos) << text;
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;
   EXPECT_NE(text.find(",0.25,"), std::string::npos) << text;
+}
+
+// What reads a .trk by an image compares its header with that of the image.
+TEST(TractPen, SavesTheGridOfItsImage) {
+  const test::TempFolder folder;
+  const auto field = planar();
+  ASSERT_TRUE(field->voxels());
+  TractPen pen(field, 0.1);
+  pen.add(0.0, {1.0, 2.0, 3.0}, 0.25);
+  pen.add(1.0, {2.0, 2.0, 3.0}, 0.5);
+  pen.lift();
+  (void)save_tracts(folder.path("pen.trk"), pen.tracts(), false);
+  DrawnLines kept;
+  kept.keep(pen.take());
+  kept.save(folder.path("kept.trk"), false);
+  for (const char* name : {"pen.trk", "kept.trk"}) {
+    const std::string bytes = test::read_file(folder.path(name));
+    TrkHeader header;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      EXPECT_EQ(header.dim[axis], field->voxels()->points[a]) << name;
+      EXPECT_EQ(header.vox_to_ras[axis][3], static_cast<float>(field->voxels()->origin[a])) << name;
+      EXPECT_EQ(header.vox_to_ras[axis][axis], static_cast<float>(field->voxels()->axes[a][a])) << name;
+    }
+  }
 }
 
 }  // namespace
