@@ -7,8 +7,11 @@
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/field/coincident_points.h"
+#include "common/field/curved_split.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
+#include "common/field/grid/tet_seams.h"
 #include "common/field/grid/tet_shape.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
@@ -224,17 +227,17 @@ std::shared_ptr<FieldGrid> make_rectilinear(const DataSet& block, const std::str
 }
 
 /// Sentences about what splitting found and did.
-void note_split(const SplitMesh& split, std::size_t cells, FieldNotes& notes) {
+void note_split(const SplitMesh& split, std::size_t points, std::size_t cells, FieldNotes& notes) {
   const auto add = [&notes](std::size_t count, const std::string& one, const std::string& many,
                             const std::string& rest) {
     if (count > 0) notes.lines.push_back(count_text(count, one, many) + rest);
   };
   notes.lines.push_back(count_text(cells, "cell", "cells") + " split into " +
                         count_text(split.tets.size(), "tetrahedron", "tetrahedra") + " over " +
-                        std::to_string(split.points.size()) + " points: linear interpolation");
+                        std::to_string(points) + " points: linear interpolation");
   add(split.merged_points, "point", "points",
-      " of block borders and grid seams joined with one at the same place (closer than 2^-10 of the local "
-      "spacing)");
+      " of block borders, grid seams and cells with points of their own joined with one at the same place "
+      "(closer than 2^-10 of the local spacing)");
   add(split.refined_cells, "quadratic cell", "quadratic cells", " split into eight linear ones each");
   add(split.corner_cells, "higher-order cell", "higher-order cells", " taken through their corners alone");
   add(split.dropped_cells, "cell", "cells", " without a volume left out");
@@ -246,29 +249,118 @@ void note_split(const SplitMesh& split, std::size_t cells, FieldNotes& notes) {
   add(split.folded_cells, "cell", "cells", " so warped that their tetrahedra overlap");
 }
 
+/// The mesh of a split, and its scale.
+std::shared_ptr<const TetMesh> make_mesh(SplitMesh& split, double scale, const std::string& file,
+                                         int threads) {
+  for (Vec3& x : split.points) x *= scale;
+  try {
+    return std::make_shared<TetMesh>(std::move(split.points), split.tets, threads);
+  } catch (const Error& error) {
+    throw Error(error.code(), file + ": " + error.what());
+  }
+}
+
+void note_seams(const Seams& seams, FieldNotes& notes) {
+  if (seams.faces > 0) {
+    notes.lines.push_back(
+        std::to_string(seams.faces) + " of " + count_text(seams.border_faces, "border face", "border faces") +
+        " have cells behind them with points of their own: lines cross there by location" +
+        (seams.over_gaps > 0 ? ", " + std::to_string(seams.over_gaps) + " over a gap" : ""));
+  }
+  if (seams.overlapping > 0) {
+    notes.lines.push_back(
+        count_text(seams.overlapping, "border face lies", "border faces lie") +
+        " inside other cells: where cells overlap, a seed takes the one that the search meets "
+        "first, and a line stays with the cells it is in until they end");
+  }
+}
+
+void note_curved(const CurvedSplit& curved, FieldNotes& notes) {
+  const std::string n = std::to_string(curved.parts);
+  notes.lines.push_back(
+      count_text(curved.cells, "curved cell", "curved cells") + " split into " + n + " x " + n + " x " + n +
+      " parts each, with the values of their polynomials: linear interpolation within " +
+      "them is off by up to " + number_text(100.0 * curved.error) + " % of the largest value");
+  if (curved.rational > 0) {
+    notes.lines.push_back(count_text(curved.rational, "Bezier cell", "Bezier cells") +
+                          ": weights of rational ones are not read, taken as 1");
+  }
+}
+
+/// The values at the points of split blocks.
+PointValue value_of(const CurvedSplit& curved, std::span<const DataSet> blocks, const PointValue& value) {
+  std::vector<std::size_t> first_made{0}, first_input{0};
+  std::size_t made = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    made += curved.blocks[b].point_count() - blocks[b].point_count();
+    first_made.push_back(made);
+    first_input.push_back(first_input.back() + blocks[b].point_count());
+  }
+  return [&curved, blocks, &value, first_made, first_input](const DataSet& block, std::size_t point) {
+    const auto b = as_size(&block - curved.blocks.data());
+    const std::size_t inputs = blocks[b].point_count();
+    if (point < inputs) return value(blocks[b], point);
+    const MadePoints& sums = curved.made;
+    const std::size_t made_point = first_made[b] + point - inputs;
+    Vec3 sum{0.0};
+    for (std::size_t i = sums.begin[made_point]; i < sums.begin[made_point + 1]; ++i)
+      sum += sums.weight[i] * value(blocks[b], sums.input[i] - first_input[b]);
+    return sum;
+  };
+}
+
+/// Puts points and cells of split blocks in terms of the data's own.
+void return_to_data(CurvedSplit& curved, FieldGrid& grid, SplitMesh& split) {
+  auto made = std::make_shared<MadePoints>(std::move(curved.made));
+  std::vector<std::uint32_t> point_of_input;
+  for (std::size_t p = 0; p < curved.input_of.size(); ++p) {
+    auto& points = curved.input_of[p] == kNoPoint ? made->point : point_of_input;
+    points.push_back(split.point_of_input[p]);
+  }
+  split.point_of_input = std::move(point_of_input);
+  for (std::uint32_t& cell : split.source_cell) cell = curved.cell_of[cell];
+  grid.made = std::move(made);
+}
+
 std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, const std::string& file,
-                                           int threads) {
-  SplitMesh split = split_into_tetrahedra(blocks, file);
+                                           int threads, const PointValue* value) {
+  std::optional<CurvedSplit> curved;
+  if (value != nullptr && *value) curved = split_curved(blocks, *value);
+  const PointValue value_in_curved = curved ? value_of(*curved, blocks, *value) : PointValue{};
+  const std::span<const DataSet> used = curved ? std::span<const DataSet>(curved->blocks) : blocks;
+  CoincidentPoints coincident(used, curved ? &value_in_curved : value);
+  SplitMesh split = split_into_tetrahedra(used, file, {.agree = coincident.agree(), .first_of = {}});
   auto grid = std::make_shared<FieldGrid>();
   std::size_t cells = 0;
   for (const DataSet& block : blocks) cells += block.cell_count();
-  note_split(split, cells, grid->notes);
 
   Box bounds;
   for (const Vec3& x : split.points) bounds.include(x);
   grid->frame.length_exponent = length_exponent_of(bounds, file);
   const double scale = power_of_two(-grid->frame.length_exponent);
-  for (Vec3& x : split.points) x *= scale;
+  grid->tets = make_mesh(split, scale, file, threads);
+  Seams seams = find_seams(*grid->tets, threads);
+  if (value != nullptr && seams.faces > 0) {
+    SplitJoins joins;
+    joins.first_of = coincident.first_of(*grid->tets, split.point_of_input);
+    if (!joins.first_of.empty()) {
+      split = split_into_tetrahedra(used, file, joins);
+      grid->tets = make_mesh(split, scale, file, threads);
+      seams = find_seams(*grid->tets, threads);
+    }
+  }
+  if (curved) {
+    note_curved(*curved, grid->notes);
+    return_to_data(*curved, *grid, split);
+  }
+  note_split(split, grid->tets->points().size(), cells, grid->notes);
+  coincident.note(grid->notes);
+  note_seams(seams, grid->notes);
 
-  bool same = split.points.size() == split.point_of_input.size();
+  bool same = grid->tets->points().size() == split.point_of_input.size();
   for (std::size_t p = 0; same && p < split.point_of_input.size(); ++p) same = split.point_of_input[p] == p;
   if (!same) grid->point_of_input = std::move(split.point_of_input);
 
-  try {
-    grid->tets = std::make_shared<TetMesh>(std::move(split.points), split.tets, threads);
-  } catch (const Error& error) {
-    throw Error(error.code(), file + ": " + error.what());
-  }
   const auto order = grid->tets->cell_order();
   grid->source_cell.resize(order.size());
   for (std::size_t t = 0; t < order.size(); ++t) grid->source_cell[t] = split.source_cell[order[t]];
@@ -389,6 +481,26 @@ class CellsAroundPoints {
   std::vector<std::uint32_t> cells_;
 };
 
+/// Points inside curved cells, of which none stands for a point of the data.
+void gather_made(const MadePoints& made, std::span<const DataSet> blocks, const TupleReader& read,
+                 std::vector<std::uint8_t>& done, const Store& store) {
+  std::vector<std::size_t> first_point{0};
+  for (const DataSet& block : blocks) first_point.push_back(first_point.back() + block.point_count());
+  std::vector<double> value(as_size(store.components)), sum(value.size());
+  for (std::size_t m = 0; m < made.point.size(); ++m) {
+    if (made.point[m] == kNoPoint || done[made.point[m]] != 0) continue;
+    done[made.point[m]] = 1;
+    std::ranges::fill(sum, 0.0);
+    for (std::size_t i = made.begin[m]; i < made.begin[m + 1]; ++i) {
+      const auto above = std::ranges::upper_bound(first_point, std::size_t{made.input[i]});
+      const auto b = as_size(above - first_point.begin()) - 1;
+      read(blocks[b], made.input[i] - first_point[b], value.data());
+      for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += made.weight[i] * value[c];
+    }
+    store.put(made.point[m], sum.data());
+  }
+}
+
 void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
                  const TupleReader& read, const Store& store, int threads) {
   if (association == Association::kPoint) {
@@ -406,6 +518,7 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Associa
         store.put(point, value.data());
       }
     }
+    if (grid.made) gather_made(*grid.made, blocks, read, done, store);
     return;
   }
   std::vector<std::size_t> first_cell{0};
@@ -441,8 +554,10 @@ std::size_t FieldGrid::point_count() const noexcept {
   return count_of(n);
 }
 
-std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
-                                                 int threads) {
+namespace {
+
+std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, const std::string& file,
+                                           int threads, const PointValue* value) {
   std::shared_ptr<FieldGrid> grid;
   if (blocks.size() == 1) {
     const DataSet& block = blocks.front();
@@ -450,12 +565,24 @@ std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks
     if (std::holds_alternative<RectilinearTopology>(block.topology)) grid = make_rectilinear(block, file);
     if (std::holds_alternative<UniformTopology>(block.topology)) grid = make_uniform(block, file);
   }
-  if (!grid) grid = make_tetrahedra(blocks, file, threads);
+  if (!grid) grid = make_tetrahedra(blocks, file, threads, value);
   for (const DataSet& block : blocks) {
     grid->input_points += block.point_count();
     grid->input_cells += block.cell_count();
   }
   return grid;
+}
+
+}  // namespace
+
+std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
+                                                 int threads) {
+  return make_grid(blocks, file, threads, nullptr);
+}
+
+std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
+                                                 int threads, const PointValue& value) {
+  return make_grid(blocks, file, threads, &value);
 }
 
 GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,

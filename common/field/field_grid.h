@@ -18,6 +18,8 @@
 
 namespace palpate {
 
+struct MadePoints;  // curved_split.h
+
 /// Exactly one of `box` and `tets` is not null.
 struct FieldGrid {
   LocalFrame frame;  ///< lengths and rotation; its speed exponent is zero
@@ -31,11 +33,12 @@ struct FieldGrid {
   std::size_t input_points = 0;               ///< of all blocks
   std::size_t input_cells = 0;
   FieldNotes notes;
+  std::shared_ptr<const MadePoints> made;  ///< tets: points inside curved cells; null where there are none
 
   [[nodiscard]] std::size_t point_count() const noexcept;
   /// The grid's points are the data's points, one for one.
   [[nodiscard]] bool same_points() const noexcept {
-    return !reversed[0] && !reversed[1] && !reversed[2] && !blanked && point_of_input.empty();
+    return !reversed[0] && !reversed[1] && !reversed[2] && !blanked && point_of_input.empty() && !made;
   }
 };
 
@@ -54,7 +57,7 @@ struct GatheredValues {
 using TupleReader = std::function<void(const DataSet& block, std::size_t tuple, double* out)>;
 
 /// Brings values to the grid's points: those of joined points from the first of them, those of cells by
-/// the volume-weighted mean of the cells around each point, NaN at blanked points of a box grid. Points that
+/// the volume-weighted mean of the cells around each point, those inside curved cells by their polynomials, NaN at blanked points of a box grid. Points that
 /// no value reaches are NaN. @pre `blocks` are those that the grid was made of.
 [[nodiscard]] GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks,
                                            Association association, int components, bool use_double,

@@ -7,9 +7,11 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/coincident_points.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/hexahedron_difference.h"
+#include "common/field/rest_speed.h"
 #include "common/field/vector_field.h"
 
 namespace palpate {
@@ -92,6 +94,18 @@ SpeedRange speed_range(std::span<const T> values) {
   return out;
 }
 
+/// Points that move, but slower than what counts as at rest.
+template <typename T>
+std::size_t count_resting(std::span<const T> values, double rest_speed) {
+  std::size_t count = 0;
+  for (std::size_t p = 0; p + 2 < values.size(); p += 3) {
+    const auto at = [&](std::size_t i) { return std::abs(static_cast<double>(values[p + i])); };
+    const double largest = std::max({at(0), at(1), at(2)});
+    if (largest > 0.0 && largest <= rest_speed) ++count;
+  }
+  return count;
+}
+
 template <typename T>
 bool aligned(const DataArray& array) {
   return reinterpret_cast<std::uintptr_t>(array.bytes.data()) % alignof(T) == 0;
@@ -108,7 +122,8 @@ class VectorFieldBuilder {
     auto field = std::make_shared<VectorField>();
     field->name_ = choice.label;
     const std::vector<DataSet> used = usable_blocks(blocks, choice, file, *field);
-    field->grid_ = make_field_grid(used, file, threads);
+    const PointValue value = point_value(used, choice);
+    field->grid_ = make_field_grid(used, file, threads, value);
     const FieldGrid& grid = *field->grid_;
     field->frame_ = grid.frame;
     field->bounds_ = grid.bounds;
@@ -195,6 +210,16 @@ class VectorFieldBuilder {
     return used;
   }
 
+  /// Empty for values of cells: they are brought to the points.
+  static PointValue point_value(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
+    if (choice.association == Association::kCell) return {};
+    std::vector<std::vector<const DataArray*>> arrays;
+    for (const DataSet& block : blocks) arrays.push_back(find_arrays(block, choice).arrays);
+    return [&blocks, &choice, arrays = std::move(arrays)](const DataSet& block, std::size_t point) {
+      return vector_of(choice, arrays[as_size(&block - blocks.data())], point);
+    };
+  }
+
   /// Takes the data's own memory where its points are the grid's points.
   static bool share_values(const std::vector<DataSet>& blocks, const VectorChoice& choice,
                            const FieldGrid& grid, PointVectors& values) {
@@ -271,6 +296,23 @@ class VectorFieldBuilder {
     if (range.bad > 0) {
       field.notes_.lines.push_back(std::to_string(range.bad) + (range.bad == 1 ? " point" : " points") +
                                    " with a value that is not finite: cells around them are bad data");
+    }
+    const double rest = std::visit(
+        [](const auto& values) {
+          return rest_speed(values.size() / 3, [&](std::size_t p) {
+            return std::hypot(static_cast<double>(values[3 * p]), static_cast<double>(values[3 * p + 1]),
+                              static_cast<double>(values[3 * p + 2]));
+          });
+        },
+        field.values_.values);
+    const std::size_t resting =
+        std::visit([&](const auto& values) { return count_resting(values, rest); }, field.values_.values);
+    if (resting > 0) {
+      std::array<char, 160> text{};
+      std::snprintf(text.data(), text.size(),
+                    "%zu %s slower than %.2g: taken as at rest, lines end there (stagnation)", resting,
+                    resting == 1 ? "point moves" : "points move", rest);
+      field.notes_.lines.emplace_back(text.data());
     }
     if (range.max_speed == 0.0) field.notes_.lines.emplace_back("the field is zero everywhere");
   }

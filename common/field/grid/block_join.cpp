@@ -43,7 +43,8 @@ constexpr std::uint32_t kEnd = 0xFFFFFFFFU;
 
 class Joiner {
  public:
-  Joiner(std::span<const DataSet> blocks, const std::string& file) : blocks_(blocks), file_(file) {}
+  Joiner(std::span<const DataSet> blocks, const std::string& file, const PointsAgree& agree)
+      : blocks_(blocks), file_(file), agree_(agree) {}
 
   JoinedPoints run() {
     gather_points();
@@ -119,7 +120,8 @@ class Joiner {
         add_points(b, std::get<UnstructuredTopology>(block.topology), candidates);
       }
     }
-    out_.first_of = merge_points(out_.points, candidates, kMergeDistance);
+    out_.place_of = merge_points(out_.points, candidates, kMergeDistance);
+    out_.first_of = agree_ ? merge_points(out_.points, candidates, kMergeDistance, agree_) : out_.place_of;
     for (std::size_t p = 0; p < out_.first_of.size(); ++p) out_.merged += out_.first_of[p] != p ? 1 : 0;
   }
 
@@ -191,13 +193,15 @@ class Joiner {
 
   std::span<const DataSet> blocks_;
   const std::string& file_;
+  const PointsAgree& agree_;
   JoinedPoints out_;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
-                                        std::span<const MergeCandidate> candidates, double distance) {
+                                        std::span<const MergeCandidate> candidates, double distance,
+                                        const PointsAgree& agree) {
   std::vector<std::uint32_t> first(positions.size());
   std::iota(first.begin(), first.end(), 0U);
 
@@ -233,7 +237,7 @@ std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
           if (q.block == p.block && !(p.within_block && q.within_block)) continue;
           const Vec3 d = (x - positions[q.point]) * inverse;
           const double limit = distance * std::min(p.spacing, q.spacing) * inverse;
-          if (glm::dot(d, d) <= limit * limit) {
+          if (glm::dot(d, d) <= limit * limit && (!agree || agree(p.point, q.point))) {
             found = j;
             break;
           }
@@ -264,8 +268,8 @@ bool structured(const DataSet& block) noexcept {
   return !std::holds_alternative<UnstructuredTopology>(block.topology);
 }
 
-JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file) {
-  return Joiner(blocks, file).run();
+JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file, const PointsAgree& agree) {
+  return Joiner(blocks, file, agree).run();
 }
 
 }  // namespace palpate

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,10 +20,14 @@ inline constexpr double kMergeDistance = 0x1p-10;
 /// "No point" in lists of point numbers.
 inline constexpr std::uint32_t kNoPoint = 0xFFFFFFFFU;
 
+/// Whether two points at the same place, counted through all blocks, have the same values; empty where all have.
+using PointsAgree = std::function<bool(std::uint32_t, std::uint32_t)>;
+
 struct JoinedPoints {
   std::vector<Vec3> points;                ///< data coordinates, block after block
   std::vector<std::uint8_t> odd;           ///< i + j + k of structured points is odd
-  std::vector<std::uint32_t> first_of;     ///< for each point, the one that stands for its place
+  std::vector<std::uint32_t> first_of;     ///< for each point, the one that it is joined with
+  std::vector<std::uint32_t> place_of;     ///< likewise, whatever their values
   std::vector<std::uint32_t> first_point;  ///< of each block
   std::size_t merged = 0;                  ///< points for which another one stands
   double unit = 1.0;                       ///< power of two that makes lengths about one
@@ -33,7 +38,8 @@ struct JoinedPoints {
 /// Checks the blocks and joins their points.
 /// @throws Error (bad input) with `file` where sizes disagree, or points or cells are too many to be
 /// numbered.
-[[nodiscard]] JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file);
+[[nodiscard]] JoinedPoints join_blocks(std::span<const DataSet> blocks, const std::string& file,
+                                       const PointsAgree& agree = {});
 
 /// A point that may be joined with others.
 struct MergeCandidate {
@@ -45,10 +51,11 @@ struct MergeCandidate {
 
 /// For every position the first one that it is joined with (itself where there is none): candidates p, q
 /// closer than `distance` times the smaller of their spacings, in the order given. Each is compared with
-/// first ones alone, so that chains of close points do not creep.
+/// first ones alone, so that chains of close points do not creep. Where `agree` is given, points that it parts
+/// stay apart.
 /// @pre positions of candidates are finite; distance <= 2^-2.
 [[nodiscard]] std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
                                                       std::span<const MergeCandidate> candidates,
-                                                      double distance);
+                                                      double distance, const PointsAgree& agree = {});
 
 }  // namespace palpate

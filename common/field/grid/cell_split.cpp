@@ -19,8 +19,14 @@ using Ids = std::span<const std::uint32_t>;
 
 class Splitter {
  public:
-  Splitter(std::span<const DataSet> blocks, std::string file)
-      : blocks_(blocks), file_(std::move(file)), joined_(join_blocks(blocks, file_)) {
+  Splitter(std::span<const DataSet> blocks, std::string file, const SplitJoins& joins)
+      : blocks_(blocks), file_(std::move(file)), joined_(join_blocks(blocks, file_, joins.agree)) {
+    if (!joins.first_of.empty()) {
+      joined_.first_of = joins.first_of;
+      joined_.merged = 0;
+      for (std::size_t p = 0; p < joins.first_of.size(); ++p)
+        joined_.merged += joins.first_of[p] != p ? 1 : 0;
+    }
     mesh_.points = std::move(joined_.points);
     mesh_.merged_points = joined_.merged;
   }
@@ -274,7 +280,7 @@ class Splitter {
       std::array<std::size_t, 4> ring;
     };
     static constexpr std::array<Diagonal, 3> kDiagonals{
-        {{{4, 9}, {5, 6, 7, 8}}, {{5, 7}, {4, 8, 9, 6}}, {{6, 8}, {4, 7, 9, 5}}}};
+        {{{4, 9}, {5, 6, 7, 8}}, {{5, 7}, {4, 8, 9, 6}}, {{6, 8}, {4, 5, 9, 7}}}};
     const Diagonal* shortest = kDiagonals.data();
     for (const Diagonal& d : kDiagonals) {
       if (square(d.ends[0], d.ends[1]) < square(shortest->ends[0], shortest->ends[1])) shortest = &d;
@@ -337,6 +343,7 @@ class Splitter {
     std::vector<Entry> entries(mesh_.tets.size());
     for (std::size_t t = 0; t < entries.size(); ++t) {
       entries[t] = {mesh_.tets[t], static_cast<std::uint32_t>(t)};
+      for (std::uint32_t& v : entries[t].vertices) v = joined_.place_of[v];
       std::ranges::sort(entries[t].vertices);
     }
     std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
@@ -396,12 +403,13 @@ class Splitter {
 
 }  // namespace
 
-SplitMesh split_into_tetrahedra(std::span<const DataSet> blocks, const std::string& file) {
+SplitMesh split_into_tetrahedra(std::span<const DataSet> blocks, const std::string& file,
+                                const SplitJoins& joins) {
   if (blocks.empty()) {
     throw input_error(
         {.file = file, .place = {}, .found = "no blocks", .expected = "a volume grid", .remedy = {}});
   }
-  return Splitter(blocks, file).run();
+  return Splitter(blocks, file, joins).run();
 }
 
 }  // namespace palpate

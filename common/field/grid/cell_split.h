@@ -35,12 +35,21 @@ struct SplitMesh {
   std::size_t left_handed_blocks = 0;  ///< blocks most of whose cells turn the other way; not errors
 };
 
+/// How points are joined.
+struct SplitJoins {
+  PointsAgree agree;  ///< of different blocks, and of the seams of one
+  /// Where not empty: for each point, counted through all blocks, the one that stands for it, in place of what
+  /// is found at the borders of blocks.
+  std::vector<std::uint32_t> first_of;
+};
+
 /// Ten-node tetrahedra and 27-node hexahedra become eight linear cells each where all cells of all blocks
 /// are of that one type; in other meshes higher-order cells are taken through their corners, so that their
 /// faces agree with their neighbours'. Cells are oriented positively: a cell type of which a block holds
 /// mostly negative ones has the other vertex order (left-handed blocks, wedges) and is no error.
 /// @throws Error (bad input) with `file` where sizes disagree, a cell names a point that does not exist, or
 /// nothing three-dimensional is left.
-[[nodiscard]] SplitMesh split_into_tetrahedra(std::span<const DataSet> blocks, const std::string& file);
+[[nodiscard]] SplitMesh split_into_tetrahedra(std::span<const DataSet> blocks, const std::string& file,
+                                              const SplitJoins& joins = {});
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 
 #include "common/base/parallel.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/rest_speed.h"
 
 namespace palpate {
 namespace {
@@ -25,6 +26,13 @@ ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_me
   const std::span<const Vec3> points = mesh_->points();
   vertices_ = std::make_unique_for_overwrite<PackedVertex[]>(points.size());
   const PointVectors& values = field.values();
+  const double rest = std::visit(
+      [&](const auto& stored) {
+        return rest_speed(points.size(), [&](std::size_t i) {
+          return glm::length(values.scale * Vec3{stored[3 * i], stored[3 * i + 1], stored[3 * i + 2]});
+        });
+      },
+      values.values);
   std::visit(
       [&](const auto& stored) {
         using Stored = std::remove_cvref_t<decltype(stored[0])>;
@@ -32,7 +40,9 @@ ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_me
         parallel_for(points.size(), threads, [&](std::size_t first, std::size_t last) {
           for (std::size_t i = first; i < last; ++i) {
             const Vec3 v = values.scale * Vec3{stored[3 * i], stored[3 * i + 1], stored[3 * i + 2]};
-            const double resolution = std::max(kResolution * glm::length(v), kSlowest);
+            // About a point at rest the flow is at rest where it is as slow: there is no more to be told.
+            const double speed = glm::length(v);
+            const double resolution = std::max(speed <= rest ? rest : kResolution * speed, kSlowest);
             vertices_[i] = {.x = {points[i].x, points[i].y, points[i].z, 0.0},
                             .v = {v.x, v.y, v.z, resolution}};
           }

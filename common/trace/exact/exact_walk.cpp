@@ -171,17 +171,26 @@ std::optional<End> ExactWalk::cross(int face) {
   const TetMesh& mesh = mesh_->mesh();
   const CellIndex from = cell_index_;
   const CellIndex next = neighbors(from)[as_size(face)];
-  if (next == kNoCell) return End::kLeftDomain;
+  if (next == kNoCell || mesh.zero_volume(next)) {
+    const Vec3 x = position(cell_, b_).xyz();
+    const CellIndex beyond = next == kNoCell ? kNoCell : sound_cell_beyond(mesh, next, from, x);
+    if (beyond != kNoCell) {
+      settle(beyond, x);
+      return std::nullopt;
+    }
+    const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, standing_);
+    if (there.cell == kNoCell) return End::kLeftDomain;
+    settle(there.cell, there.x);
+    error_.add(there.error);
+    end_.position = there.x;
+    end_.speed = glm::length(there.v);
+    end_.error += there.error;
+    if (end_.speed > 0.0) direction_ = there.v / end_.speed;
+    return std::nullopt;
+  }
   modes_.reset();
   pieces_in_cell_ = 0;
   loaded_ = false;
-  if (mesh.zero_volume(next)) {
-    const Vec3 x = position(cell_, b_).xyz();
-    const CellIndex beyond = sound_cell_beyond(mesh, next, from, x);
-    if (beyond == kNoCell) return End::kLeftDomain;
-    settle(beyond, x);
-    return std::nullopt;
-  }
   // The three shared vertices keep their coordinates under the neighbour's numbering; its own vertex,
   // opposite to the face of entry, is the one that none of them matches.
   TetMesh::Tet here = mesh.cells()[as_size(from)];

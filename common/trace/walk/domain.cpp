@@ -1,9 +1,34 @@
 #include "common/trace/walk/domain.h"
 
+#include <cmath>
+#include <variant>
+
 #include "common/base/index.h"
+#include "common/field/rest_speed.h"
 #include "common/trace/walk/tet_crossing.h"
 
 namespace palpate {
+
+TetDomain::TetDomain(const ExactMesh& mesh, double sign)
+    : mesh_(&mesh),
+      sign_(sign),
+      rest_speed_(palpate::rest_speed(mesh.mesh().points().size(), [&](std::size_t i) {
+        const double* v = mesh.vertices()[i].v;
+        return std::hypot(v[0], v[1], v[2]);
+      })) {}
+
+BoxDomain::BoxDomain(const VectorField& field, double sign)
+    : grid_(field.box_grid()), values_(&field.values()), sign_(sign) {
+  rest_speed_ = std::visit(
+      [&](const auto& stored) {
+        return palpate::rest_speed(stored.size() / 3, [&](std::size_t i) {
+          return values_->scale * std::hypot(static_cast<double>(stored[3 * i]),
+                                             static_cast<double>(stored[3 * i + 1]),
+                                             static_cast<double>(stored[3 * i + 2]));
+        });
+      },
+      values_->values);
+}
 
 bool TetDomain::locate(const Vec3& x) {
   TetPoint found;
@@ -17,6 +42,11 @@ void TetDomain::load(CellIndex cell) {
   AffineCell affine;
   const TetMesh::Tet& tet = mesh_->mesh().cells()[as_size(cell)];
   bad_ = !load_cell(affine, mesh_->vertices(), tet.data(), sign_);
+  rest_here_ = 0.0;
+  for (const std::uint32_t i : tet) {
+    const double* v = mesh_->vertices()[i].v;
+    if (std::hypot(v[0], v[1], v[2]) <= rest_speed_) rest_here_ = rest_speed_;
+  }
   const PackedVertex& corner = mesh_->vertices()[tet[3]];
   corner_ = Pack4::load(corner.x);
   origin_ = sign_ * Pack4{corner.v[0], corner.v[1], corner.v[2], 0.0};
@@ -37,10 +67,11 @@ bool TetDomain::cross(int face, Pack4& y, int& entry) {
   const TetMesh& mesh = mesh_->mesh();
   const CellIndex from = cell_;
   const CellIndex next = mesh.neighbors()[as_size(from)][as_size(face)];
-  if (next == kNoCell) return false;
+  crossed_seam_ = false;
+  if (next == kNoCell) return cross_border(face, y, entry);
   if (mesh.zero_volume(next)) {
     const CellIndex beyond = sound_cell_beyond(mesh, next, from, y.xyz());
-    if (beyond == kNoCell) return false;
+    if (beyond == kNoCell) return cross_border(face, y, entry);
     load(beyond);
     entry = -1;
     return true;
@@ -51,6 +82,21 @@ bool TetDomain::cross(int face, Pack4& y, int& entry) {
     if (back[as_size(i)] == from) entry = i;
   }
   load(next);
+  return true;
+}
+
+bool TetDomain::cross_border(int face, Pack4& y, int& entry) {
+  const Vec3 x = y.xyz();
+  constexpr double kMoved = 1e-12;  // of the cell
+  stuck_ = glm::distance(x, last_seam_) <= kMoved * size_ ? stuck_ + 1 : 0;
+  const SeamCrossing there = cross_seam(*mesh_, cell_, face, x, sign_, stuck_);
+  if (there.cell == kNoCell) return false;
+  crossed_seam_ = true;
+  seam_error_ = there.error;
+  entry = -1;
+  load(there.cell);
+  last_seam_ = there.x;
+  y = Pack4{last_seam_, y[3]};
   return true;
 }
 

@@ -93,8 +93,7 @@ class BoxFaces {
 /// A uniform or rectilinear grid.
 class BoxDomain : public BoxFaces {
  public:
-  BoxDomain(const VectorField& field, double sign)
-      : grid_(field.box_grid()), values_(&field.values()), sign_(sign) {}
+  BoxDomain(const VectorField& field, double sign);
 
   [[nodiscard]] bool locate(const Vec3& x) {
     if (!grid_->locate(x, index_)) return false;
@@ -102,6 +101,8 @@ class BoxDomain : public BoxFaces {
     return true;
   }
   [[nodiscard]] bool bad() const { return bad_; }
+  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner is slower, else 0.
+  [[nodiscard]] double rest_speed() const { return rest_here_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double face_scale() const { return size_; }
 
@@ -176,6 +177,13 @@ class BoxDomain : public BoxFaces {
     BoxCell cell;
     grid_->load(index_, *values_, cell);
     bad_ = cell.bad_data;
+    rest_here_ = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const double x = corner & 1U, y = corner >> 1U & 1U, z = corner >> 2U;
+      const Vec3 v = ((cell.c[0] + x * cell.c[1]) + y * (cell.c[2] + x * cell.c[4])) +
+                     z * ((cell.c[3] + x * cell.c[6]) + y * (cell.c[5] + x * cell.c[7]));
+      if (glm::dot(v, v) <= rest_speed_ * rest_speed_) rest_here_ = rest_speed_;
+    }
     corner_ = Pack4{cell.lower, 0.0};
     // Of x - lo rather than of u: a product less in each evaluation.
     const Vec3& inverse = cell.inverse_size;
@@ -194,8 +202,10 @@ class BoxDomain : public BoxFaces {
   const BoxGrid* grid_;
   const PointVectors* values_;
   double sign_;
+  double rest_speed_ = 0.0;
   Index3 index_{0};
   bool bad_ = false;
+  double rest_here_ = 0.0;
   double size_ = 1.0;
   Pack4 corner_;
   std::array<Pack4, 8> c_;  ///< coefficients of (1) of box_grid.h, for x - lo
@@ -204,10 +214,12 @@ class BoxDomain : public BoxFaces {
 /// A tetrahedral mesh with linear interpolation.
 class TetDomain {
  public:
-  TetDomain(const ExactMesh& mesh, double sign) : mesh_(&mesh), sign_(sign) {}
+  TetDomain(const ExactMesh& mesh, double sign);
 
   [[nodiscard]] bool locate(const Vec3& x);
   [[nodiscard]] bool bad() const { return bad_; }
+  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner is slower, else 0.
+  [[nodiscard]] double rest_speed() const { return rest_here_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] static double face_scale() { return 1.0; }
 
@@ -242,14 +254,25 @@ class TetDomain {
     return first;
   }
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry);
+  /// The last cross() led to a cell that shares no points with the one before: the velocity may jump.
+  [[nodiscard]] bool crossed_seam() const { return crossed_seam_; }
+  /// What that may cost: SeamCrossing::error.
+  [[nodiscard]] double seam_error() const { return seam_error_; }
 
  private:
   void load(CellIndex cell);
+  [[nodiscard]] bool cross_border(int face, Pack4& y, int& entry);
 
   const ExactMesh* mesh_;
   double sign_;
+  double rest_speed_ = 0.0;
   CellIndex cell_ = kNoCell;
   bool bad_ = false;
+  double rest_here_ = 0.0;
+  bool crossed_seam_ = false;
+  double seam_error_ = 0.0;
+  int stuck_ = 0;  ///< crossings of seams at one place
+  Vec3 last_seam_{HUGE_VAL};
   double size_ = 1.0;
   Pack4 corner_, origin_;
   FlowGradient gradient_;
@@ -269,6 +292,7 @@ class FormulaDomain : public BoxFaces {
 
   [[nodiscard]] bool locate(const Vec3& x) const { return inside(Pack4{x, 0.0}, -1); }
   [[nodiscard]] static bool bad() { return false; }
+  [[nodiscard]] static double rest_speed() { return 0.0; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double face_scale() const { return size_; }
   [[nodiscard]] Pack4 velocity(const Pack4& y) const { return {sign_ * formula_->velocity(y.xyz()), 0.0}; }

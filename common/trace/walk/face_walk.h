@@ -78,9 +78,12 @@ class FaceWalk final : public LineWalk {
         pending_face_ = -1;
         if (!domain_.cross(face, y_, entry_)) return End::kLeftDomain;
         fresh_ = true;
+        if constexpr (requires { domain_.crossed_seam(); }) {
+          if (domain_.crossed_seam()) go_on_behind_seam();
+        }
       }
       if (domain_.bad()) return End::kBadData;
-      if (!std::isfinite(k_[3])) return End::kStagnation;
+      if (!std::isfinite(k_[3]) || k_[3] * domain_.rest_speed() >= 1.0) return End::kStagnation;
       if (fresh_) {
         bend_ = curvature(domain_.gradient(y_), k_);
         fresh_ = false;
@@ -149,6 +152,24 @@ class FaceWalk final : public LineWalk {
     }
   };
   [[nodiscard]] Pack4 slope(const Pack4& y) const { return Flow{domain_}.slope(y); }
+
+  /// Position and slope jump there.
+  void go_on_behind_seam() {
+    k_ = slope(y_);
+    if (std::isfinite(k_[3])) {
+      direction_ = k_.xyz();
+      end_.speed = 1.0 / k_[3];
+    }
+    method_.restart();
+    stepped_ = false;
+    if constexpr (Method::kEstimatesKept) {
+      error_.add(domain_.seam_error(), direction_);
+    } else {
+      error_.add(domain_.seam_error());
+    }
+    end_.position = y_.xyz();
+    end_.error += domain_.seam_error();
+  }
 
   /// Derivative of slope() along the line; notes how fast the flow slows down.
   [[nodiscard]] Pack4 curvature(const FlowGradient& gradient, const Pack4& k) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/index.h"
+#include "common/field/grid/tet_seams.h"
 
 namespace palpate {
 
@@ -45,6 +46,50 @@ CellIndex sound_cell_beyond(const TetMesh& mesh, CellIndex flat, CellIndex from,
   constexpr double kMiss = -1e-6;
   if (beyond.margin >= kMiss) return beyond.cell;
   return near.margin >= kMiss ? near.cell : kNoCell;
+}
+
+namespace {
+
+Vec3 velocity_at(const ExactMesh& mesh, CellIndex cell, const Vec4& b) {
+  Vec3 v{0.0};
+  for (int i = 0; i < 4; ++i) {
+    const PackedVertex& vertex = mesh.vertices()[mesh.mesh().cells()[as_size(cell)][as_size(i)]];
+    v += b[i] * Vec3(vertex.v[0], vertex.v[1], vertex.v[2]);
+  }
+  return v;
+}
+
+/// The nearest coordinates that a point of the cell has, nearly.
+Vec4 clamped(const Vec4& b) {
+  const Vec4 kept = glm::max(b, Vec4(0.0));
+  return kept / (kept[0] + kept[1] + kept[2] + kept[3]);
+}
+
+}  // namespace
+
+SeamCrossing cross_seam(const ExactMesh& mesh, CellIndex from, int face, const Vec3& x, double sign,
+                        int stuck) {
+  const TetMesh& tets = mesh.mesh();
+  SeamCrossing out;
+  out.cell = cell_behind(tets, from, face, x).cell;
+  if (out.cell == kNoCell) return out;
+  Vec4 b = clamped(tets.barycentric(out.cell, x));
+  const Vec3 before = sign * velocity_at(mesh, from, clamped(tets.barycentric(from, x)));
+  out.v = sign * velocity_at(mesh, out.cell, b);
+
+  constexpr int kStuck = 4;
+  constexpr double kNudge = 0x1p-10;
+  const FaceNormal face_of = face_normal(tets, from, face);
+  if (stuck >= kStuck && glm::dot(out.v, face_of.outward) < 0.0) {
+    b = clamped(tets.barycentric(out.cell, x + (kNudge * face_of.size) * face_of.outward));
+    out.v = sign * velocity_at(mesh, out.cell, b);
+  }
+  out.x = tets.position(out.cell, b);
+  out.error = glm::distance(out.x, x);
+  const double jump = glm::distance(before, out.v), speed = glm::length(before);
+  // Values that are no numbers end the line, elsewhere.
+  if (jump > 0.0 && stuck == 0) out.error += face_of.size * (jump < speed ? jump / speed : 1.0);
+  return out;
 }
 
 }  // namespace palpate

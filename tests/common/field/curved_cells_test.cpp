@@ -1,0 +1,272 @@
+// Quadratic, Lagrange and Bezier cells: their polynomials, and the meshes that they become.
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/field/curved_split.h"
+#include "common/field/grid/curved_cell.h"
+#include "common/field/grid/tet_mesh.h"
+#include "common/field/grid/tet_seams.h"
+#include "common/field/vector_field.h"
+
+namespace palpate {
+namespace {
+
+struct Kind {
+  std::uint8_t type;
+  std::size_t nodes;
+};
+constexpr std::array<Kind, 16> kKinds{{{24, 10},
+                                       {25, 20},
+                                       {26, 15},
+                                       {27, 13},
+                                       {29, 27},
+                                       {31, 12},
+                                       {32, 18},
+                                       {33, 24},
+                                       {71, 10},
+                                       {71, 20},
+                                       {71, 35},
+                                       {72, 27},
+                                       {72, 64},
+                                       {73, 18},
+                                       {73, 40},
+                                       {73, 75}}};
+
+Vec3 random_inside(std::uint8_t linear, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> one(0.0, 1.0);
+  for (;;) {
+    const double x = one(random), y = one(random), z = one(random);
+    if (linear == 10 && x + y + z > 1.0) continue;
+    if (linear == 13 && x + y > 1.0) continue;
+    if (linear == 14 && std::max(std::abs(x - 0.5), std::abs(y - 0.5)) > 0.5 * (1.0 - z)) continue;
+    return {x, y, z};
+  }
+}
+
+TEST(CurvedCell, PolynomialsOfItsOrderAreItsOwn) {
+  std::mt19937_64 random(3);
+  for (const Kind& kind : kKinds) {
+    SCOPED_TRACE(std::to_string(kind.type) + " of " + std::to_string(kind.nodes));
+    const auto cell = CurvedCell::make(kind.type, kind.nodes);
+    ASSERT_TRUE(cell);
+    ASSERT_EQ(cell->node_count(), kind.nodes);
+    const int order = kind.type == 31 ? 1 : cell->order();  // linear along its axis
+    const auto f = [order](const Vec3& x) { return std::pow(0.3 + x.x - 0.5 * x.y + 0.25 * x.z, order); };
+    std::vector<double> weights;
+    for (int n = 0; n < 20; ++n) {
+      const Vec3 xi = random_inside(cell->linear_type(), random);
+      cell->weights(xi, weights);
+      double one = 0.0, sum = 0.0;
+      for (std::size_t i = 0; i < weights.size(); ++i) {
+        one += weights[i];
+        sum += weights[i] * f(cell->nodes()[i]);
+      }
+      EXPECT_NEAR(one, 1.0, 1e-11);
+      EXPECT_NEAR(sum, f(xi), 1e-10);
+    }
+  }
+}
+
+TEST(CurvedCell, NodesAreInTheOrderOfVtk) {
+  struct Node {
+    Kind kind;
+    std::size_t index;
+    double order;
+    Vec3 at;
+  };
+  // As VTK 9.1 lists them (vtkCell::GetParametricCoords), times the order.
+  for (const Node& node : std::vector<Node>{{{71, 35}, 25, 4, {1, 2, 1}},
+                                            {{71, 35}, 28, 4, {0, 1, 1}},
+                                            {{71, 35}, 32, 4, {1, 2, 0}},
+                                            {{73, 40}, 9, 3, {1, 2, 0}},
+                                            {{73, 40}, 26, 3, {1, 0, 1}},
+                                            {{73, 40}, 34, 3, {0, 2, 1}},
+                                            {{73, 40}, 39, 3, {1, 1, 2}},
+                                            {{72, 27}, 20, 2, {0, 1, 1}},
+                                            {{72, 27}, 23, 2, {1, 2, 1}},
+                                            {{25, 20}, 10, 2, {1, 2, 0}},
+                                            {{33, 24}, 22, 2, {1, 0, 1}},
+                                            {{26, 15}, 14, 2, {0, 2, 1}},
+                                            {{24, 10}, 9, 2, {0, 1, 1}}}) {
+    const auto cell = CurvedCell::make(node.kind.type, node.kind.nodes);
+    ASSERT_TRUE(cell);
+    EXPECT_LE(glm::distance(node.order * cell->nodes()[node.index], node.at), 1e-12)
+        << int{node.kind.type} << " node " << node.index;
+  }
+}
+
+TEST(CurvedCell, OthersAreNotKnown) {
+  EXPECT_FALSE(CurvedCell::make(12, 8));
+  EXPECT_FALSE(CurvedCell::make(72, 28));
+  EXPECT_FALSE(CurvedCell::make(71, 11));
+  EXPECT_FALSE(CurvedCell::make(25, 21));
+}
+
+/// Cells of one kind that fill the boxes of a lattice of 2 x 2 x 2, with shared nodes; `bend` moves the nodes.
+DataSet cells_of(const Kind& kind, const std::function<Vec3(const Vec3&)>& bend,
+                 const std::function<Vec3(const Vec3&)>& value) {
+  const auto cell = CurvedCell::make(kind.type, kind.nodes);
+  // Each a map of the reference cell into the unit cube: origin and three edges.
+  std::vector<std::pair<Vec3, Mat3>> maps;
+  const std::uint8_t linear = cell->linear_type();
+  if (linear == 12) maps = {{Vec3(0.0), Mat3(1.0)}};
+  if (linear == 13)
+    maps = {{Vec3(0, 0, 0), Mat3(Vec3(1, 0, 0), Vec3(1, 1, 0), Vec3(0, 0, 1))},
+            {Vec3(0, 0, 0), Mat3(Vec3(1, 1, 0), Vec3(0, 1, 0), Vec3(0, 0, 1))}};
+  if (linear == 10) {
+    for (const auto& o : std::array<std::array<int, 3>, 6>{
+             {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}}) {
+      Mat3 edges(0.0);
+      for (int s = 0; s < 3; ++s) {
+        for (int t = s; t < 3; ++t) edges[t][o[static_cast<std::size_t>(s)]] = 1.0;
+      }
+      if (glm::determinant(edges) < 0.0) std::swap(edges[1], edges[2]);
+      maps.emplace_back(Vec3(0.0), edges);
+    }
+  }
+  if (linear == 14) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {0.0, 1.0}) {
+        // The base on a face, the apex in the middle.
+        Mat3 edges(0.0);
+        edges[0][(axis + 1) % 3] = 1.0;
+        edges[1][(axis + 2) % 3] = 1.0;
+        edges[2][axis] = side > 0.0 ? -0.5 : 0.5;
+        if (side > 0.0) std::swap(edges[0], edges[1]);
+        Vec3 origin(0.0);
+        origin[axis] = side;
+        maps.emplace_back(origin, edges);
+      }
+    }
+  }
+  UnstructuredTopology topology;
+  topology.offsets.push_back(0);
+  std::vector<double> position, values;
+  std::map<std::array<long, 3>, std::int64_t> number;
+  for (int c = 0; c < 8; ++c) {
+    for (const auto& [origin, edges] : maps) {
+      for (const Vec3& xi : cell->nodes()) {
+        const Vec3 x = Vec3(c & 1, c >> 1 & 1, c >> 2) + origin + edges * xi;
+        const std::array<long, 3> key{std::lround(1e4 * x.x), std::lround(1e4 * x.y), std::lround(1e4 * x.z)};
+        const auto [found, fresh] = number.try_emplace(key, static_cast<std::int64_t>(number.size()));
+        if (fresh) {
+          const Vec3 y = bend(x), v = value(y);
+          position.insert(position.end(), {y.x, y.y, y.z});
+          values.insert(values.end(), {v.x, v.y, v.z});
+        }
+        topology.connectivity.push_back(found->second);
+      }
+      topology.types.push_back(kind.type);
+      topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+    }
+  }
+  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
+  DataSet block;
+  block.topology = std::move(topology);
+  block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const double>(values)));
+  return block;
+}
+
+std::shared_ptr<const VectorField> field_of(const DataSet& block) {
+  const ArrayInfo info{"velocity", Association::kPoint, 3, ScalarType::kFloat64, 1};
+  return make_vector_field({block}, choose_vector({info}, "velocity", "curved"), "curved");
+}
+
+Vec3 bent(const Vec3& x) {
+  return x + 0.04 * Vec3(x.y * x.y - x.z, x.z * x.z + x.x * x.y, x.x * x.x - x.y * x.z);
+}
+
+TEST(CurvedCells, AreOneMeshAndLinearFieldsAreExact) {
+  const auto helix = [](const Vec3& x) { return Vec3(-x.y, x.x, 0.3); };
+  std::mt19937_64 random(5);
+  for (const Kind& kind : kKinds) {
+    SCOPED_TRACE(std::to_string(kind.type) + " of " + std::to_string(kind.nodes));
+    const auto field = field_of(cells_of(kind, bent, helix));
+    for (const std::string& line : field->notes().lines) {
+      EXPECT_EQ(line.find("inside out"), std::string::npos) << line;
+      EXPECT_EQ(line.find("overlap"), std::string::npos) << line;
+      EXPECT_EQ(line.find("corners alone"), std::string::npos) << line;
+    }
+    EXPECT_EQ(field->notes().inverted_cells, 0U);
+    EXPECT_EQ(find_seams(*field->tet_mesh(), 1).faces, 0U);
+    std::uniform_real_distribution<double> one(0.1, 1.9);
+    CellHint hint;
+    for (int n = 0; n < 50; ++n) {
+      const double x = one(random), y = one(random);
+      const Vec3 at = bent({x, y, one(random)});
+      const VectorSample sample = field->sample(at, hint);
+      ASSERT_EQ(sample.status, SampleStatus::kOk) << n;
+      EXPECT_LE(glm::distance(sample.value, helix(at)), 1e-9);
+    }
+  }
+}
+
+TEST(CurvedCells, ValuesAreThoseOfThePolynomialWithinTheStatedError) {
+  const auto parabola = [](const Vec3& x) {
+    return Vec3(1.0 - (x.y - 1.0) * (x.y - 1.0), 0.0, 0.2 * x.x * x.z);
+  };
+  const auto straight = [](const Vec3& x) { return x; };
+  std::mt19937_64 random(5);
+  for (const Kind& kind : kKinds) {
+    if (kind.type == 31) continue;  // linear along its axis
+    SCOPED_TRACE(std::to_string(kind.type) + " of " + std::to_string(kind.nodes));
+    const DataSet block = cells_of(kind, straight, parabola);
+    const PointValue value = [](const DataSet& data, std::size_t p) {
+      return Vec3(data.arrays.front().at(p, 0), data.arrays.front().at(p, 1), data.arrays.front().at(p, 2));
+    };
+    const auto split = split_curved({&block, 1}, value);
+    ASSERT_TRUE(split);
+    EXPECT_LE(split->error, 0.03);
+    EXPECT_GE(split->parts, 2);
+    const auto field = field_of(block);
+    EXPECT_NEAR(field->max_speed(), std::hypot(1.0, 0.8), 0.35);
+    std::uniform_real_distribution<double> one(0.05, 1.95);
+    CellHint hint;
+    double most = 0.0;
+    for (int n = 0; n < 200; ++n) {
+      const double x = one(random), y = one(random);
+      const Vec3 at{x, y, one(random)};
+      const VectorSample sample = field->sample(at, hint);
+      ASSERT_EQ(sample.status, SampleStatus::kOk) << n;
+      most = std::max(most, glm::distance(sample.value, parabola(at)));
+    }
+    EXPECT_LE(most, split->error * std::hypot(1.0, 0.8) + 1e-9);
+  }
+}
+
+TEST(CurvedCells, OneCellAcrossAChannelHasItsParabola) {
+  // The corners are all on the walls: through them alone the field would be zero.
+  const auto profile = [](const Vec3& x) { return Vec3(x.y * (2.0 - x.y), 0.0, 0.0); };
+  const auto stretched = [](const Vec3& x) { return Vec3(x.x, 2.0 * (x.y > 1.0 ? 1.0 : x.y), x.z); };
+  const auto cell = CurvedCell::make(72, 27);
+  UnstructuredTopology topology{.positions = {}, .types = {72}, .offsets = {0, 27}, .connectivity = {}};
+  std::vector<double> position, values;
+  for (const Vec3& xi : cell->nodes()) {
+    const Vec3 x = stretched(xi), v = profile(x);
+    topology.connectivity.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+    position.insert(position.end(), {x.x, x.y, x.z});
+    values.insert(values.end(), {v.x, v.y, v.z});
+  }
+  topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
+  DataSet block;
+  block.topology = std::move(topology);
+  block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const double>(values)));
+  const auto field = field_of(block);
+  EXPECT_DOUBLE_EQ(field->max_speed(), 1.0);
+  CellHint hint;
+  for (double y = 0.05; y < 2.0; y += 0.1)
+    EXPECT_NEAR(field->sample({0.4, y, 0.6}, hint).value.x, y * (2.0 - y), 2e-3);
+}
+
+}  // namespace
+}  // namespace palpate
