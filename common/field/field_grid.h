@@ -36,6 +36,8 @@ struct FieldGrid {
   std::shared_ptr<const MadePoints> made;  ///< tets: points inside curved cells; null where there are none
 
   [[nodiscard]] std::size_t point_count() const noexcept;
+  /// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.
+  [[nodiscard]] std::size_t data_index(const Index3& n, Index3 at) const;
   /// The grid's points are the data's points, one for one.
   [[nodiscard]] bool same_points() const noexcept {
     return !reversed[0] && !reversed[1] && !reversed[2] && !blanked && point_of_input.empty() && !made;
@@ -57,8 +59,8 @@ struct GatheredValues {
 using TupleReader = std::function<void(const DataSet& block, std::size_t tuple, double* out)>;
 
 /// Brings values to the grid's points: those of joined points from the first of them, those of cells by
-/// the volume-weighted mean of the cells around each point, those inside curved cells by their polynomials, NaN at blanked points of a box grid. Points that
-/// no value reaches are NaN. @pre `blocks` are those that the grid was made of.
+/// the volume-weighted mean of the cells around each point, those inside curved cells by their polynomials, NaN at
+/// blanked points of a box grid. Points that no value reaches are NaN. @pre `blocks` are those that the grid was made of.
 [[nodiscard]] GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks,
                                            Association association, int components, bool use_double,
                                            const TupleReader& read, int threads);

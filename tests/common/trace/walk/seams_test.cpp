@@ -298,7 +298,9 @@ TEST(DeadCells, LinesEndThereAsStagnation) {
           for (const Line& line : trace_lines(*field, from, options).lines) {
             EXPECT_EQ(line.end, End::kStagnation) << name_of(line.end) << " seed " << line.seed << " towards "
                                                   << towards << " tets " << tetrahedra << " still " << still;
-            if (integrator != Integrator::kRk4) EXPECT_LT(line.points.back().time, 1e6);
+            if (integrator != Integrator::kRk4) {
+              EXPECT_LT(line.points.back().time, 1e6);
+            }
           }
         }
       }
