@@ -30,7 +30,9 @@ std::uint64_t fingerprint(Input& input, Progress& progress) {
     constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // turns the bits over, so that order counts
     print = (print ^ std::hash<std::string_view>()(text)) * kOdd;
   };
-  for (const DataSet& block : input.read(input.heart_choice().arrays(), &progress)) {
+  const std::vector<std::string> arrays =
+      input.fields().empty() ? std::vector<std::string>() : input.field_arrays();
+  for (const DataSet& block : input.read(arrays, &progress)) {
     for (const DataArray& array : block.arrays) add(array.bytes);
     if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
       add(cells->positions.bytes);
@@ -89,7 +91,7 @@ CardiacContent CardiacModel::read(Input& input, const Document& document, Progre
     content.print = fingerprint(input, progress);
     if (content.print == open->content.print) return open->content;
   }
-  content.heart = load_layered_heart(input, HeartOptions(), document.common.threads, &progress);
+  content.heart = open_heart(input, document.common.threads, &progress);
   return content;
 }
 
@@ -101,7 +103,8 @@ void CardiacModel::complete(Document& document, Input& input, Progress& progress
 
 SceneState CardiacModel::present(Input& input, const CardiacContent& content, const Document& document,
                                  const SceneState* before, Progress& progress) const {
-  const auto& heart = content.heart;
+  if (content.heart.bare) return present_bare(input, content.heart, document, before);
+  const auto& heart = content.heart.layered;
   const ScalarField& depth = *heart->heart().layer;
   const int threads = document.common.threads;
   SceneState state = begin_state(input, document);
@@ -153,7 +156,32 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   info->bounds = depth.bounds();
   info->units = units_of(input);
   state.info = std::move(info);
-  state.notes.insert(state.notes.end(), heart->heart().notes.begin(), heart->heart().notes.end());
+  state.notes.insert(state.notes.end(), content.heart.notes.begin(), content.heart.notes.end());
+  return state;
+}
+
+SceneState CardiacModel::present_bare(Input& input, const OpenHeart& heart, const Document& document,
+                                      const SceneState* before) {
+  SceneState state = begin_state(input, document);
+  const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;
+  BareScene scene = make_bare_scene(input, *heart.bare, document.heart, document.common.threads, colored);
+  state.lines = scene.lines;
+  state.surfaces = {std::move(scene.surface)};
+  state.color_array = scene.array;
+  state.document.heart.layer.clear();  // a session that has one is refused by render
+  if (!scene.array->name.empty()) state.document.heart.angle = scene.array->name;
+  state.notes.insert(state.notes.end(), heart.notes.begin(), heart.notes.end());
+  if (!scene.note.empty()) state.notes.push_back(scene.note);
+  auto info = std::make_shared<SceneInfo>(describe_open_input(input));
+  info->facts.push_back(counted(heart.bare->mesh.triangles.size(), "triangle"));
+  info->color_arrays = scalars_of(input);
+  if (info->times.size() > 1 && heart.bare->grid) {
+    info->plotted = info->color_arrays;
+    info->input = input.spec();
+  }
+  info->bounds = heart.bare->bounds;
+  info->units = units_of(input);
+  state.info = std::move(info);
   return state;
 }
 

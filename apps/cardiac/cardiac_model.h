@@ -15,7 +15,7 @@
 namespace palpate {
 
 struct CardiacContent {
-  std::shared_ptr<const LayeredHeart> heart;
+  OpenHeart heart;
   std::uint64_t print =
       0;  ///< of what it was made from, so that other time steps know it again; 0: not taken
 };
@@ -31,6 +31,8 @@ class CardiacModel final : public InputModel<CardiacContent> {
                                     Progress& progress) const override;
   [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Document& document,
                                    const SceneState* before, Progress& progress) const override;
+  [[nodiscard]] static SceneState present_bare(Input& input, const OpenHeart& heart, const Document& document,
+                                               const SceneState* before);
   void complete(Document& document, Input& input, Progress& progress) const override;
 };
 

@@ -59,16 +59,19 @@ void choose_lens(HeartOptions& heart, const SceneInfo& info, const SceneView& vi
 
 /// Which layer is shown, where its fibres start, and where it is cut away: facing the view.
 void draw_layer(PanelContext& on) {
-  section("LAYER");
+  const bool layered = on.scene.info->layers.has_value();
+  section(layered ? "LAYER" : "SURFACE");
   HeartOptions& heart = on.state.document.heart;
   const SceneInfo& info = *on.scene.info;
   choose_word("field", on.state.document.input.field, info.fields);
   draw_time(on.state, info.times);
-  double depth = layer_of(heart).value_or(kViewLayer);
-  if (slider("depth", depth, info.layers->lower, info.layers->upper, "%.2f"))
-    heart.layer = exact_number(depth);
-  explain("layer");
-  draw_seeds(on.state, false);
+  if (layered) {
+    double depth = layer_of(heart).value_or(kViewLayer);
+    if (slider("depth", depth, info.layers->lower, info.layers->upper, "%.2f"))
+      heart.layer = exact_number(depth);
+    explain("layer");
+    draw_seeds(on.state, false);
+  }
   draw_cut(heart.cut, info.bounds, on.view.camera);
   choose_plotted(on.state, info);
   double spacing = heart.contours;
@@ -77,7 +80,7 @@ void draw_layer(PanelContext& on) {
     heart.contours = std::max(spacing, 0.0);
   }
   explain("contour-spacing");
-  choose_lens(heart, info, on.view);
+  if (layered) choose_lens(heart, info, on.view);
 }
 
 }  // namespace

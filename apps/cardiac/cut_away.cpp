@@ -1,6 +1,7 @@
 #include "apps/cardiac/cut_away.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "common/base/error.h"
@@ -20,7 +21,7 @@ std::optional<CutPlane> parse_cut(const std::string& text) {
   return plane;
 }
 
-void cut_surface(const CutPlane& plane, IsosurfaceMesh& mesh) {
+void cut_surface(const CutPlane& plane, IsosurfaceMesh& mesh, std::vector<float>* values) {
   std::vector<std::array<std::uint32_t, 3>> kept;
   for (const auto& triangle : mesh.triangles) {
     // The polygon that is left, corner by corner; crossings become points of their own.
@@ -36,6 +37,8 @@ void cut_surface(const CutPlane& plane, IsosurfaceMesh& mesh) {
       polygon[corners++] = static_cast<std::uint32_t>(mesh.points.size());
       mesh.points.push_back(glm::mix(mesh.points[a], mesh.points[b], part));
       mesh.normals.push_back(normal);
+      if (values != nullptr)
+        values->push_back(std::lerp((*values)[a], (*values)[b], static_cast<float>(part)));
     }
     for (std::size_t i = 2; i < corners; ++i) kept.push_back({polygon[0], polygon[i - 1], polygon[i]});
   }

@@ -23,7 +23,8 @@ struct CutPlane {
 [[nodiscard]] std::optional<CutPlane> parse_cut(const std::string& text);
 
 /// Triangles that cross the plane are cut along it.
-void cut_surface(const CutPlane& plane, IsosurfaceMesh& mesh);
+/// @param values a number a point, which new points get by linear interpolation; null: none.
+void cut_surface(const CutPlane& plane, IsosurfaceMesh& mesh, std::vector<float>* values = nullptr);
 
 /// Lines that cross it end, and begin, at their last point this side of it.
 void cut_lines(const CutPlane& plane, std::vector<Line>& lines);

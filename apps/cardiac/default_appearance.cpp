@@ -12,6 +12,7 @@
 #include "common/base/text.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/heart/fibre_angles.h"
 #include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/field/scalar_choice.h"
@@ -21,26 +22,6 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kSteps = 5;
-
-void widen(std::optional<ValueRange>& range, const ScalarField& field) {
-  const std::optional<ValueRange> here = usual_range(point_values(field));
-  if (!here) return;
-  range =
-      range ? ValueRange{std::min(range->lower, here->lower), std::max(range->upper, here->upper)} : *here;
-}
-
-/// Leaves an input at the step where it was.
-class StepsAside {
- public:
-  explicit StepsAside(Input& input) : input_(input), time_(input.time().step) {}
-  ~StepsAside() { input_.set_time_step(time_); }
-  StepsAside(const StepsAside&) = delete;
-  StepsAside& operator=(const StepsAside&) = delete;
-
- private:
-  Input& input_;
-  std::size_t time_;
-};
 
 /// Of the widest range, from which on a step has enough to see.
 constexpr double kNearlyAsFar = 0.9;
@@ -82,6 +63,19 @@ std::optional<std::size_t> step_to_show(Input& input, const std::string& name,
 
 }  // namespace
 
+bool is_wall_word(std::string_view angle) {
+  for (int i = 0; i < kWallAngleCount; ++i)
+    if (name_of(static_cast<WallAngle>(i)) == angle) return true;
+  return angle == "gap" || angle == "depth";
+}
+
+void widen(std::optional<ValueRange>& range, const std::vector<double>& values) {
+  const std::optional<ValueRange> here = usual_range(values);
+  if (!here) return;
+  range =
+      range ? ValueRange{std::min(range->lower, here->lower), std::max(range->upper, here->upper)} : *here;
+}
+
 std::vector<double> point_values(const ScalarField& field) {
   std::vector<double> values(field.tet_mesh()->points().size());
   std::visit(
@@ -106,7 +100,7 @@ std::optional<ValueRange> series_range(Input& input, const ScalarChoice& choice,
                                        const std::optional<ValueRange>& before, int threads) {
   if (input.times().size() < 2) return std::nullopt;
   std::optional<ValueRange> range = before;
-  widen(range, now);
+  widen(range, point_values(now));
   if (before) return range;
   const std::size_t shown = input.time().step;
   const StepsAside aside(input);
@@ -114,13 +108,13 @@ std::optional<ValueRange> series_range(Input& input, const ScalarChoice& choice,
     if (step == shown) continue;
     input.set_time_step(step);
     const std::vector<DataSet> blocks = input.read({choice.array});
-    widen(range, *make_scalar_field(grid, blocks.front(), choice, input.title(), threads));
+    widen(range, point_values(*make_scalar_field(grid, blocks.front(), choice, input.title(), threads)));
   }
   return range;
 }
 
 std::string angle_of(const HeartOptions& options) {
-  return options.angle.empty() ? std::string("helix") : options.angle;
+  return options.angle.empty() ? std::string(kDefaultAngle) : options.angle;
 }
 
 std::string choose_default_appearance(Input& input, Document& options, Progress* progress) {

@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "common/base/progress.h"
 #include "common/field/field_grid.h"
@@ -12,6 +14,11 @@
 #include "common/scene/input.h"
 
 namespace palpate {
+
+/// What colours a heart where nobody says.
+inline constexpr const char* kDefaultAngle = "helix";
+/// Whether it is one of cardiac's own words, which take layers, and no scalar of the file.
+[[nodiscard]] bool is_wall_word(std::string_view angle);
 
 /// `--angle`, or the helix angle.
 [[nodiscard]] std::string angle_of(const HeartOptions& options);
@@ -37,6 +44,22 @@ std::string choose_default_appearance(Input& input, Document& options, Progress*
 
 /// Up to five steps of a series, spread over it in the order of time, the first and the last among them.
 [[nodiscard]] std::vector<std::size_t> spread_steps(const Input& input);
+
+/// Leaves an input at the step where it was.
+class StepsAside {
+ public:
+  explicit StepsAside(Input& input) : input_(input), time_(input.time().step) {}
+  ~StepsAside() { input_.set_time_step(time_); }
+  StepsAside(const StepsAside&) = delete;
+  StepsAside& operator=(const StepsAside&) = delete;
+
+ private:
+  Input& input_;
+  std::size_t time_;
+};
+
+/// Takes usual_range() of `values` into it.
+void widen(std::optional<ValueRange>& range, const std::vector<double>& values);
 
 /// As stored, at the points of its mesh.
 [[nodiscard]] std::vector<double> point_values(const ScalarField& field);

@@ -30,13 +30,6 @@ constexpr double kDegrees = 57.29577951308232;
 constexpr std::size_t kMostTriangles = 4'000'000;
 constexpr Rgb kMuscle{0.55F, 0.30F, 0.27F};
 
-/// What is not the name of a scalar of the file.
-bool is_own_word(const std::string& angle) {
-  for (int i = 0; i < kWallAngleCount; ++i)
-    if (name_of(static_cast<WallAngle>(i)) == angle) return true;
-  return angle == "gap" || angle == "depth";
-}
-
 /// Of a ball.
 double reach_along_x(const ConvexShape::Quadric& ball) { return 1.0 / glm::length(ball.unit_from_data[0]); }
 
@@ -49,8 +42,26 @@ double sampled(const ScalarField& field, const Vec3& x, CellHint& hint) {
 
 std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input, const HeartOptions& options, int threads,
                                                        Progress* progress) {
-  const std::string value = is_own_word(angle_of(options)) ? std::string() : options.angle;
+  const std::string value = is_wall_word(angle_of(options)) ? std::string() : options.angle;
   return std::make_shared<const LayeredHeart>(input.load_heart(threads, progress, value));
+}
+
+OpenHeart open_heart(Input& input, int threads, Progress* progress) {
+  OpenHeart open;
+  if (!input.has_field()) {
+    if (!input.spec().field.empty()) (void)input.field_label();  // an unknown one is refused
+    open.bare = load_bare_heart(input, {}, nullptr, threads, progress);
+  } else {
+    Heart heart = input.load_heart(threads, progress, {}, LayersNeeded::kIfPossible);
+    open.notes = heart.notes;
+    if (heart.layer) {
+      open.layered = std::make_shared<const LayeredHeart>(std::move(heart));
+    } else {
+      open.bare = load_bare_heart(input, heart.no_layers, heart.fibres, threads, progress);
+    }
+  }
+  if (open.bare) open.notes.insert(open.notes.end(), open.bare->notes.begin(), open.bare->notes.end());
+  return open;
 }
 
 Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
@@ -79,7 +90,7 @@ AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOpt
     const auto convention = static_cast<AngleConvention>(i);
     if (name_of(convention) == options.convention) convention_ = convention;
   }
-  if (!angle_ && !is_own_word(options_.angle) && !value_)
+  if (!angle_ && !is_wall_word(options_.angle) && !value_)
     throw usage_error("--angle " + options.angle + ": was not read with the heart");
   if (!angle_) return;
   if (!defines(convention_, *angle_))
@@ -94,7 +105,7 @@ const char* AngleProbe::unit() const noexcept { return angle_ ? "degrees" : ""; 
 double AngleProbe::at(const Vec3& x, CellHint& hint) const {
   const LocalFrame& frame = heart_->frame();
   if (options_.angle == "depth") return sampled(*heart_->heart().layer, x, hint);
-  if (!is_own_word(options_.angle)) return sampled(*value_, x, hint);
+  if (!is_wall_word(options_.angle)) return sampled(*value_, x, hint);
   const FibreSample fibre = heart_->sample(frame.local_from_data(x), hint);
   if (fibre.status != SampleStatus::kOk) return kNaN;
   if (!angle_) return fibre.gap;
@@ -191,7 +202,7 @@ LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>&
                         const LineArray* before) {
   auto array = std::make_shared<LineArray>();
   std::shared_ptr<const ScalarField> value;
-  if (!is_own_word(angle_of(options))) {
+  if (!is_wall_word(angle_of(options))) {
     const ScalarChoice choice = choose_scalar(input.arrays(), options.angle, input.title());
     const std::vector<DataSet> blocks = input.read({choice.array});
     const auto& grid = heart->heart().fibres->grid();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cardiac/bare_heart.h"
 #include "common/base/progress.h"
 #include "common/field/heart/fibre_angles.h"
 #include "common/geometry/line.h"
@@ -32,6 +33,16 @@ inline constexpr double kViewFibreStep = 4e-3;
 [[nodiscard]] std::shared_ptr<const LayeredHeart> load_layered_heart(Input& input,
                                                                      const HeartOptions& options, int threads,
                                                                      Progress* progress);
+
+/// What a heart is shown as: exactly one is not null.
+struct OpenHeart {
+  std::shared_ptr<const LayeredHeart> layered;
+  std::shared_ptr<const BareHeart> bare;
+  std::vector<std::string> notes;
+};
+/// Without layers where there are no fibres, no volume or no two sides of the wall.
+/// @throws Error, Cancelled.
+[[nodiscard]] OpenHeart open_heart(Input& input, int threads, Progress* progress);
 
 /// `--axis`, or the axis of the file's coordinates, or as the wall opens.
 /// @throws Error (usage) where it is no direction, or is not given for a closed wall.

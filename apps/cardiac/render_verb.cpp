@@ -1,13 +1,17 @@
+#include <string>
 #include <utility>
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/heart_scene.h"
+#include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
+#include "common/compose/appearance.h"
+#include "common/compose/line_view.h"
 #include "common/device/probe_path.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/hand/mode/haptic_mode.h"
@@ -28,11 +32,50 @@ void check(const Document& options) {
   (void)touch_settings(options.touch);
 }
 
+/// @throws Error (usage) where what is asked for takes layers.
+DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& options, const VerbContext& context,
+                     double aspect) {
+  const BareHeart& heart = *open.bare;
+  const char* const layers = !options.heart.layer.empty()  ? "--layer"
+                             : !options.heart.lens.empty() ? "--lens"
+                             : !options.hand.path.empty()  ? "--path"
+                                                           : nullptr;
+  if (layers != nullptr) throw usage_error(std::string(layers) + ": " + heart.notes.front());
+  for (const std::string& note : open.notes) context.console.note(note);
+  BareScene scene = make_bare_scene(input, heart, options.heart, options.common.threads, nullptr);
+  if (!scene.note.empty()) context.console.note(scene.note);
+  DrawnScene drawn;
+  drawn.field = scene.array->name;
+  drawn.lines = scene.lines->size();
+  drawn.points = 2 * drawn.lines;
+  drawn.what = counted(heart.mesh.triangles.size(), "triangle");
+  if (!heart.strokes.empty()) drawn.what += ", " + counted(heart.strokes.size(), "stroke");
+  if (!heart.branches.empty()) drawn.what += ", " + counted(heart.branches.size(), "line");
+  drawn.measured = measured_costs(input, heart.grid ? heart.grid->tets.get() : nullptr);
+  SceneView& view = drawn.view;
+  view.style.color_by = ColorBy::kArray;
+  view.style.array = scene.array;
+  apply_appearance(options, view);
+  view.show_color_bar = view.show_color_bar && !scene.array->name.empty();
+  view.surfaces = {std::move(scene.surface)};
+  view.lines = std::move(scene.lines);
+  view.bounds = heart.bounds;
+  view.title = input.title();
+  view.subtitle = scene.array->name.empty() ? "surface" : "surface, " + scene.array->name;
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
+  if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
+  view.units = units_of(input);
+  view.camera = camera_of(options.view, view.bounds, aspect, view.camera.projection);
+  return drawn;
+}
+
 DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
   Document options = given;
   const std::string chosen = choose_default_appearance(input, options, &context.progress);
   if (!chosen.empty()) context.console.note(chosen);
-  const auto heart = load_layered_heart(input, HeartOptions(), options.common.threads, &context.progress);
+  const OpenHeart open = open_heart(input, options.common.threads, &context.progress);
+  if (open.bare) return make_bare(input, open, options, context, aspect);
+  const auto& heart = open.layered;
   LayerScene layer = make_layer_scene(input, heart, options, aspect, &context.progress);
   DrawnScene drawn;
   drawn.field = input.field_label();
@@ -73,7 +116,7 @@ Verb render_layers_verb(std::vector<UsageExample> examples) {
                 .check = check,
                 .use =
                     [](const Document& given, const Input& input) {
-                      (void)input.heart_choice();  // an unknown --field is refused before anything is read
+                      (void)input.field_label();  // an unknown --field is refused before anything is read
                       return SceneUse{.verb = "render",
                                       .tracing = true,
                                       .threads = resolve_threads(given.common.threads),

@@ -192,7 +192,11 @@ std::string summary_text(const InfoSummary& summary) {
     text += "  domain     " + position_text(summary.bounds.lower) + " to " +
             position_text(summary.bounds.upper) + "\n";
   }
-  if (!input.not_volume().empty()) {
+  constexpr const char* kDrawn = "render and open draw the surface, without layers\n";
+  if (kind == FieldKind::kFibre && !input.has_field()) {
+    text += input.not_volume().empty() ? "  field      no fibres: " : "  field      no volume cells: ";
+    text += kDrawn;
+  } else if (!input.not_volume().empty()) {
     text += kind == FieldKind::kScalar ? "  field      no volume cells: nothing to feel\n"
                                        : "  field      no volume cells: nothing to trace\n";
   } else if (summary.field.empty()) {
@@ -248,7 +252,7 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
   Input input = Input::open(options.input, &context.progress);
   InfoSummary summary;
   summary.input = &input;
-  const bool has_field = !input.file() || (!input.fields().empty() && input.not_volume().empty());
+  const bool has_field = input.has_field();
   if (!options.input.field.empty() && input.not_volume().empty())
     (void)input.field_label();  // an unknown --field is refused first
   if (options.common.explain) {

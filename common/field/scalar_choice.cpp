@@ -6,6 +6,13 @@
 
 namespace palpate {
 
+double number_of(const DataArray& array, std::size_t tuple, int component) noexcept {
+  if (component != ScalarChoice::kMagnitude) return array.at(tuple, component);
+  double norm = 0.0;
+  for (int c = 0; c < array.components; ++c) norm = std::hypot(norm, array.at(tuple, c));
+  return norm;
+}
+
 std::string label_of(const ScalarChoice& choice, const std::vector<ArrayInfo>& arrays) {
   const bool several = std::any_of(arrays.begin(), arrays.end(), [&](const ArrayInfo& array) {
     return array.name == choice.array && array.association == choice.association && array.components > 1;

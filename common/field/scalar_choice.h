@@ -10,6 +10,10 @@
 
 namespace palpate {
 
+/// One number of a tuple: a component, or the Euclidean norm for ScalarChoice::kMagnitude.
+/// @pre tuple < array.tuples, component < array.components.
+[[nodiscard]] double number_of(const DataArray& array, std::size_t tuple, int component) noexcept;
+
 /// "density" for an array of one component; "velocity:magnitude", "velocity:0" for those of several.
 [[nodiscard]] std::string label_of(const ScalarChoice& choice, const std::vector<ArrayInfo>& arrays);
 

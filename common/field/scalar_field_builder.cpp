@@ -12,18 +12,11 @@
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
+#include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
 
 namespace palpate {
 namespace {
-
-/// One number of a tuple.
-double number_of(const DataArray& array, std::size_t tuple, int component) noexcept {
-  if (component != ScalarChoice::kMagnitude) return array.at(tuple, component);
-  double norm = 0.0;
-  for (int c = 0; c < array.components; ++c) norm = std::hypot(norm, array.at(tuple, c));
-  return norm;
-}
 
 /// Whether single precision would lose digits.
 bool wants_double(ScalarType type) {

@@ -67,7 +67,8 @@ bool ProbeSession::measures_noise() const {
 }
 
 bool ProbeSession::set_field(NamedField open) {
-  if (!available() || open.empty() || data_.is_open(open)) return false;
+  if (options_.modes.empty() || open.empty() || (!closed_ && data_.is_open(open))) return false;
+  closed_ = false;
   hand_.let_go();
   data_.open(std::move(open));
   hand_.open_data();
@@ -80,6 +81,14 @@ bool ProbeSession::set_field(NamedField open) {
     restart_chain();
   }
   return true;
+}
+
+void ProbeSession::close_field() {
+  if (closed_) return;
+  closed_ = true;
+  hand_.let_go();
+  trail_.open_data();
+  if (servo_.running() && !hand_.by_mouse()) servo_.force_off();
 }
 
 void ProbeSession::restart_chain() {
@@ -113,7 +122,7 @@ void ProbeSession::follow_chain(const HapticChain& made) {
 }
 
 void ProbeSession::grab(double time, const Vec3& position) {
-  if (!servo_.running() || !hand_.by_mouse()) return;
+  if (!available() || !servo_.running() || !hand_.by_mouse()) return;
   trail_.forget_note();
   hand_.grab(time, position);
 }

@@ -49,7 +49,8 @@ class ProbeSession {
   /// @throws Error where the recording cannot be written.
   ProbeSession(ProbeSessionOptions options, std::function<void()> wake);
 
-  [[nodiscard]] bool available() const noexcept { return !options_.modes.empty(); }
+  /// Whether there are modes, and what is shown can be felt.
+  [[nodiscard]] bool available() const noexcept { return !options_.modes.empty() && !closed_; }
   [[nodiscard]] const std::vector<HapticMode>& modes() const noexcept { return options_.modes; }
   [[nodiscard]] const HapticData& data() const noexcept { return data_; }
   [[nodiscard]] const ProbeHand& hand() const noexcept { return hand_; }
@@ -67,6 +68,8 @@ class ProbeSession {
   /// Takes another input and lets go; where it has a scalar, modes of a scalar feel that. The same one again
   /// changes nothing. @return whether it was another one.
   bool set_field(NamedField open);
+  /// What is shown has nothing to feel: lets go, takes the force off, and is not available until set_field().
+  void close_field();
 
   /// Takes the probe with the mouse, where that leads it. @param time [s] of a steady clock.
   void grab(double time, const Vec3& position);
@@ -122,6 +125,7 @@ class ProbeSession {
   ProbeHand hand_;
   AnnotationList notes_;
   bool textured_ = false;  ///< the chain that is felt was built with the noise of the data
+  bool closed_ = false;    ///< what is shown has nothing to feel
   ProbeServo servo_;       // last: its thread uses the above
 };
 

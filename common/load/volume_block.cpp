@@ -41,13 +41,22 @@ BlockInfo describe_image(const UniformTopology& topology, const ArrayInfo& array
   return block;
 }
 
+bool is_flat_cell(std::uint8_t type) noexcept {
+  constexpr std::array<std::uint8_t, 28> kFlat{0,  1,  2,  3,  4,  5,  6,  7,  8,  9,  21, 22, 23, 28,
+                                               30, 34, 35, 36, 60, 61, 62, 63, 68, 69, 70, 75, 76, 77};
+  return std::ranges::find(kFlat, type) != kFlat.end();
+}
+
 BlockInfo describe_mesh(const DataSet& mesh) {
   BlockInfo block;
   block.name = mesh.name;
   block.grid = "unstructured";
   block.point_count = mesh.point_count();
   block.cell_count = mesh.cell_count();
-  const DataArray& positions = std::get<UnstructuredTopology>(mesh.topology).positions;
+  const auto& cells = std::get<UnstructuredTopology>(mesh.topology);
+  if (!cells.types.empty() && std::ranges::all_of(cells.types, is_flat_cell))
+    block.not_volume = kOnlyFlatCells;
+  const DataArray& positions = cells.positions;
   for (std::size_t p = 0; p < positions.tuples; ++p)
     block.bounds.include(Vec3(positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)));
   for (const DataArray& array : mesh.arrays)

@@ -126,6 +126,8 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
   return input;
 }
 
+bool Input::has_field() const noexcept { return !file() || (!fields_.empty() && not_volume_.empty()); }
+
 bool Input::names_field(const std::string& name) const {
   return std::find(fields_.begin(), fields_.end(), name) != fields_.end() ||
          std::any_of(arrays_.begin(), arrays_.end(),
@@ -249,7 +251,10 @@ HeartChoice Input::heart_choice() const {
 
 std::string Input::field_label() const {
   if (!file()) return kFormulaField;
-  if (spec_.kind == FieldKind::kFibre) return heart_choice().fibre.array;
+  if (spec_.kind == FieldKind::kFibre) {
+    if (fields_.empty() && spec_.field.empty()) return {};
+    return choose_heart(arrays_, spec_.field, file_name()).fibre.array;  // a shell has fibres, too
+  }
   if (spec_.kind == FieldKind::kTensor) return tensor_source().label;
   return spec_.kind == FieldKind::kScalar ? label_of(scalar_choice(), arrays_) : choice().label;
 }
@@ -258,6 +263,7 @@ std::vector<std::string> Input::field_arrays() const {
   if (!file()) return {};
   if (spec_.kind == FieldKind::kScalar) return {scalar_choice().array};
   if (spec_.kind == FieldKind::kTensor) return tensor_source().arrays;
+  if (spec_.kind == FieldKind::kFibre && !not_volume_.empty()) return {field_label()};
   if (spec_.kind == FieldKind::kFibre) return heart_choice().arrays();
   return choice().arrays;
 }
@@ -266,12 +272,14 @@ std::string Input::choice_sentence() const {
   if (!file()) return title_ + ": field " + kFormulaField + ", a formula";
   if (spec_.kind == FieldKind::kTensor && fields_.empty())
     return title_ + ": " + file()->format + ", without tensors";
+  if (spec_.kind == FieldKind::kFibre && fields_.empty() && spec_.field.empty())
+    return title_ + ": " + file()->format + ", without fibres";
   const std::string chosen = field_label();
   std::string text = title_ + ": field " + chosen;
   Association on = Association::kPoint;
   if (spec_.kind == FieldKind::kScalar) on = scalar_choice().association;
   if (spec_.kind == FieldKind::kVector) on = choice().association;
-  if (spec_.kind == FieldKind::kFibre) on = heart_choice().fibre.association;
+  if (spec_.kind == FieldKind::kFibre) on = choose_heart(arrays_, spec_.field, file_name()).fibre.association;
   text += on == Association::kCell ? " (cell values brought to the points)" : "";
   std::string others;
   for (const std::string& other : fields_) {

@@ -65,6 +65,8 @@ class Input {
   [[nodiscard]] const std::string& not_volume() const noexcept { return not_volume_; }
   /// Names of all fields of spec().kind that can be made, the default first; none without a volume.
   [[nodiscard]] const std::vector<std::string>& fields() const noexcept { return fields_; }
+  /// Whether one can be made: there are a volume and an array for it, or it is a formula.
+  [[nodiscard]] bool has_field() const noexcept;
   /// Whether `name` is one of them, or the bare name of an array that makes one.
   [[nodiscard]] bool names_field(const std::string& name) const;
   [[nodiscard]] const std::vector<double>& times() const noexcept;
@@ -86,7 +88,8 @@ class Input {
   [[nodiscard]] TensorSource tensor_source() const;
   /// The same for the fibres of a heart.
   [[nodiscard]] HeartChoice heart_choice() const;
-  /// What spec().field means, of any kind: "velocity". @throws as choice().
+  /// What spec().field means, of any kind: "velocity"; empty for a heart without fibres.
+  /// @throws as choice().
   [[nodiscard]] std::string field_label() const;
   /// The arrays that the field is made of; none for a formula. @throws as choice().
   [[nodiscard]] std::vector<std::string> field_arrays() const;

@@ -68,13 +68,18 @@ void ExplorerWindow::adopt(SceneState scene) {
 void ExplorerWindow::adopt_field() {
   NamedField open{.field = scene_->probed, .name = {}, .scalar = scene_->haptic_scalar};
   open.tensor = scene_->tensors ? scene_->tensors->image->field : scene_->haptic_tensor;
-  if (open.empty() || !touch_.available()) return;
+  if (open.empty()) {
+    controls_.touch().let_go();
+    touch_.close_field();
+    return;
+  }
   // The fields of all examples have the same label.
   const SceneInfo& info = *scene_->info;
   std::string label = scene_->document.input.field;
   if (info.files.files.empty()) label.insert(0, info.name + " ");
   open.name = field_key(label, time_step_of(scene_->document, info.times)) + scene_->haptic_scalar_key;
   if (touch_.set_field(std::move(open))) controls_.touch().let_go();
+  if (!touch_.available()) return;
   if (!view_.probe) view_.probe.emplace();
   view_.probe->reference_speed = reference_speed(view_);
 }

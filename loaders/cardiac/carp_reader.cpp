@@ -16,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/load/volume_block.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
@@ -282,6 +283,11 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   }
   mesh.arrays.push_back(make_array("region", Association::kCell, 1, std::span<const double>(regions)));
   notes.emplace_back("micrometres of openCARP turned into mm");
+  // A heart of a mouse is 5 mm long, and one that is stated in mm would be a thousandth of its size.
+  constexpr double kTooSmall = 0.5;  // mm
+  if (const double size = describe_mesh(mesh).bounds.diagonal(); size < kTooSmall)
+    notes.push_back("the mesh is " + short_number(1e3 * size) +
+                    " micrometres across: no heart is; are its points stated in mm?");
   return mesh;
 }
 

@@ -26,6 +26,7 @@
 #include <vtkVariant.h>
 
 #include "common/base/error.h"
+#include "common/load/volume_block.h"
 
 namespace palpate {
 namespace {
@@ -374,17 +375,12 @@ std::string why_not_volume(vtkDataSet* data) {
            " points), not a volume";
   }
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) {
-    static constexpr int kFlat[] = {VTK_EMPTY_CELL,     VTK_VERTEX,         VTK_POLY_VERTEX,
-                                    VTK_LINE,           VTK_POLY_LINE,      VTK_TRIANGLE,
-                                    VTK_TRIANGLE_STRIP, VTK_POLYGON,        VTK_PIXEL,
-                                    VTK_QUAD,           VTK_QUADRATIC_EDGE, VTK_QUADRATIC_TRIANGLE,
-                                    VTK_QUADRATIC_QUAD};
     const auto types = vtkSmartPointer<vtkCellTypes>::New();
     grid->GetCellTypes(types);
     for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i) {
-      if (std::find(std::begin(kFlat), std::end(kFlat), types->GetCellType(i)) == std::end(kFlat)) return "";
+      if (!is_flat_cell(types->GetCellType(i))) return "";
     }
-    return "holds points, lines or surfaces only, not a volume";
+    return kOnlyFlatCells;
   }
   return "";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -114,6 +115,25 @@ TEST_F(CardiacWindow, ShowsTheLayerThatTheHandIsOnAndProbeRepeatsIt) {
   for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::atof(field.c_str()));
   ASSERT_GT(numbers.size(), 6U);
   EXPECT_NEAR(glm::distance(Vec3{numbers[4], numbers[5], numbers[6]}, result.probe.proxy), 0.0, 1e-9);
+}
+
+// A shell has no layers: it is drawn with its values, and the hand that held a heart before holds nothing.
+TEST_F(CardiacWindow, ShowsAShellInPlaceOfAHeartAndLetsGo) {
+  std::ofstream(folder_.path("a.pts")) << "4\n0 0 0\n20000 0 0\n20000 10000 0\n0 10000 5000\n";
+  std::ofstream(folder_.path("a.elem")) << "2\nTr 0 1 2 7\nTr 0 2 3 8\n";
+  std::ofstream(folder_.path("a.lon")) << "1\n1 0 0\n0 1 0\n";
+  grab("layer");
+  at(60, {.kind = InputKind::kDrop, .files = {folder_.path("a.elem").string()}});
+  at(160, {.kind = InputKind::kKeyDown, .key = 'G'});
+  at(161, {.kind = InputKind::kKeyUp, .key = 'G'});
+  const WindowResult result = run_until(200);
+  EXPECT_FALSE(result.probe.held);
+  ASSERT_EQ(result.view.surfaces.size(), 1U);
+  EXPECT_EQ(result.view.surfaces[0].mesh->triangles.size(), 2U);
+  EXPECT_EQ(*result.view.surfaces[0].values, (std::vector<float>{7, 7, 7, 8, 8, 8}));
+  EXPECT_EQ(result.view.lines->size(), 2U);
+  EXPECT_EQ(result.document.heart.angle, "region");
+  EXPECT_EQ(result.document.heart.layer, "");
 }
 
 /// The measured ventricles of a dog, from the file to a fibre under the hand, by the mouse alone.

@@ -37,6 +37,7 @@ std::string status_text(const SceneState& scene) {
     }
     return text;
   }
+  if (scene.seeds == 0) return scene.lines->empty() ? "" : counted(scene.lines->size(), "line");
   std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
