@@ -49,20 +49,34 @@ struct FieldGrid {
 [[nodiscard]] std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks,
                                                                const std::string& file, int threads);
 
+/// How cell values come to the points. Tensors and outer products take the mean: it is positive where they are.
+enum class CellRule {
+  kLeastSquares,  ///< cell_fit.h
+  kMean,          ///< volume-weighted, of the cells that touch the point
+};
+
+/// By how much the mean over each cell of a field made of cell values differs from the cell's value.
+struct CellDifference {
+  double largest = 0.0;  ///< as a part of the largest value, as is the next
+  double rms = 0.0;
+  std::size_t flat = 0;  ///< points about which the cells lie in one layer: nothing is known across it
+};
+
 /// Values at the grid's points, brought there from the data's points or cells.
 struct GatheredValues {
   std::vector<float> floats;  ///< filled unless `use_double`
   std::vector<double> doubles;
+  CellDifference cells;  ///< of values of cells
 };
 
 /// Reads `components` numbers of a tuple of a block into `out`.
 using TupleReader = std::function<void(const DataSet& block, std::size_t tuple, double* out)>;
 
 /// Brings values to the grid's points: those of joined points from the first of them, those of cells by
-/// the volume-weighted mean of the cells around each point, those inside curved cells by their polynomials, NaN at
+/// `rule` from the cells around each point (cell_values.h), those inside curved cells by their polynomials, NaN at
 /// blanked points of a box grid. Points that no value reaches are NaN. @pre `blocks` are those that the grid was made of.
 [[nodiscard]] GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks,
                                            Association association, int components, bool use_double,
-                                           const TupleReader& read, int threads);
+                                           const TupleReader& read, CellRule rule, int threads);
 
 }  // namespace palpate

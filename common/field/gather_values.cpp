@@ -3,9 +3,9 @@
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/field/cell_values.h"
 #include "common/field/curved_split.h"
 #include "common/field/field_grid.h"
-#include "common/field/grid/tet_shape.h"
 
 namespace palpate {
 namespace {
@@ -29,83 +29,22 @@ struct Store {
   }
 };
 
-void gather_box(const FieldGrid& grid, const DataSet& block, Association association, const TupleReader& read,
-                const Store& store, int threads) {
+void gather_box(const FieldGrid& grid, const DataSet& block, const TupleReader& read, const Store& store,
+                int threads) {
   const Index3 n = grid.box->points();
   const auto slice = as_size(n.x) * as_size(n.y);
   parallel_for(as_size(n.z), threads, [&](std::size_t first, std::size_t last) {
     std::vector<double> value(as_size(store.components));
-    std::vector<double> sum(value.size());
     for (std::size_t point = first * slice; point < last * slice; ++point) {
       const Index3 at{static_cast<int>(point % as_size(n.x)),
                       static_cast<int>(point / as_size(n.x) % as_size(n.y)), static_cast<int>(point / slice)};
       const std::size_t input = grid.data_index(n, at);
       if (!block.visible.empty() && block.visible[input] == 0) continue;
-      if (association == Association::kPoint) {
-        read(block, input, value.data());
-        store.put(point, value.data());
-        continue;
-      }
-      std::ranges::fill(sum, 0.0);
-      double total = 0.0;
-      for (unsigned corner = 0; corner < 8; ++corner) {
-        const Index3 cell = at - Index3(corner & 1U, (corner >> 1U) & 1U, corner >> 2U);
-        double volume = 1.0;
-        for (int axis = 0; axis < 3; ++axis) {
-          if (cell[axis] < 0 || cell[axis] >= n[axis] - 1) {
-            volume = 0.0;
-            break;
-          }
-          volume *= grid.box->coordinate(axis, cell[axis] + 1) - grid.box->coordinate(axis, cell[axis]);
-        }
-        if (volume == 0.0 || grid.box->hidden(cell)) continue;
-        read(block, grid.data_index(n - 1, cell), value.data());
-        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += volume * value[c];
-        total += volume;
-      }
-      for (double& s : sum) s /= total;
-      store.put(point, sum.data());
+      read(block, input, value.data());
+      store.put(point, value.data());
     }
   });
 }
-
-/// Cells around each point of a tetrahedral mesh, by the tetrahedra that they became.
-class CellsAroundPoints {
- public:
-  explicit CellsAroundPoints(const FieldGrid& grid) : volume_(largest_cell(grid) + 1, 0.0) {
-    const TetMesh& mesh = *grid.tets;
-    const Vec3* points = mesh.points().data();
-    begin_.assign(mesh.points().size() + 1, 0);
-    // A cell's volume is summed over its tetrahedra in a fixed order, that of the mesh.
-    for (std::size_t t = 0; t < mesh.cells().size(); ++t) {
-      volume_[grid.source_cell[t]] += std::abs(TetShape(points, mesh.cells()[t]).volume6);
-      for (const std::uint32_t v : mesh.cells()[t]) ++begin_[v + 1];
-    }
-    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
-    cells_.resize(begin_.back());
-    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t t = 0; t < mesh.cells().size(); ++t) {
-      for (const std::uint32_t v : mesh.cells()[t]) cells_[next[v]++] = grid.source_cell[t];
-    }
-  }
-
-  /// Each once, by rising number. Calls for different points may run at the same time.
-  std::span<const std::uint32_t> around(std::size_t point) {
-    const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point]);
-    const auto last = cells_.begin() + static_cast<std::ptrdiff_t>(begin_[point + 1]);
-    std::sort(first, last);
-    return {first, std::unique(first, last)};
-  }
-
-  [[nodiscard]] double volume(std::uint32_t cell) const { return volume_[cell]; }
-
- private:
-  static std::size_t largest_cell(const FieldGrid& grid) { return std::ranges::max(grid.source_cell); }
-
-  std::vector<double> volume_;  ///< six times that of each cell
-  std::vector<std::size_t> begin_;
-  std::vector<std::uint32_t> cells_;
-};
 
 /// Points inside curved cells, of which none stands for a point of the data.
 void gather_made(const MadePoints& made, std::span<const DataSet> blocks, const TupleReader& read,
@@ -127,55 +66,52 @@ void gather_made(const MadePoints& made, std::span<const DataSet> blocks, const 
   }
 }
 
-void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
-                 const TupleReader& read, const Store& store, int threads) {
-  if (association == Association::kPoint) {
-    std::vector<double> value(as_size(store.components));
-    std::vector<std::uint8_t> done(grid.tets->points().size(), 0);
-    std::size_t input = 0;
-    for (const DataSet& block : blocks) {
-      const std::size_t count = block.point_count();
-      for (std::size_t i = 0; i < count; ++i, ++input) {
-        const std::size_t point = grid.point_of_input.empty() ? input : as_size(grid.point_of_input[input]);
-        if (point == kNoPoint || done[point] != 0) continue;
-        if (!block.visible.empty() && block.visible[i] == 0) continue;
-        done[point] = 1;
-        read(block, i, value.data());
-        store.put(point, value.data());
-      }
+void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, const TupleReader& read,
+                 const Store& store) {
+  std::vector<double> value(as_size(store.components));
+  std::vector<std::uint8_t> done(grid.tets->points().size(), 0);
+  std::size_t input = 0;
+  for (const DataSet& block : blocks) {
+    const std::size_t count = block.point_count();
+    for (std::size_t i = 0; i < count; ++i, ++input) {
+      const std::size_t point = grid.point_of_input.empty() ? input : as_size(grid.point_of_input[input]);
+      if (point == kNoPoint || done[point] != 0) continue;
+      if (!block.visible.empty() && block.visible[i] == 0) continue;
+      done[point] = 1;
+      read(block, i, value.data());
+      store.put(point, value.data());
     }
-    if (grid.made) gather_made(*grid.made, blocks, read, done, store);
-    return;
   }
-  std::vector<std::size_t> first_cell{0};
-  for (const DataSet& block : blocks) first_cell.push_back(first_cell.back() + block.cell_count());
-  CellsAroundPoints cells(grid);
-  parallel_for(grid.tets->points().size(), threads, [&](std::size_t first, std::size_t last) {
-    std::vector<double> value(as_size(store.components));
-    std::vector<double> sum(value.size());
-    for (std::size_t point = first; point < last; ++point) {
-      const auto around = cells.around(point);
-      double total = 0.0;
-      for (const std::uint32_t cell : around) total += cells.volume(cell);
-      std::ranges::fill(sum, 0.0);
-      for (const std::uint32_t cell : around) {
-        const auto above = std::upper_bound(first_cell.begin(), first_cell.end(), cell);
-        const auto block = as_size(above - first_cell.begin()) - 1;
-        read(blocks[block], cell - first_cell[block], value.data());
-        // Where no cell has a volume they all count the same.
-        const double weight =
-            total > 0.0 ? cells.volume(cell) / total : 1.0 / static_cast<double>(around.size());
-        for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += weight * value[c];
-      }
-      store.put(point, sum.data());
+  if (grid.made) gather_made(*grid.made, blocks, read, done, store);
+}
+
+/// Cell values; blanked points of a box get none.
+CellDifference gather_cells(const FieldGrid& grid, std::span<const DataSet> blocks, const TupleReader& read,
+                            const Store& store, CellRule rule, int threads) {
+  const std::vector<std::uint8_t>& visible = blocks.front().visible;
+  const bool blanked = grid.box && !visible.empty();
+  const auto put = [&](std::size_t point, const double* value) {
+    if (blanked) {
+      const Index3 n = grid.box->points();
+      const Index3 at{static_cast<int>(point % as_size(n.x)),
+                      static_cast<int>(point / as_size(n.x) % as_size(n.y)),
+                      static_cast<int>(point / (as_size(n.x) * as_size(n.y)))};
+      if (visible[grid.data_index(n, at)] == 0) return;
     }
-  });
+    store.put(point, value);
+  };
+  const auto value_at = [&](std::size_t point, int component) {
+    const std::size_t i = point * as_size(store.components) + as_size(component);
+    return store.use_double ? store.out.doubles[i] : static_cast<double>(store.out.floats[i]);
+  };
+  return bring_to_points(grid, blocks, store.components, read, put, value_at, rule, threads);
 }
 
 }  // namespace
 
 GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
-                             int components, bool use_double, const TupleReader& read, int threads) {
+                             int components, bool use_double, const TupleReader& read, CellRule rule,
+                             int threads) {
   GatheredValues out;
   const std::size_t count = grid.point_count() * as_size(components);
   if (use_double) {
@@ -184,10 +120,12 @@ GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blo
     out.floats.assign(count, std::numeric_limits<float>::quiet_NaN());
   }
   const Store store{out, components, use_double};
-  if (grid.box) {
-    gather_box(grid, blocks.front(), association, read, store, threads);
+  if (association == Association::kCell) {
+    out.cells = gather_cells(grid, blocks, read, store, rule, threads);
+  } else if (grid.box) {
+    gather_box(grid, blocks.front(), read, store, threads);
   } else {
-    gather_tets(grid, blocks, association, read, store, threads);
+    gather_tets(grid, blocks, read, store);
   }
   return out;
 }

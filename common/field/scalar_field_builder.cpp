@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/cell_values.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
@@ -125,10 +126,6 @@ class ScalarFieldBuilder {
     auto field = on_grid(std::move(grid), choice.array);
     field->notes_ = std::move(notes);
     if (!share_values(*field->grid_, used, choice, field->values_)) gather(used, choice, threads, *field);
-    if (choice.association == Association::kCell) {
-      field->notes_.lines.emplace_back(
-          "cell values brought to the points: volume-weighted mean of the cells around each point");
-    }
     take_range(*field, threads);
     return field;
   }
@@ -212,13 +209,15 @@ class ScalarFieldBuilder {
       *out = array == nullptr ? std::numeric_limits<double>::quiet_NaN()
                               : number_of(*array, tuple, choice.component);
     };
-    auto stored = std::make_shared<const GatheredValues>(
-        gather_values(*field.grid_, used, choice.association, 1, use_double, read, threads));
+    auto stored = std::make_shared<const GatheredValues>(gather_values(
+        *field.grid_, used, choice.association, 1, use_double, read, CellRule::kLeastSquares, threads));
     if (use_double) {
       field.values_.values = std::span<const double>(stored->doubles);
     } else {
       field.values_.values = std::span<const float>(stored->floats);
     }
+    if (choice.association == Association::kCell)
+      field.notes_.lines.push_back(cell_values_note(stored->cells));
     field.values_.owner = std::move(stored);
   }
 

@@ -104,7 +104,7 @@ class VectorField {
 
 /// Makes the field that `choice` describes from the blocks of a data set. One uniform or rectilinear
 /// block becomes a box grid; everything else is split into tetrahedra and joined. Cell values are brought
-/// to the points by the volume-weighted mean of the cells around each point, and a note says so.
+/// to the points by least squares from the cells around each (cell_fit.h), and a note says what that costs.
 /// @throws Error (bad input) with `file` where arrays are missing or have the wrong shape.
 [[nodiscard]] std::shared_ptr<const VectorField> make_vector_field(const std::vector<DataSet>& blocks,
                                                                    const VectorChoice& choice,

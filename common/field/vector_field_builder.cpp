@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/cell_values.h"
 #include "common/field/coincident_points.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
@@ -134,7 +135,7 @@ class VectorFieldBuilder {
     field->notes_.lines.insert(field->notes_.lines.end(), grid.notes.lines.begin(), grid.notes.lines.end());
 
     if (!share_values(used, choice, grid, field->values_)) {
-      gather(used, choice, grid, threads, field->values_);
+      gather(used, choice, grid, threads, *field);
     }
     note_values(choice, *field);
     note_difference(used, *field);
@@ -241,7 +242,8 @@ class VectorFieldBuilder {
   }
 
   static void gather(const std::vector<DataSet>& blocks, const VectorChoice& choice, const FieldGrid& grid,
-                     int threads, PointVectors& values) {
+                     int threads, VectorField& field) {
+    PointVectors& values = field.values_;
     bool use_double = false;
     std::vector<std::vector<const DataArray*>> arrays;
     for (const DataSet& block : blocks) {
@@ -256,13 +258,15 @@ class VectorFieldBuilder {
       if (rotated) v = v * rotation;  // R^T v
       for (int i = 0; i < 3; ++i) out[i] = v[i];
     };
-    auto stored = std::make_shared<const GatheredValues>(
-        gather_values(grid, blocks, choice.association, 3, use_double, read, threads));
+    auto stored = std::make_shared<const GatheredValues>(gather_values(
+        grid, blocks, choice.association, 3, use_double, read, CellRule::kLeastSquares, threads));
     if (use_double) {
       values.values = std::span<const double>(stored->doubles);
     } else {
       values.values = std::span<const float>(stored->floats);
     }
+    if (choice.association == Association::kCell)
+      field.notes_.lines.push_back(cell_values_note(stored->cells));
     values.owner = std::move(stored);
   }
 
@@ -286,10 +290,6 @@ class VectorFieldBuilder {
     field.frame_.speed_exponent = binary_exponent(range.max_speed);
     field.values_.scale = power_of_two(-field.frame_.speed_exponent);
     field.notes_.bad_values = range.bad;
-    if (choice.association == Association::kCell) {
-      field.notes_.lines.emplace_back(
-          "cell values brought to the points: volume-weighted mean of the cells around each point");
-    }
     if (choice.kind == VectorChoice::Kind::kMomentumOverDensity) {
       field.notes_.lines.emplace_back("velocity computed as momentum divided by density");
     }

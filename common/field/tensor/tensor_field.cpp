@@ -229,7 +229,7 @@ class TensorFieldBuilder {
       if (numbers == 7) out[6] = there ? 1.0 : 0.0;
     };
     GatheredValues gathered = gather_values(*field->grid_, std::span(&image, 1), choice.association, numbers,
-                                            use_double, read, threads);
+                                            use_double, read, CellRule::kMean, threads);
     if (missing > 0) {
       divide_by_weight(gathered.doubles);
       divide_by_weight(gathered.floats);
