@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -27,6 +28,49 @@ std::string title_of(const InputOptions& spec) {
   if (title.empty()) title = spec.files.front().string();
   if (spec.files.size() > 1) title += " and " + std::to_string(spec.files.size() - 1) + " more";
   return title;
+}
+
+/// Whether a value of the field is not zero.
+bool moves(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
+  const bool has_density = choice.kind == VectorChoice::Kind::kMomentumOverDensity;
+  for (const DataSet& block : blocks) {
+    for (std::size_t a = 0; a + (has_density ? 1 : 0) < choice.arrays.size(); ++a) {
+      const DataArray* array = block.find(choice.arrays[a], choice.association);
+      for (std::size_t t = 0; array != nullptr && t < array->tuples; ++t) {
+        for (int c = 0; c < array->components; ++c) {
+          const double value = array->at(t, c);
+          if (std::isfinite(value) && value != 0.0) return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+/// The first step after that of the input at which something moves: many runs start from rest, and a field that is
+/// zero shows nothing. Empty where its own does, or none of the next ones and not the last. Errors are left to the
+/// read that is asked for.
+std::optional<std::size_t> moving_step(Input& input, Progress* progress) {
+  constexpr std::size_t kMostTried = 16;
+  const std::size_t own = input.time().step;
+  std::optional<std::size_t> found;
+  try {
+    if (input.fields().empty()) return {};
+    const VectorChoice chosen = input.choice();
+    const std::vector<std::size_t> order = steps_in_order(input.times());
+    const auto first = static_cast<std::size_t>(std::ranges::find(order, own) - order.begin());
+    for (std::size_t i = first; i < order.size() && !found; ++i) {
+      if (i > first + kMostTried) i = order.size() - 1;
+      input.set_time_step(order[i]);
+      if (moves(input.read(chosen.arrays, progress), chosen)) found = order[i];
+    }
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    found.reset();
+  }
+  input.set_time_step(own);
+  return found == own ? std::nullopt : found;
 }
 
 }  // namespace
@@ -122,6 +166,16 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
     for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
   input.part_fields();
+  if (spec.kind == FieldKind::kVector && spec.time.empty() && input.times().size() > 1) {
+    if (const auto step = moving_step(input, progress)) {
+      const std::vector<double>& times = input.times();
+      FileInfo info = *input.file();
+      info.notes.push_back("nothing moves at time " + exact_number(times[input.time_.step]) + ": opened at " +
+                           exact_number(times[*step]) + " (--time first opens the first)");
+      input.set_time_step(*step);
+      input.made_info_ = std::move(info);
+    }
+  }
   input.seconds_open_ = watch.seconds();
   return input;
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/support/temp_folder.h"
 
 namespace palpate::test {
 namespace {
@@ -65,6 +66,66 @@ TEST(TimeSteps, GoOnByTimeAndRound) {
   EXPECT_EQ(nearest_step(times, 1.4), 3U);
   EXPECT_EQ(nearest_step(times, -7.0), 1U);
   EXPECT_EQ(nearest_step(times, 9.0), 2U);
+}
+
+/// A transient of 2 x 2 x 2 points at the times 0, 1, ...; at each its speed along x.
+InputOptions transient(const TempFolder& folder, const std::vector<double>& speeds) {
+  std::string list = R"(<VTKFile type="Collection"><Collection>)";
+  for (std::size_t step = 0; step < speeds.size(); ++step) {
+    std::string text =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+        "SPACING 1 1 1\nPOINT_DATA 8\nVECTORS v float\n";
+    for (int p = 0; p < 8; ++p) text += std::to_string(speeds[step]) + " 0 0\n";
+    const std::string name = "t" + std::to_string(step) + ".vtk";
+    (void)folder.write(name, text);
+    list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
+  }
+  return {.files = {folder.write("t.pvd", list + "</Collection></VTKFile>")}};
+}
+
+double opened_at(const Input& input) { return input.times()[input.time().step]; }
+
+bool says_why(const Input& input) {
+  for (const std::string& note : input.notes()) {
+    if (note.find("nothing moves at time 0") != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Input, ATransientOpensWhereSomethingMoves) {
+  const TempFolder folder;
+  Input input = Input::open(transient(folder, {0.0, 0.0, 3.0, 4.0}));
+  EXPECT_EQ(opened_at(input), 2.0);
+  EXPECT_TRUE(says_why(input));
+  EXPECT_NE(input.choice_sentence().find("time 2"), std::string::npos) << input.choice_sentence();
+  EXPECT_EQ(input.load_field(1)->max_speed(), 3.0);
+  // Another time, and the same one once more.
+  const std::size_t opened = input.time().step;
+  input.set_time_step(step_beside(input.times(), opened, true));
+  EXPECT_EQ(input.load_field(1)->max_speed(), 4.0);
+  input.set_time_step(opened);
+  EXPECT_EQ(input.load_field(1)->max_speed(), 3.0);
+
+  EXPECT_EQ(opened_at(Input::open(transient(folder, {2.0, 3.0}))), 0.0);
+  EXPECT_FALSE(says_why(Input::open(transient(folder, {2.0, 3.0}))));
+}
+
+TEST(Input, ATransientOpensAtTheTimeThatIsAskedFor) {
+  const TempFolder folder;
+  InputOptions first = transient(folder, {0.0, 2.0});
+  first.time = "first";
+  EXPECT_FALSE(says_why(Input::open(first)));
+  Input asked = Input::open(first);
+  EXPECT_EQ(asked.time().step, 0U);
+  EXPECT_EQ(asked.load_field(1)->max_speed(), opened_at(asked) == 0.0 ? 0.0 : 2.0);
+}
+
+TEST(Input, ATransientWithoutMovementOpensAtItsFirstStep) {
+  const TempFolder folder;
+  Input input = Input::open(transient(folder, std::vector<double>(30, 0.0)));
+  EXPECT_EQ(input.time().step, 0U);
+  EXPECT_FALSE(says_why(input));
+  EXPECT_EQ(input.load_field(1)->max_speed(), 0.0);
 }
 
 }  // namespace
