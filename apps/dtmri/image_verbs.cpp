@@ -21,6 +21,13 @@ ImageConvention convention_of(const Document& options) {
   throw usage_error("--convention " + options.output.convention + ": mrtrix, fsl are known");
 }
 
+WestinScale westin_of(const Document& options) {
+  for (const WestinScale scale : {WestinScale::kTrace, WestinScale::kLargest}) {
+    if (options.output.westin == name_of(scale)) return scale;
+  }
+  throw usage_error("--westin " + options.output.westin + ": trace, largest are known");
+}
+
 /// What can be refused before any work is done.
 void check_request(const Document& options, const std::string& verb, const std::string& example) {
   if (options.output.file.empty()) throw usage_error(verb + " needs an output: try --out " + example);
@@ -55,7 +62,7 @@ ExitCode finish(const Document& options, const VerbContext& context, const Input
   const auto components = static_cast<std::size_t>(component_count(content));
   for (std::size_t v = 0; v < values.size(); v += components)
     summary.with_tensor += std::isfinite(values[v]) ? 1 : 0;
-  summary.turn = made.orientation.suspicious ? made.orientation.best.words() : "";
+  summary.turn = made.orientation.advice;
   summary.gain = made.orientation.gain;
   summary.notes = input.notes();
   summary.notes.insert(summary.notes.end(), made.notes.begin(), made.notes.end());
@@ -99,13 +106,20 @@ ExitCode run_fit(const Document& options, const VerbContext& context) {
 ExitCode run_measure(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const TensorMeasure measure = measure_from_name(options.output.measure);
+  const WestinScale westin = westin_of(options);
   check_request(options, "measure", options.output.measure + ".nii.gz");
   Input input = open_input(options, context);
   const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
   const Stopwatch watch;
-  const std::vector<float> values = measure_tensors(made.image, made.choice, measure, options.common.threads);
+  const std::vector<float> values =
+      measure_tensors(made.image, made.choice, measure, options.common.threads, westin);
   ImageSummary summary;
   summary.what = std::string(name_of(measure));
+  const bool shape = measure == TensorMeasure::kLinear || measure == TensorMeasure::kPlanar ||
+                     measure == TensorMeasure::kSpherical;
+  if (shape)
+    summary.what += westin == WestinScale::kTrace ? " as a part of the trace (--westin)"
+                                                  : " as a part of the largest eigenvalue (--westin)";
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   summary.seconds_made = input.seconds_field() + watch.seconds();
   ImageContent content = ImageContent::kScalar;

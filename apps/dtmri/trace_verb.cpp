@@ -3,6 +3,7 @@
 
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tract_request.h"
+#include "apps/dtmri/tract_table.h"
 #include "common/base/clock.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
@@ -29,6 +30,8 @@ std::vector<std::string> advice_for(const TractSummary& summary) {
   };
   add(End::kMaxLength, "--max-length above " + short_number(result.max_length) + " follows them further");
   add(End::kSharpTurn, "--max-angle above " + short_number(result.max_angle) + " lets them turn");
+  add(End::kMaxSteps,
+      "--max-steps above " + std::to_string(summary.options.max_steps) + " follows them further");
   return advice;
 }
 
@@ -66,7 +69,10 @@ std::string summary_text(const TractSummary& summary) {
               std::to_string(count);
     }
   }
-  text += "  ends       " + ends + " (two a line)\n";
+  text +=
+      "  ends       " + ends +
+      (summary.options.sense == TractSense::kBoth ? " (two a line)\n"
+                                                  : " (two a line; its seed counts as stopped_by_rule)\n");
   if (const std::string dropped = dropped_text(result.dropped); !dropped.empty()) {
     text += "  dropped    " + dropped + "\n";
   }
@@ -80,6 +86,14 @@ std::string summary_text(const TractSummary& summary) {
           short_number(summary.seconds_prepare) + ", trace " + short_number(result.seconds) + " (" +
           counted(static_cast<std::uint64_t>(summary.threads), "thread") + ")\n";
   for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
+  return text;
+}
+
+/// "0 left_domain, 1 stagnation, …"
+std::string end_numbers() {
+  std::string text;
+  for (int e = 0; e < kEndCount; ++e)
+    text += (e == 0 ? "" : ", ") + std::to_string(e) + " " + std::string(name_of(static_cast<End>(e)));
   return text;
 }
 
@@ -149,11 +163,22 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   if (!options.output.file.empty()) {
     context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
+    const std::string ending = lower_ending(options.output.file);
+    if (ending == ".tck")
+      console.note(
+          "a .tck file has no place for error, seed and termination: left out; .trk, .vtp and .csv have");
+    if (ending == ".trk" || ending == ".vtp")
+      console.note("termination_first and termination_last are numbers in a " + ending +
+                   " file: " + end_numbers() + "; .csv has words");
     add_line_columns(summary.result);
     if (const auto* const voxels = std::get_if<UniformTopology>(&image.image.topology)) {
       summary.result.lines.image = {.voxels = voxels->points, .axes = voxels->axes, .origin = voxels->origin};
     }
-    write_tractogram(options.output.file, summary.result.lines, options.common.force);
+    if (ending == ".csv") {
+      write_tract_table(options.output.file, summary.result, seeds, options.common.force);
+    } else {
+      write_tractogram(options.output.file, summary.result.lines, options.common.force);
+    }
     summary.seconds_write = watch.seconds();
     context.interrupt.keep(options.output.file);
   }

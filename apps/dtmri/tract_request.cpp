@@ -84,6 +84,13 @@ std::function<bool(const Vec3&)> above(const TensorField& field, TractMeasure me
       };
 }
 
+TractSense sense_from_name(const std::string& name) {
+  if (name == "both") return TractSense::kBoth;
+  if (name == "forward") return TractSense::kForward;
+  if (name == "backward") return TractSense::kBackward;
+  throw usage_error("--direction " + name + ": both, forward, backward are known");
+}
+
 /// At (i + 1/2) / n of what lies between the outer centres of voxels, along the image's axes; x fastest.
 std::vector<Vec3> grid_seeds(const Index3& n, const UniformTopology& image) {
   std::vector<Vec3> seeds;
@@ -134,7 +141,7 @@ ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* fiel
   tracts.notes = file.info.notes;
   if (field != nullptr && field->voxels()) {
     const TractFit fit = fit_of_tracts(*field, *tracts.bundle->lines, threads);
-    if (fit.suspicious) tracts.notes.push_back(fit_sentence(fit, "dtmri tracts --turn"));
+    if (fit.suspicious || fit.strays()) tracts.notes.push_back(fit_sentence(fit, "dtmri tracts --turn"));
   }
   for (std::string& note : tracts.notes) note.insert(0, look.file + ": ");
   return tracts;
@@ -172,6 +179,8 @@ TractRequest tract_request(const TractTracingOptions& options, int threads, Prog
   tracts.min_radius = options.min_radius;
   tracts.min_length = options.min_length;
   tracts.max_length = options.max_length;
+  tracts.sense = sense_from_name(options.direction);
+  tracts.max_steps = options.max_steps;
   check_tract_options(tracts);
   tracts.include = parse_regions(options.include, "--include", request.masks, progress);
   tracts.exclude = parse_regions(options.exclude, "--exclude", request.masks, progress);

@@ -35,6 +35,8 @@ struct LoadRequest {
   int refine = 0;      ///< cells along each axis of a curved element (EX models); 0: the loader's own choice
   std::string series;  ///< DICOM: a series of the folder by its number there or its UID; empty: the only one
   bool allow_gaps = false;  ///< DICOM: slices may be missing, and hold no values
+  /// NIfTI: images that state no orientation run from right to left.
+  bool left_handed = false;
   /// TetGen: which markers of a .face file mean the inner and the outer surface, "1,4/2"; empty: by shape.
   std::string surface_markers;
 };

@@ -36,8 +36,8 @@ std::vector<std::uint8_t> foreground(const DataArray& signals, const UniformTopo
 
 /// The mask in `file` over the image, and what the user should know of it.
 std::vector<std::uint8_t> mask_in(const std::filesystem::path& file, const UniformTopology& topology,
-                                  std::vector<std::string>& notes, Progress* progress) {
-  const MaskFile read = read_mask(file, progress);
+                                  bool left_handed, std::vector<std::string>& notes, Progress* progress) {
+  const MaskFile read = read_mask(file, progress, left_handed);
   notes.insert(notes.end(), read.notes.begin(), read.notes.end());
   MaskedVoxels masked = masked_voxels(*read.mask, topology);
   if (masked.taken == 0) {
@@ -92,7 +92,7 @@ void say_quality(const GradientTable& table, std::vector<std::string>& notes) {
 FittedImage fit_image(const DataArray& signals, const UniformTopology& topology, const GradientTable& table,
                       const TensorReading& reading, const std::string& file, int threads,
                       std::vector<std::string>& notes, Progress* progress) {
-  FittedImage fitted{{}, choose_gradients(table)};
+  FittedImage fitted{{}, choose_gradients(table, reading.gradients, file)};
   const GradientTable& taken = fitted.gradients.table;
   notes.insert(notes.end(), fitted.gradients.notes.begin(), fitted.gradients.notes.end());
   if (const std::string problem = gradient_problem(taken); !problem.empty()) {
@@ -106,7 +106,7 @@ FittedImage fit_image(const DataArray& signals, const UniformTopology& topology,
   const DataArray used = all ? signals : volumes_of(signals, fitted.gradients.volumes, threads);
   std::vector<std::uint8_t> mask;
   if (!reading.mask_file.empty()) {
-    mask = mask_in(reading.mask_file, topology, notes, progress);
+    mask = mask_in(reading.mask_file, topology, reading.left_handed, notes, progress);
   } else if (reading.masked) {
     mask = foreground(used, topology, taken, threads);
   }

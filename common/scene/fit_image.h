@@ -19,7 +19,7 @@ struct FittedImage {
   ChosenGradients gradients;
 };
 
-/// Fits tensors to the volumes of `table` that serve, where the mask of `reading` says: the foreground of the mean of the unweighted volumes (of
+/// Fits tensors to the volumes that `reading` leaves of `table` and that serve, where the mask of `reading` says: the foreground of the mean of the unweighted volumes (of
 /// all, where there is none), an image file, or everywhere. Notes say what was fitted, how well the table determines
 /// tensors, and how often a signal was not above zero or an eigenvalue below it.
 /// @throws Error (bad input) where the gradients do not determine a tensor, or the mask has no voxel in the image;

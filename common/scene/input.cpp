@@ -208,7 +208,7 @@ void Input::open_files(Progress* progress) {
   request.surface_markers = spec_.surface_markers;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
   if (spec_.kind == FieldKind::kTensor) {
-    (void)parse_tensor_spec(spec_.tensor);  // a misspelt option is refused first
+    request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};
   }
   source_ = Source::open(request, {}, progress);

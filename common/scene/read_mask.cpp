@@ -25,9 +25,10 @@ std::string place_text(const UniformTopology& image) {
 
 }  // namespace
 
-MaskFile read_mask(const std::filesystem::path& file, Progress* progress) {
+MaskFile read_mask(const std::filesystem::path& file, Progress* progress, bool left_handed) {
   LoadRequest request;
   request.files = {file};
+  request.left_handed = left_handed;
   Source source = Source::open(request, {}, progress);
   const std::vector<ArrayInfo> arrays = source.arrays();
   const auto refuse = [&file](const std::string& found, const std::string& expected) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -73,26 +74,39 @@ std::vector<VectorFrame> frames_of(StoredOrder order) {
 /// The frame of numbers as stored, and how well main directions line up in it.
 struct FrameChoice {
   VectorFrame frame = VectorFrame::kScanner;
-  double coherence = 0.0;
+  Coherence coherence;
   std::string why;
 };
 
-/// Of `frames`, the likeliest first, the one in which directions line up best.
+/// What `wanted` and the file leave open.
+struct OpenFrame {
+  std::optional<VectorFrame> asked;
+  std::optional<VectorFrame> stated;
+};
+
+/// The one that is asked for, else that the file states, else of `likely`, the likeliest first, the one in which
+/// directions line up best.
 FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology& topology,
-                         const std::vector<VectorFrame>& frames, int threads) {
+                         const std::vector<VectorFrame>& likely, const OpenFrame& open, int threads) {
   const DirectionMap map(stored, topology, threads);
+  std::vector<VectorFrame> frames = likely;
+  if (open.asked || open.stated) frames = {open.asked ? *open.asked : *open.stated};
   std::vector<Mat3> matrices;
   for (const VectorFrame frame : frames) matrices.push_back(matrix_of(frame, topology.axes));
-  const std::vector<double> scores = map.coherence(matrices, threads);
+  const std::vector<Coherence> scores = map.coherence(matrices, threads);
   FrameChoice choice{.frame = frames.front(),
                      .coherence = scores.front(),
-                     .why = ": the file does not say, and nothing in the image speaks against it"};
+                     .why = open.asked ? ", as asked for"
+                            : open.stated
+                                ? ", as the file states"
+                                : ": the file does not say, and nothing in the image speaks against it"};
+  if (frames.size() == 1) return choice;
   if (map.size() < kLeastCoherent) {
     choice.why = ": the file does not say, and the image has too few fibres to tell";
     return choice;
   }
   for (std::size_t f = 1; f < frames.size(); ++f) {
-    if (scores[f] <= choice.coherence + kClearCoherence) continue;
+    if (!clearly_better(scores[f], choice.coherence)) continue;
     choice = {.frame = frames[f],
               .coherence = scores[f],
               .why = ": the file does not say, and neighbouring directions line up best so"};
@@ -110,7 +124,8 @@ void turn_stored(const Mat3& axes, std::vector<float>& tensors) {
 
 /// Tensors of six numbers whose order or axes the file leaves open.
 std::vector<float> read_unstated(const DataArray& array, const UniformTopology& topology, StoredOrder wanted,
-                                 int threads, std::vector<std::string>& notes, const std::string& file) {
+                                 const OpenFrame& open, int threads, VectorFrame& frame,
+                                 std::vector<std::string>& notes, const std::string& file) {
   std::array<double, 3> positive{};
   for (std::size_t r = 0; r < kReadings.size(); ++r) positive[r] = positive_part(array, kReadings[r].places);
   const double most = *std::max_element(positive.begin(), positive.end());
@@ -128,13 +143,14 @@ std::vector<float> read_unstated(const DataArray& array, const UniformTopology& 
     const bool taken = wanted == StoredOrder::kAuto ? positive[r] >= most - kAsGood : wanted == way.order;
     if (!taken) continue;
     std::vector<float> tensors = read_array(array, way.places, Mat3{1.0});
-    FrameChoice choice = choose_frame(tensors, topology, frames_of(way.order), threads);
-    if (!best.empty() && choice.coherence <= chosen.coherence + kClearCoherence) continue;
+    FrameChoice choice = choose_frame(tensors, topology, frames_of(way.order), open, threads);
+    if (!best.empty() && !clearly_better(choice.coherence, chosen.coherence)) continue;
     best = std::move(tensors);
     chosen = std::move(choice);
     name = way.name;
   }
-  turn_stored(matrix_of(chosen.frame, topology.axes), best);
+  frame = chosen.frame;
+  turn_stored(matrix_of(frame, topology.axes), best);
   std::string parts;
   for (std::size_t r = 0; r < kReadings.size(); ++r) {
     parts += (r == 0 ? "" : ", ") + short_number(std::round(1000.0 * positive[r]) / 10.0) + " % in " +
@@ -142,7 +158,7 @@ std::vector<float> read_unstated(const DataArray& array, const UniformTopology& 
   }
   notes.push_back("tensors taken in " + name + (wanted == StoredOrder::kAuto ? "" : ", as asked for") +
                   "; without an eigenvalue below zero: " + parts + " (--tensor-order)");
-  notes.push_back("tensors taken along " + std::string(words_of(chosen.frame)) + chosen.why);
+  notes.push_back("tensors taken along " + std::string(words_of(frame)) + chosen.why + " (--vectors)");
   return best;
 }
 
@@ -193,25 +209,33 @@ TensorOrder order_of_size(int components) noexcept {
 }
 
 std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
-                                       const TensorSource& source, TensorLayout layout, StoredOrder order,
-                                       int threads, std::vector<std::string>& notes,
-                                       const std::string& file) {
+                                       const TensorSource& source, const DiffusionInfo& diffusion,
+                                       const TensorReading& reading, int threads, VectorFrame& frame,
+                                       std::vector<std::string>& notes, const std::string& file) {
+  const OpenFrame open{.asked = reading.frame, .stated = diffusion.frame};
   if (source.kind == TensorSource::Kind::kEigenSet || source.kind == TensorSource::Kind::kDirections) {
     const bool set = source.kind == TensorSource::Kind::kEigenSet;
     std::vector<float> tensors = set ? from_eigen_set(image, source) : from_directions(image, source);
     const FrameChoice choice = choose_frame(
-        tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, threads);
-    turn_stored(matrix_of(choice.frame, topology.axes), tensors);
+        tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, open, threads);
+    frame = choice.frame;
+    turn_stored(matrix_of(frame, topology.axes), tensors);
     notes.push_back((set ? "tensors put together from eigenvectors and eigenvalues"
                          : "V1 and FA alone do not determine tensors: taken as alike across V1, with a mean "
                            "diffusivity of 0.0007 mm^2/s") +
-                    std::string(", along ") + std::string(words_of(choice.frame)) + choice.why);
+                    std::string(", along ") + std::string(words_of(frame)) + choice.why + " (--vectors)");
     return tensors;
   }
   const DataArray& array = *image.find(source.arrays.front(), Association::kPoint);
-  if (layout == TensorLayout::kData) return read_array(array, order_of_size(array.components), Mat3{1.0});
-  if (order == StoredOrder::kAuto && layout == TensorLayout::kLower) order = StoredOrder::kNifti;
-  return read_unstated(array, topology, order, threads, notes, file);
+  if (diffusion.layout == TensorLayout::kData) {
+    frame = reading.frame.value_or(VectorFrame::kScanner);
+    if (reading.frame)
+      notes.push_back("tensors taken along " + std::string(words_of(frame)) + ", as asked for (--vectors)");
+    return read_array(array, order_of_size(array.components), matrix_of(frame, topology.axes));
+  }
+  StoredOrder order = reading.order;
+  if (order == StoredOrder::kAuto && diffusion.layout == TensorLayout::kLower) order = StoredOrder::kNifti;
+  return read_unstated(array, topology, order, open, threads, frame, notes, file);
 }
 
 }  // namespace palpate

@@ -69,10 +69,13 @@ std::string turn_text(const AxisTurn& turn) {
 void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
                          std::vector<std::string>& notes) {
   if (!verdict.suspicious) return;
-  notes.push_back(
-      "WARNING: neighbouring main directions line up " + short_number(100.0 * (verdict.gain - 1.0)) +
-      " % better with the image's axes turned: the gradients may have a wrong axis; try " +
-      verdict.best.words() + (turn.is_identity() ? "" : " in addition to the turn that was asked for"));
+  notes.push_back("WARNING: neighbouring main directions line up " +
+                  short_number(std::round(1000.0 * (verdict.gain - 1.0)) / 10.0) +
+                  " % better in other axes: gradients, vectors or tensors may have a wrong axis; try " +
+                  verdict.advice + (turn.is_identity() ? "" : " in addition to the turn that was asked for") +
+                  (verdict.rotated ? "; even then they line up better still rotated by 10 degrees, which no "
+                                     "option mends: was the image turned without its table?"
+                                   : ""));
 }
 
 /// How many of the tensors have an eigenvalue below zero, of at most 20000 that are asked.
@@ -103,22 +106,36 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
   const auto* const topology = std::get_if<UniformTopology>(&result.image.topology);
   const bool as_stored =
       input.source.kind == TensorSource::Kind::kArray && input.diffusion.layout == TensorLayout::kData;
-  if (as_stored && (!topology || (reading.turn.is_identity() && !input.measured))) {
+  const bool turned = !reading.turn.is_identity() || reading.frame;
+  // The file's own numbers, in their own precision.
+  const auto keep_stored = [&] {
     const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
     result.choice = {array.name, order_of_size(array.components), reading.interpolation};
+  };
+  if (as_stored && !turned && (!topology || !input.measured)) {
+    keep_stored();
     return result;
   }
   const UniformTopology& grid = uniform(result.image, input);
   std::vector<float> tensors;
+  Orientation taken{.turn = reading.turn};
   if (input.source.kind == TensorSource::Kind::kSignals) {
     const DataArray& signals = *result.image.find(kSignalArray, Association::kPoint);
-    result.fit = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
-                           result.notes, progress)
-                     .fit;
-    tensors = std::exchange(result.fit->tensors, {});
+    FittedImage fitted = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
+                                   result.notes, progress);
+    tensors = std::exchange(fitted.fit.tensors, {});
+    result.fit = std::move(fitted.fit);
+    result.gradients = std::move(fitted.gradients.table);
+    const VectorFrame read = input.diffusion.gradient_frame;
+    taken.frame = reading.frame.value_or(read);
+    if (reading.frame) {
+      turn_tensors(matrix_of(taken.frame, grid.axes) * glm::transpose(matrix_of(read, grid.axes)), tensors);
+      result.notes.push_back("gradients taken along " + std::string(words_of(taken.frame)) +
+                             ", as asked for (--vectors)");
+    }
   } else {
-    tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion.layout, reading.order,
-                                  threads, result.notes, input.file);
+    tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion, reading, threads,
+                                  taken.frame, result.notes, input.file);
     count_negative(tensors, result.notes);
   }
   if (!reading.turn.is_identity()) {
@@ -126,12 +143,10 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     turn_tensors(image * reading.turn.matrix() * glm::transpose(image), tensors);
     result.notes.push_back(turn_text(reading.turn));
   }
-  result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, threads);
+  result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, taken, threads);
   warn_of_orientation(result.orientation, reading.turn, result.notes);
-  if (as_stored && reading.turn.is_identity()) {
-    // The file's own numbers, in their own precision.
-    const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
-    result.choice = {array.name, order_of_size(array.components), reading.interpolation};
+  if (as_stored && !turned) {
+    keep_stored();
     return result;
   }
   result.image.arrays = {array_of(std::move(tensors))};

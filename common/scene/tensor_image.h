@@ -20,6 +20,7 @@ struct TensorImage {
   TensorChoice choice;             ///< which array, and in which order its numbers stand
   std::vector<std::string> notes;  ///< what was assumed or found, for the user
   std::optional<TensorFit> fit;    ///< where it was fitted: its counts (the tensors are in `image`)
+  GradientTable gradients;         ///< that it was fitted with; empty where it was not
   OrientationVerdict orientation;  ///< of images from files
 };
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -42,6 +44,52 @@ AxisTurn turn_of(const TensorSpec& words) {
   return turn;
 }
 
+/// "3,7,12-15"
+std::vector<std::size_t> parse_volumes(const std::string& text) {
+  std::vector<std::size_t> volumes;
+  if (text.empty()) return volumes;
+  for (const std::string_view word : split(text, ',')) {
+    const std::string_view part = trimmed(word);
+    const std::size_t dash = part.find('-');
+    const auto first = parsed<std::size_t>(part.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : parsed<std::size_t>(part.substr(dash + 1));
+    if (!first || !last || *last < *first || *last >= kMostGradients) {
+      throw usage_error("--leave-out " + text +
+                        ": volumes counted from 0 are expected, with '-' between the first and the last of "
+                        "several, such as 3,7,12-15");
+    }
+    for (std::size_t v = *first; v <= *last; ++v) volumes.push_back(v);
+  }
+  std::sort(volumes.begin(), volumes.end());
+  volumes.erase(std::unique(volumes.begin(), volumes.end()), volumes.end());
+  return volumes;
+}
+
+GradientChoice gradients_of(const TensorSpec& words) {
+  GradientChoice choice;
+  choice.scale_by_length =
+      one_of<bool, 2>("--bvec-length", words.bvec_length, {{{"scale", true}, {"ignore", false}}});
+  choice.left_out = parse_volumes(words.leave_out);
+  if (words.max_b) choice.max_weighting = *words.max_b;
+  if (words.shell.empty()) return choice;
+  for (const std::string_view word : split(words.shell, ',')) {
+    const std::optional<double> b = number(trimmed(word));
+    if (!b || !(*b > 0.0) || !std::isfinite(*b))
+      throw usage_error("--shell " + words.shell + ": b-values above 0 are expected, such as 1000,2000");
+    choice.shells.push_back(*b);
+  }
+  return choice;
+}
+
+std::optional<VectorFrame> frame_of(const std::string& word) {
+  if (word == "auto") return std::nullopt;
+  for (int f = 0; f < kVectorFrameCount; ++f) {
+    const auto frame = static_cast<VectorFrame>(f);
+    if (word == name_of(frame)) return frame;
+  }
+  throw usage_error("--vectors " + word + ": auto, image, voxel, scanner, lps are known");
+}
+
 }  // namespace
 
 TensorReading parse_tensor_spec(const TensorSpec& words) {
@@ -56,6 +104,10 @@ TensorReading parse_tensor_spec(const TensorSpec& words) {
   reading.fit.negative = one_of<NegativeEigenvalues, 2>(
       "--negative", words.negative,
       {{{"keep", NegativeEigenvalues::kKept}, {"zero", NegativeEigenvalues::kZero}}});
+  reading.frame = frame_of(words.vectors);
+  reading.left_handed =
+      one_of<bool, 2>("--handedness", words.handedness, {{{"right", false}, {"left", true}}});
+  reading.gradients = gradients_of(words);
   reading.masked = words.mask != "none";
   if (reading.masked && words.mask != "auto") reading.mask_file = words.mask;
   reading.turn = turn_of(words);

@@ -3,7 +3,6 @@
 
 #include "common/base/clock.h"
 #include "common/base/text.h"
-#include "common/field/tensor/tensor_fit.h"
 #include "lab/data/fit_errors.h"
 #include "lab/data/tract_errors.h"
 #include "lab/study.h"
@@ -19,16 +18,15 @@ ReportAnswer study_tensors(const Study& study) {
   const Stopwatch watch;
   const int threads = study.threads();
   Input input = study.open({.tracing = true});
-  const auto& gradients = input.file()->diffusion.gradients;
-  const bool own = gradients && gradient_problem(*gradients).empty();
   TensorImage image = input.load_tensor_image(threads, study.progress());
+  const bool own = image.fit.has_value();
 
   Report report = study.begin(input);
   report.scene.insert(report.scene.end(), image.notes.begin(), image.notes.end());
   report.scene.push_back("Opening it took " + short_number(input.seconds_open() + input.seconds_read()) +
                          " s" + (image.fit ? ", with the fit." : "."));
 
-  FitErrors fit = run_fit_errors(own ? *gradients : spread_gradients(kSpreadGradients), effort, threads,
+  FitErrors fit = run_fit_errors(own ? image.gradients : spread_gradients(kSpreadGradients), effort, threads,
                                  study.progress());
   fit.made_up = !own;
   report.sections.push_back(fit_errors_section(fit));

@@ -170,8 +170,7 @@ class HeaderReader {
     header_.scale = numbers[1];
   }
 
-  /// Rows of x, y, z, b. Where directions are not of unit length, b is scaled by the squared length, as
-  /// MRtrix does (3.0, "auto").
+  /// Rows of x, y, z, b.
   void read_gradients() {
     const std::vector<std::string> rows = keys_.all("dw_scheme");
     if (rows.empty()) return;
@@ -181,7 +180,6 @@ class HeaderReader {
       return;
     }
     GradientTable table;
-    bool scaled = false;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const std::vector<double> row = numbers_of("dw_scheme", rows[r]);
       const std::string place = "dw_scheme, row " + std::to_string(r + 1);
@@ -190,15 +188,13 @@ class HeaderReader {
       const double length = glm::length(direction);
       if (!is_finite(direction) || !(row[3] >= 0.0) || !std::isfinite(row[3]))
         refuse(place, "is '" + rows[r].substr(0, 60) + "'", "finite numbers, b not below zero");
-      constexpr double kUnit = 0.01;
-      const bool scale = length > 0.0 && row[3] > 0.0 && std::abs(2.0 * std::log(length)) > kUnit;
-      scaled = scaled || scale;
-      table.weightings.push_back(scale ? row[3] * length * length : row[3]);
-      table.directions.push_back(length > 0.0 ? direction / length : Vec3{0.0});
+      constexpr double kLongest = 1e9;
+      if (!(length < kLongest))
+        refuse(place, "has a direction of length " + short_number(length), "about one");
+      table.weightings.push_back(row[3]);
+      table.directions.push_back(direction);
     }
-    header_.notes.push_back(
-        "gradients from dw_scheme, in RAS" +
-        std::string(scaled ? "; b-values scaled by the squared length of directions" : ""));
+    header_.notes.emplace_back("gradients from dw_scheme, in RAS");
     header_.gradients = std::move(table);
   }
 

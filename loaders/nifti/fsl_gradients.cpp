@@ -166,30 +166,19 @@ GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volu
   GradientTable table{read_weightings(files.weightings, volumes, notes),
                       read_directions(files.directions, volumes, notes)};
   const Mat3 ras_from_fsl = fsl_axes(axes);
-  constexpr double kUnit = 0.01;  // lengths differ from one by rounding to two or more places
-  std::size_t not_unit = 0;
+  constexpr double kLongest = 1e9;
   for (std::size_t i = 0; i < volumes; ++i) {
     Vec3& g = table.directions[i];
-    if (!is_finite(g)) g = Vec3{0.0};  // what converters write where there is none
-    const double length = glm::length(g);
-    if (length == 0.0 || !std::isfinite(length)) {
-      g = Vec3{0.0};
-      constexpr double kSmall = 0.05;
-      if (table.weightings[i] > kSmall * table.largest_weighting()) {
-        throw input_error({files.directions, "direction " + std::to_string(i + 1), "is zero or no number",
-                           "a direction, for its b-value is " + short_number(table.weightings[i]), ""});
-      }
-      continue;
-    }
-    not_unit += std::abs(length - 1.0) > kUnit ? 1 : 0;
-    g = glm::normalize(ras_from_fsl * (g / length));
+    const double length = is_finite(g) ? glm::length(g) : 0.0;
+    if (!(length < kLongest))
+      throw input_error({files.directions, "direction " + std::to_string(i + 1),
+                         "has a length of " + short_number(length), "about one", ""});
+    // NaN is what converters write where there is none.
+    g = length > 0.0 ? length * glm::normalize(ras_from_fsl * (g / length)) : Vec3{0.0};
   }
   notes.push_back("gradients from " + files.weightings + " and " + files.directions +
                   ", in the image's axes as FSL has them, turned into RAS" +
                   (glm::determinant(axes) > 0.0 ? " (x turned around: the image is right-handed)" : ""));
-  if (not_unit > 0)
-    notes.push_back(counted(not_unit, "gradient direction") +
-                    " not of unit length: made so, b-values as stated");
   return table;
 }
 

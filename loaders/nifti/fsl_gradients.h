@@ -28,11 +28,10 @@ struct FslGradientFiles {
 /// What find_fsl_gradients() looks for, for messages: "dwi.bval, dwi.bvec".
 [[nodiscard]] std::string gradient_names(const std::string& file);
 
-/// Reads both; directions come out in RAS, of unit length or zero.
+/// Reads both; directions come out in RAS, of the length that they have, zero where there is none.
 /// @param axes steps of the image in RAS along i, j, k, as columns.
 /// @param notes what was taken how.
-/// @throws Error (bad input) naming the file where it is no table of `volumes` numbers, or a weighted volume
-/// has no direction.
+/// @throws Error (bad input) naming the file where it is no table of `volumes` numbers.
 [[nodiscard]] GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes,
                                                const Mat3& axes, std::vector<std::string>& notes);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include <nifti/nifti2_io.h>
@@ -103,7 +104,7 @@ class VoxelFile {
 }  // namespace
 
 struct NiftiFile::Image {
-  Image(std::string file, FourthAxis fourth_axis) : file_(std::move(file)) {
+  Image(std::string file, FourthAxis fourth_axis, bool left_handed) : file_(std::move(file)) {
     const NiftiClaims claims = check_nifti(file_);
     nifti_set_debug_level(0);
     // niftilib goes by the name.
@@ -118,11 +119,11 @@ struct NiftiFile::Image {
     if (!image_)
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});
     if (claims.pair) check_nifti_voxels(image_->iname, claims);
-    place_ = place_of(claims);
+    place_ = place_of(claims, left_handed);
     describe_values(fourth_axis);
   }
 
-  NiftiPlace place_of(const NiftiClaims& claims) const {
+  NiftiPlace place_of(const NiftiClaims& claims, bool left_handed) const {
     constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;
     for (std::size_t axis = 1; axis < 4; ++axis) {
       if (claims.size[axis] > kMostVoxels)
@@ -132,7 +133,11 @@ struct NiftiFile::Image {
       if (image_->dim[axis] != claims.size[axis] && static_cast<std::int64_t>(axis) <= image_->dim[0])
         throw input_error({file_, "header", "niftilib reads other sizes than it states"});
     }
-    return place_nifti(*image_, file_);
+    return place_nifti(*image_, left_handed, file_);
+  }
+
+  [[nodiscard]] std::optional<VectorFrame> stated_frame() const noexcept {
+    return frame_in(std::string_view(image_->descrip, strnlen(image_->descrip, sizeof image_->descrip)));
   }
 
   /// Name and shape of the values, time steps, and what becomes of slope and intercept.
@@ -161,7 +166,7 @@ struct NiftiFile::Image {
     array_.name = "scalars";
     if (array_.components > 1) array_.name = volumes_ == 3 ? "vectors" : "components";
     if (stored_.components > 1 && volumes_ == 1) array_.name = kColorArray;
-    if (volumes_ == 3)
+    if (volumes_ == 3 && !stated_frame())
       place_.notes.emplace_back("vectors as stored: the header does not say along which axes");
     array_.type = stored_.type;
     slope_ = image.scl_slope;
@@ -252,8 +257,8 @@ struct NiftiFile::Image {
   bool scaled_ = false;
 };
 
-NiftiFile::NiftiFile(const std::string& file, FourthAxis fourth_axis)
-    : image_(std::make_unique<Image>(file, fourth_axis)) {}
+NiftiFile::NiftiFile(const std::string& file, FourthAxis fourth_axis, bool left_handed)
+    : image_(std::make_unique<Image>(file, fourth_axis, left_handed)) {}
 NiftiFile::NiftiFile(NiftiFile&&) noexcept = default;
 NiftiFile& NiftiFile::operator=(NiftiFile&&) noexcept = default;
 NiftiFile::~NiftiFile() = default;
@@ -267,6 +272,7 @@ void NiftiFile::rename(const std::string& array) { image_->array_.name = array; 
 bool NiftiFile::symmetric_matrix() const noexcept {
   return image_->image_->intent_code == NIFTI_INTENT_SYMMATRIX;
 }
+std::optional<VectorFrame> NiftiFile::stated_frame() const noexcept { return image_->stated_frame(); }
 
 DataArray NiftiFile::values(std::size_t step, const std::function<void(double)>& on_progress) const {
   return image_->values(static_cast<std::int64_t>(step), on_progress);

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/field/vector_choice.h"
 
 namespace palpate {
@@ -18,8 +20,9 @@ enum class FourthAxis : std::uint8_t { kTime, kComponents };
 class NiftiFile {
  public:
   /// Reads the header, which check_nifti() has held against the file's size.
+  /// @param left_handed LoadRequest::left_handed.
   /// @throws Error (bad input).
-  NiftiFile(const std::string& file, FourthAxis fourth_axis);
+  NiftiFile(const std::string& file, FourthAxis fourth_axis, bool left_handed);
   NiftiFile(NiftiFile&&) noexcept;
   NiftiFile& operator=(NiftiFile&&) noexcept;
   ~NiftiFile();
@@ -32,6 +35,8 @@ class NiftiFile {
   void rename(const std::string& array);
   /// The header's intent is that of symmetric matrices.
   [[nodiscard]] bool symmetric_matrix() const noexcept;
+  /// Along which axes vectors and tensors are, where the description of the header says so as write_image() does.
+  [[nodiscard]] std::optional<VectorFrame> stated_frame() const noexcept;
 
   /// Reads the voxels of a time step. @throws Error (bad input).
   [[nodiscard]] DataArray values(std::size_t step, const std::function<void(double)>& on_progress) const;

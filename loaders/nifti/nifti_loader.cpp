@@ -15,13 +15,26 @@
 namespace palpate {
 namespace {
 
+/// Whether the voxels of both lie in the same places, but for what programs round in headers.
+bool same_voxels(const UniformTopology& a, const UniformTopology& b) {
+  if (a.points != b.points) return false;
+  constexpr double kRounding = 0.01;  // of the shortest step
+  const double close =
+      kRounding * std::min({glm::length(a.axes[0]), glm::length(a.axes[1]), glm::length(a.axes[2])});
+  double apart = glm::distance(a.origin, b.origin);
+  for (int axis = 0; axis < 3; ++axis)
+    apart += glm::distance(a.axes[axis], b.axes[axis]) * (a.points[axis] - 1);
+  return apart <= close;
+}
+
 class NiftiLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
     const std::string file = request.files.front().string();
     check_others(request);
     files_.clear();
-    files_.emplace_back(file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime);
+    files_.emplace_back(file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime,
+                        request.left_handed);
     const NiftiFile& first = files_.front();
 
     FileInfo info;
@@ -29,7 +42,7 @@ class NiftiLoader : public Loader {
     info.units = "coordinates in mm";
     info.notes = first.notes();
     info.times = first.times();
-    if (request.diffusion) describe_diffusion(file, *request.diffusion, info);
+    if (request.diffusion) describe_diffusion(file, *request.diffusion, request.left_handed, info);
     info.blocks.push_back(describe_image(first.topology(), first.array()));
     for (std::size_t i = 1; i < files_.size(); ++i) info.blocks.front().arrays.push_back(files_[i].array());
     return info;
@@ -66,19 +79,22 @@ class NiftiLoader : public Loader {
   }
 
   /// Finds out whether the image holds signals with gradients, tensors, or one of FSL's eigen images.
-  void describe_diffusion(const std::string& file, const DiffusionRequest& request, FileInfo& info) {
+  void describe_diffusion(const std::string& file, const DiffusionRequest& request, bool left_handed,
+                          FileInfo& info) {
     NiftiFile& image = files_.front();
     const int volumes = image.array().components;
+    info.diffusion.frame = image.stated_frame();
     info.diffusion.layout = image.symmetric_matrix() ? TensorLayout::kLower : TensorLayout::kUnstated;
     if (const auto name = fsl_image_name(file)) {
       image.rename(*name);
-      add_eigen_set(file, info);
+      add_eigen_set(file, left_handed, info);
       return;
     }
     const auto gradients = find_fsl_gradients(file, request);
     if (gradients) {
       info.diffusion.gradients = read_fsl_gradients(*gradients, static_cast<std::size_t>(volumes),
                                                     image.topology().axes, info.notes);
+      info.diffusion.gradient_frame = VectorFrame::kImage;
       image.rename(kSignalArray);
     } else if (volumes == 6) {
       image.rename("tensors");
@@ -89,15 +105,14 @@ class NiftiLoader : public Loader {
   }
 
   /// The other eigenvectors, eigenvalues and measures that lie beside `file`, on the same grid.
-  void add_eigen_set(const std::string& file, FileInfo& info) {
+  void add_eigen_set(const std::string& file, bool left_handed, FileInfo& info) {
     for (const auto& [name, path] : fsl_images_beside(file)) {
-      NiftiFile other(path, FourthAxis::kComponents);
-      const UniformTopology& a = files_.front().topology();
-      const UniformTopology& b = other.topology();
-      if (a.points != b.points || a.origin != b.origin || a.axes != b.axes) {
+      NiftiFile other(path, FourthAxis::kComponents, left_handed);
+      if (!same_voxels(files_.front().topology(), other.topology())) {
         info.notes.push_back(path + " lies on another grid, and is left out");
         continue;
       }
+      if (name.starts_with('V') && !info.diffusion.frame) info.diffusion.frame = other.stated_frame();
       other.rename(name);
       files_.push_back(std::move(other));
     }

@@ -72,7 +72,7 @@ std::string space_name(int code) {
 
 }  // namespace
 
-NiftiPlace place_nifti(const nifti_image& image, const std::string& file) {
+NiftiPlace place_nifti(const nifti_image& image, bool left_handed, const std::string& file) {
   NiftiPlace place;
   UniformTopology& topology = place.topology;
   topology.points = {static_cast<int>(image.nx), static_cast<int>(image.ny), static_cast<int>(image.nz)};
@@ -101,9 +101,11 @@ NiftiPlace place_nifti(const nifti_image& image, const std::string& file) {
   } else {
     topology.axes = Mat3{0.0};
     for (int axis = 0; axis < 3; ++axis) topology.axes[axis][axis] = unit * std::abs(image.pixdim[axis + 1]);
-    place.notes.emplace_back(
-        "WARNING: neither sform nor qform: spacings alone, no orientation known; taken as right-handed, from "
-        "left to right. Programs disagree here: left and right may be mirrored, and so may gradients along x");
+    if (left_handed) topology.axes[0] = -topology.axes[0];
+    place.notes.push_back(
+        "WARNING: neither sform nor qform: spacings alone, no orientation known; taken as " +
+        std::string(left_handed ? "left-handed, from right to left" : "right-handed, from left to right") +
+        " (--handedness). Programs disagree here: left and right may be mirrored, and so may gradients along x");
   }
   // Steps of any unit: it is their directions that must span space.
   const double steps =

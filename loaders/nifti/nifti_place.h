@@ -16,7 +16,8 @@ struct NiftiPlace {
   std::vector<std::string> notes;  ///< what was taken, and what was not
 };
 
+/// @param left_handed images that state no orientation run from right to left.
 /// @throws Error (bad input) with `file` where the axes span no volume.
-[[nodiscard]] NiftiPlace place_nifti(const nifti_image& image, const std::string& file);
+[[nodiscard]] NiftiPlace place_nifti(const nifti_image& image, bool left_handed, const std::string& file);
 
 }  // namespace palpate

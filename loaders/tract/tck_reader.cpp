@@ -1,5 +1,6 @@
 #include "loaders/tract/tck_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -87,6 +88,15 @@ Tractogram read_tck(const std::string& file, std::string_view bytes, std::vector
   const std::string_view points = bytes.substr(start_of_points(file, header, bytes.size()));
   Tractogram lines = number.type == "float64" ? read_points<double>(file, points, number.big_endian, notes)
                                               : read_points<float>(file, points, number.big_endian, notes);
+  const bool lps = std::any_of(header.entries.begin(), header.entries.end(), [](const auto& entry) {
+    const auto& [key, value] = entry;
+    return (lowered(key) == "space" && lowered(value) == "lps") ||
+           value.find("SPACE=LPS") != std::string::npos;
+  });
+  if (lps) {
+    for (Vec3f& x : lines.points) x = {-x.x, -x.y, x.z};
+    notes.emplace_back("the header states SPACE=LPS: turned into RAS");
+  }
   const std::string* const claimed = header.find("count");
   const auto count = claimed != nullptr ? parsed<std::uint64_t>(*claimed) : std::nullopt;
   if (count && *count != lines.line_count()) {

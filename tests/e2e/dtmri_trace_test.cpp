@@ -28,9 +28,9 @@ class DtmriTrace : public ExplorerTest {
     while (std::getline(in, row)) {
       std::replace(row.begin(), row.end(), ',', ' ');
       std::istringstream numbers(row);
-      int line = 0, point = 0;
+      int line = 0, seed = 0, point = 0;
       Point x;
-      numbers >> line >> point >> x.x >> x.y >> x.z;
+      numbers >> line >> seed >> point >> x.x >> x.y >> x.z;
       result[line].push_back(x);
     }
     return result;
@@ -118,6 +118,56 @@ TEST_F(DtmriTrace, TakesSeedsOnAGridAndAtRandom) {
   EXPECT_NE(read_file(folder_.path("s.csv")), one);
   (void)seeds("random:50", "1");
   EXPECT_EQ(read_file(folder_.path("s.csv")), one);
+}
+
+// The header and the words that all programs write; lengths from the seed along a straight line.
+TEST_F(DtmriTrace, WritesTheTableOfAllPrograms) {
+  const std::vector<std::string> base{"trace",    "--example", "straight",    "--seeds", "point:1.5,0,0",
+                                      "--step",   "0.5",       "--out",       "t.csv",   "--force",
+                                      "--cutoff", "0.2",       "--max-steps", "3"};
+  const auto rows = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), base.begin(), base.end());
+    (void)json(more);
+    std::istringstream in(read_file(folder_.path("t.csv")));
+    std::vector<std::vector<std::string>> table;
+    for (std::string row; std::getline(in, row);) {
+      std::vector<std::string> cells(1);
+      for (const char c : row) {
+        if (c == ',') {
+          cells.emplace_back();
+        } else {
+          cells.back() += c;
+        }
+      }
+      table.push_back(cells);
+    }
+    return table;
+  };
+  const auto both = rows({});
+  const std::vector<std::string> header{"line", "seed", "point", "x",     "y",          "z",
+                                        "time", "arc",  "speed", "error", "termination"};
+  ASSERT_EQ(both.size(), 8U);
+  EXPECT_EQ(both[0], header);
+  for (std::size_t p = 1; p < both.size(); ++p) {
+    ASSERT_EQ(both[p].size(), header.size());
+    EXPECT_EQ(both[p][2], std::to_string(p - 1));
+    EXPECT_NEAR(std::stod(both[p][6]), 0.5 * (static_cast<double>(p) - 4.0), 1e-2);
+    EXPECT_NEAR(std::stod(both[p][7]), std::abs(0.5 * (static_cast<double>(p) - 4.0)), 1e-2);
+    EXPECT_EQ(both[p][10], "max_steps");
+  }
+  EXPECT_EQ(both[4][3], "1.5");
+  for (const char* way : {"forward", "backward"}) {
+    const auto one = rows({"--direction", way});
+    ASSERT_EQ(one.size(), 5U) << way;
+    EXPECT_EQ(one[1][3], "1.5");
+  }
+  const ProgramResult tck =
+      run({"trace", "--example", "straight", "--seeds", "point:1.5,0,0", "--out", "t.tck", "--force"});
+  EXPECT_NE(tck.err.find("no place for error, seed and termination"), std::string::npos) << tck.err;
+  EXPECT_EQ(
+      run({"trace", "--example", "straight", "--seeds", "point:0,0,0", "--direction", "up", "--out", "x.csv"})
+          .exit_code,
+      2);
 }
 
 TEST_F(DtmriTrace, RefusesWhatItCannotDo) {

@@ -129,8 +129,12 @@ TEST(DiffusionNifti, ReadsRowsColumnsSmallWeightingsAndLengths) {
   folder.write("dwi.bval", bval_text("5"));
   folder.write("dwi.bvec", bvec_columns());
   EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 0.2, 0.1}), 1.0, 1e-6);
-  folder.write("dwi.bvec", bvec_rows(3.0));  // not of unit length
-  EXPECT_NEAR(first_tensor(folder.path("dwi.nii")).values[0], 1.7e-3, 1e-8);
+  folder.write("dwi.bvec", bvec_rows(3.0));  // b goes with the squared length
+  EXPECT_NEAR(first_tensor(folder.path("dwi.nii")).values[0], 1.7e-3 / 9.0, 1e-8);
+  TensorSpec as_stated;
+  as_stated.bvec_length = "ignore";
+  EXPECT_NEAR(first_tensor(folder.path("dwi.nii"), as_stated).values[0], 1.7e-3, 1e-8);
+  folder.write("dwi.bvec", bvec_columns());
   folder.write("elsewhere.txt", bval_text());
   TensorSpec words;
   words.bval = folder.path("elsewhere.txt");
@@ -158,7 +162,7 @@ TEST(DiffusionNifti, RefusesGradientsThatDoNotGoWithTheImage) {
   folder.write("dwi.bvec", "0 a b\n");
   EXPECT_NE(failure(file).find("'a' is no number"), std::string::npos) << failure(file);
   folder.write("dwi.bvec", "0 1 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n");
-  EXPECT_NE(failure(file).find("direction 3"), std::string::npos) << failure(file);
+  EXPECT_NE(failure(file).find("of the 7 unknowns"), std::string::npos) << failure(file);
   // Five directions are too few.
   folder.write("five.nii", image(6, kLeftHanded, signals({1, 0, 0})));
   folder.write("five.bval", "0 1000 1000 1000 1000 1000\n");
@@ -375,6 +379,83 @@ TEST(DiffusionNrrd, AppliesTheMeasurementFrameToListsOfSix) {
   EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-0.2 / 1.4, 1.0, 0.0}), 0.9995);
   folder.write("d.nrrd", head + "\n" + values);
   EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-0.2 / 1.4, 0.0, 1.0}), 0.9995) << "LPS turned";
+}
+
+TEST(DiffusionNifti, LeavesOutTheVolumesThatItIsTold) {
+  const TempFolder folder;
+  // Two volumes more: of a shell that is stated wrongly, and one that is damaged.
+  std::vector<double> values = signals({1.0, 2.0, 3.0});
+  values.insert(values.end(), {400.0, 7.0});
+  folder.write("dwi.nii", image(10, kLeftHanded, values));
+  folder.write("dwi.bval", "0 1000 1000 1000 1000 1000 1000 1000 3000 1000\n");
+  folder.write("dwi.bvec", bvec_columns() + "1 0 0\n0 1 0\n");
+  TensorSpec words;
+  words.leave_out = "8-9";
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  words.leave_out = "9";
+  EXPECT_LT(along(first_tensor(folder.path("dwi.nii"), words), {-1.0, 2.0, 3.0}), 0.9999);
+  words.max_b = 1500.0;
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  words.max_b = {};
+  words.shell = "1000";
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  for (const char* wrong : {"x", "3-", "5-3", "-2", "1,,2"}) {
+    words.leave_out = wrong;
+    EXPECT_THROW((void)open(folder.path("dwi.nii"), words), Error) << wrong;
+  }
+}
+
+TEST(DiffusionNifti, TakesTheAxesOfGradientsThatItIsTold) {
+  const TempFolder folder;
+  folder.write("dwi.nii", image(8, oblique(), signals({1.0, 2.0, 3.0})));
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_rows());
+  TensorSpec words;
+  const auto expect_along = [&](const char* frame, const Vec3& direction) {
+    words.vectors = frame;
+    EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), direction), 1.0, 1e-6) << frame;
+  };
+  expect_along("auto", oblique() * Vec3{-1.0, 2.0, 3.0});
+  expect_along("image", oblique() * Vec3{-1.0, 2.0, 3.0});
+  expect_along("voxel", oblique() * Vec3{1.0, 2.0, 3.0});
+  expect_along("scanner", {1.0, 2.0, 3.0});
+  expect_along("lps", {-1.0, -2.0, 3.0});
+  words.vectors = "world";
+  EXPECT_THROW((void)open(folder.path("dwi.nii"), words), Error);
+}
+
+TEST(DiffusionNifti, HasTheHandednessThatItIsToldWhereTheHeaderHasNone) {
+  const TempFolder folder;
+  NiftiHeader header{.size = {3, 3, 3, 8}, .datatype = 16, .xyz_units = 2};
+  header.pixdim = {2, 2, 2};
+  std::string bytes = header.version1() + std::string(4, '\0');
+  for (const double value : signals({1.0, 2.0, 3.0})) {
+    for (int p = 0; p < 27; ++p) put(bytes, static_cast<float>(value));
+  }
+  folder.write("dwi.nii", bytes);
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", bvec_rows());
+  // A mask of the first column of voxels, which has no orientation either.
+  NiftiHeader plain{.size = {3, 3, 3}, .datatype = 16, .xyz_units = 2};
+  plain.pixdim = {2, 2, 2};
+  std::string mask = plain.version1() + std::string(4, '\0');
+  for (int p = 0; p < 27; ++p) put(mask, p % 3 == 0 ? 1.0F : 0.0F);
+  TensorSpec words;
+  words.mask = folder.write("mask.nii", mask).string();
+  for (const bool left : {false, true}) {
+    words.handedness = left ? "left" : "right";
+    const TensorImage made = open(folder.path("dwi.nii"), words).load_tensor_image(1);
+    EXPECT_EQ(std::get<UniformTopology>(made.image.topology).axes[0], Vec3(left ? -2.0 : 2.0, 0.0, 0.0));
+    // FSL turns x around where it runs to the right: in both cases the gradients are the same in space.
+    EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+    for (std::size_t v = 0; v < 27; ++v)
+      EXPECT_EQ(std::isfinite(made.image.arrays.front().at(v)), v % 3 == 0) << v;
+  }
+  // An image that has an orientation keeps it.
+  folder.write("dwi.nii", image(8, kRightHanded, signals({1.0, 2.0, 3.0})));
+  words.mask = "none";
+  const TensorImage stated = open(folder.path("dwi.nii"), words).load_tensor_image(1);
+  EXPECT_EQ(std::get<UniformTopology>(stated.image.topology).axes, kRightHanded);
 }
 
 }  // namespace

@@ -336,6 +336,13 @@ TEST(ReadTractogram, TurnsVtkTractsThatStateLps) {
     EXPECT_EQ(said, lps) << name;
   };
   first("lps.vtk", head + "3D Slicer output. SPACE=LPS\n" + body, true);
+  Tractogram line;
+  line.points = {Vec3f{1.0F, 2.0F, 3.0F}, Vec3f{4.0F, 5.0F, 6.0F}, Vec3f{7.0F, 8.0F, 10.0F}};
+  line.starts = {0, 3};
+  const std::string points = tck_points<float>(line, false);
+  first("space.tck", tck_header("Float32LE", "space: LPS\n") + points, true);
+  first("comment.tck", tck_header("Float32LE", "comments: of 3D Slicer, SPACE=LPS\n") + points, true);
+  first("plain.tck", tck_header("Float32LE", "space: RAS\n") + points, false);
   first("ras.vtk", head + "3D Slicer output. SPACE=RAS\n" + body, false);
   first("plain.vtk", head + "vtk output\n" + body, false);
   first("lps.vtp", vtp(xml_space), true);

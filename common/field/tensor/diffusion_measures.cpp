@@ -25,6 +25,19 @@ Anisotropy anisotropy(const Vec3& eigenvalues) noexcept {
           .spherical = 3.0 * part.z / sum};
 }
 
+std::string_view name_of(WestinScale scale) noexcept {
+  return scale == WestinScale::kTrace ? "trace" : "largest";
+}
+
+Anisotropy anisotropy(const Vec3& eigenvalues, WestinScale scale) noexcept {
+  if (scale == WestinScale::kTrace) return anisotropy(eigenvalues);
+  const Vec3 part = shares(eigenvalues);
+  if (part.x == 0.0) return {};
+  return {.linear = (part.x - part.y) / part.x,
+          .planar = (part.y - part.z) / part.x,
+          .spherical = part.z / part.x};
+}
+
 double fractional_anisotropy(const Vec3& eigenvalues) noexcept {
   const Vec3 part = shares(eigenvalues);
   if (part.x == 0.0) return 0.0;

@@ -6,6 +6,9 @@
 /// isotropic. NaN in gives NaN out. @rt Safe, all of them.
 #pragma once
 
+#include <cstdint>
+#include <string_view>
+
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -17,6 +20,16 @@ struct Anisotropy {
   double spherical = 1.0;  ///< c_s = 3 lambda_3 / (lambda_1 + lambda_2 + lambda_3)
 };
 [[nodiscard]] Anisotropy anisotropy(const Vec3& eigenvalues) noexcept;
+
+/// What linear, planar and spherical parts are given in.
+enum class WestinScale : std::uint8_t {
+  kTrace,   ///< as above (Westin et al. 1997)
+  kLargest  ///< lambda_1: c_l = (lambda_1 - lambda_2) / lambda_1, c_p = (lambda_2 - lambda_3) / lambda_1,
+            ///< c_s = lambda_3 / lambda_1 (Westin et al. 2002); their sum is 1, too
+};
+/// "trace", "largest".
+[[nodiscard]] std::string_view name_of(WestinScale scale) noexcept;
+[[nodiscard]] Anisotropy anisotropy(const Vec3& eigenvalues, WestinScale scale) noexcept;
 
 /// FA (Basser and Pierpaoli 1996), in [0, 1].
 [[nodiscard]] double fractional_anisotropy(const Vec3& eigenvalues) noexcept;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "common/base/error.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -31,18 +33,68 @@ std::string volumes_text(const std::vector<std::size_t>& volumes) {
   return (volumes.size() == 1 ? "volume " : "volumes ") + numbers_text(volumes) + " (counted from 0)";
 }
 
+/// Makes directions unit, and weightings those of their lengths where `choice` says so.
+void scale_weightings(const GradientChoice& choice, const std::string& file, GradientTable& table,
+                      std::vector<std::string>& notes) {
+  constexpr double kUnit = 0.01;  // of the logarithm of the squared length
+  bool unit = true;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < table.directions.size(); ++i) {
+    Vec3& g = table.directions[i];
+    double length = is_finite(g) ? glm::length(g) : 0.0;
+    if (!std::isfinite(length)) length = 0.0;
+    g = length > 0.0 ? g / length : Vec3{0.0};
+    lengths.push_back(length);
+    if (length == 0.0 || table.weightings[i] == 0.0) continue;
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+    unit = unit && std::abs(2.0 * std::log(length)) <= kUnit;
+  }
+  if (unit) return;
+  const std::string found =
+      "gradient directions have lengths from " + short_number(shortest) + " to " + short_number(longest);
+  if (!choice.scale_by_length) {
+    notes.push_back(found + ": ignored, b-values as stated (--bvec-length)");
+    return;
+  }
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    if (lengths[i] > 0.0) table.weightings[i] *= lengths[i] * lengths[i];
+    if (!std::isfinite(table.weightings[i]))
+      throw input_error({file, "gradient " + std::to_string(i + 1),
+                         "has a length of " + short_number(lengths[i]) + ": its b-value overflows", "", ""});
+  }
+  notes.push_back(found +
+                  ": b-values scaled by the squared lengths, as MRtrix does (--bvec-length ignore takes them "
+                  "as stated)");
+}
+
+bool in_shell(double weighting, const std::vector<double>& shells) {
+  return std::any_of(shells.begin(), shells.end(),
+                     [&](double shell) { return std::abs(weighting - shell) <= kApart * shell; });
+}
+
 }  // namespace
 
-ChosenGradients choose_gradients(const GradientTable& stated) {
+ChosenGradients choose_gradients(const GradientTable& stated, const GradientChoice& choice,
+                                 const std::string& file) {
   GradientTable table = stated;
   ChosenGradients chosen;
+  scale_weightings(choice, file, table, chosen.notes);
   const std::size_t count = table.weightings.size();
   const double largest = table.largest_weighting();
-  const auto is_zero = [&](std::size_t i) { return !(table.weightings[i] > kApart * largest); };
   std::vector<bool> kept(count, true);
+  for (const std::size_t volume : choice.left_out) {
+    if (volume >= count)
+      throw usage_error("--leave-out " + std::to_string(volume) + ": " + file + " has the volumes 0 to " +
+                        std::to_string(count - 1));
+    kept[volume] = false;
+  }
+  const auto is_zero = [&](std::size_t i) { return !(table.weightings[i] > kApart * largest); };
   std::vector<std::size_t> undirected;
   bool unweighted = false;
   for (std::size_t i = 0; i < count; ++i) {
+    if (!kept[i]) continue;
     unweighted = unweighted || is_zero(i);
     if (!is_zero(i) && table.directions[i] == Vec3{0.0}) undirected.push_back(i);
   }
@@ -58,6 +110,30 @@ ChosenGradients choose_gradients(const GradientTable& stated) {
         " weighted, but without a gradient direction, and no other is unweighted: taken as "
         "b = 0, as GE writes them and MRtrix reads them");
   }
+  std::vector<std::size_t> beyond, off_shell;
+  bool on_shell = choice.shells.empty();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!kept[i] || is_zero(i)) continue;
+    const double b = table.weightings[i];
+    const bool wanted = choice.shells.empty() || in_shell(b, choice.shells);
+    on_shell = on_shell || wanted;
+    if (!wanted) {
+      off_shell.push_back(i);
+    } else if (b > choice.max_weighting * (1.0 + kApart)) {
+      beyond.push_back(i);
+    }
+  }
+  if (!on_shell)
+    throw usage_error("--shell: " + file + " has none of these b-values; it has " +
+                      shells_text(shells_of(table)));
+  const auto leave_out = [&](const std::vector<std::size_t>& volumes, const char* option) {
+    for (const std::size_t i : volumes) kept[i] = false;
+    if (!volumes.empty())
+      chosen.notes.push_back(volumes_text(volumes) + " left out of the fit, as asked for (" + option + ")");
+  };
+  leave_out(choice.left_out, "--leave-out");
+  leave_out(beyond, "--max-b");
+  leave_out(off_shell, "--shell");
   for (std::size_t i = 0; i < count; ++i) {
     if (!kept[i]) continue;
     chosen.table.weightings.push_back(table.weightings[i]);

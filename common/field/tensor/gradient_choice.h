@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,17 +12,30 @@
 
 namespace palpate {
 
+struct GradientChoice {
+  /// Where directions are not all of unit length (by 1 % of its square), b_i becomes b_i |g_i|^2: scanners
+  /// store shells so (MRtrix 3, `-bvalue_scaling`).
+  bool scale_by_length = true;
+  std::vector<std::size_t> left_out;  ///< volumes, counted from 0
+  double max_weighting =
+      std::numeric_limits<double>::infinity();  ///< [s/mm^2], after scaling; 5 % more passes
+  std::vector<double> shells;  ///< the weightings to be taken [s/mm^2], to 5 %; empty: all. Unweighted stay
+};
+
 /// The volumes that are taken.
 struct ChosenGradients {
-  GradientTable table;
+  GradientTable table;               ///< directions of unit length or zero
   std::vector<std::size_t> volumes;  ///< their numbers in the series, as many
-  std::vector<std::string> notes;    ///< what was left out and why
+  std::vector<std::string> notes;    ///< scaling, and what was left out and why
 };
 
 /// Volumes that are weighted and have no direction are left out (trace images); where there is no other
 /// unweighted volume they are the unweighted ones (GE states the b-value of its shell for these, and MRtrix
 /// reads them so).
-[[nodiscard]] ChosenGradients choose_gradients(const GradientTable& stated);
+/// @param stated directions of any length. @param file for messages.
+/// @throws Error (usage) for volumes and shells that there are none of.
+[[nodiscard]] ChosenGradients choose_gradients(const GradientTable& stated, const GradientChoice& choice,
+                                               const std::string& file);
 
 /// How well a table determines a tensor.
 struct TableQuality {

@@ -7,7 +7,6 @@
 #include "common/base/parallel.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/gradient_table.h"
-#include "common/field/tensor/vector_frame.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 
@@ -153,7 +152,22 @@ double excess(std::span<const double> sums, std::size_t width, std::span<const s
 
 }  // namespace
 
-std::vector<double> DirectionMap::coherence(std::span<const Mat3> turns, int threads) const {
+bool clearly_better(const Coherence& a, const Coherence& b) noexcept {
+  constexpr double kClear = 0.02, kErrors = 1.5;
+  const double better = a.score - b.score;
+  if (!(a.score > kClear && better > kClear)) return false;
+  constexpr auto kCount = static_cast<double>(Coherence::kBlocks);
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t block = 0; block < Coherence::kBlocks; ++block)
+    mean += (a.without[block] - b.without[block]) / kCount;
+  for (std::size_t block = 0; block < Coherence::kBlocks; ++block) {
+    const double apart = a.without[block] - b.without[block] - mean;
+    squares += apart * apart;
+  }
+  return better > kErrors * std::sqrt((kCount - 1.0) / kCount * squares);
+}
+
+std::vector<Coherence> DirectionMap::coherence(std::span<const Mat3> turns, int threads) const {
   const std::vector<Index3> offsets = half_neighbourhood();
   LineSet set;
   std::vector<std::size_t> line_of;  // a row a turn: (T d) . o = d . (T^T o)
@@ -164,19 +178,23 @@ std::vector<double> DirectionMap::coherence(std::span<const Mat3> turns, int thr
   const std::size_t width = set.lines().size();
   const auto slices = as_size(points_.z);
   const std::size_t in_slice = as_size(points_.x) * as_size(points_.y);
-  std::vector<double> sums(slices * offsets.size() * width, 0.0);  // by slice: the order of sums is fixed
+  // By slice and quarter of it: the order of sums is fixed.
+  constexpr std::size_t kQuarters = 4;
+  const std::size_t size = offsets.size() * width;
+  std::vector<double> sums(slices * kQuarters * size, 0.0);
   parallel_for(slices, threads, [&](std::size_t first, std::size_t last) {
     const auto parts_of = [&](std::size_t slice) {
       return SliceParts(std::span(directions_).subspan(slice * in_slice, in_slice), set.lines());
     };
     for (std::size_t slice = first; slice < last; ++slice) {
-      double* const sum = sums.data() + slice * offsets.size() * width;
       const SliceParts here = parts_of(slice);
       const SliceParts above = parts_of(std::min(slice + 1, slices - 1));
       for (int j = 0; j < points_.y; ++j) {
         for (int i = 0; i < points_.x; ++i) {
           const float* const u = here.row(index_in(points_, {i, j, 0}));
           if (u == nullptr) continue;
+          const std::size_t quarter = (2 * i >= points_.x ? 1U : 0U) + (2 * j >= points_.y ? 2U : 0U);
+          double* const sum = sums.data() + (slice * kQuarters + quarter) * size;
           for (std::size_t n = 0; n < offsets.size(); ++n) {
             const Index3 there{i + offsets[n].x, j + offsets[n].y, 0};
             if (there.x < 0 || there.y < 0 || there.x >= points_.x || there.y >= points_.y ||
@@ -192,30 +210,107 @@ std::vector<double> DirectionMap::coherence(std::span<const Mat3> turns, int thr
       }
     }
   });
-  std::vector<double> all(offsets.size() * width, 0.0);
-  for (std::size_t i = 0; i < sums.size(); ++i) all[i % all.size()] += sums[i];
-  std::vector<double> scores;
-  for (std::size_t t = 0; t < turns.size(); ++t)
-    scores.push_back(excess(all, width, std::span(line_of).subspan(t * offsets.size(), offsets.size())));
+  std::vector<double> all(size, 0.0);
+  std::array<std::vector<double>, Coherence::kBlocks> without;
+  without.fill(all);
+  for (std::size_t part = 0; part < slices * kQuarters; ++part) {
+    const std::size_t block =
+        part % kQuarters + (2 * (part / kQuarters) >= slices ? kQuarters : std::size_t{0});
+    for (std::size_t i = 0; i < size; ++i) {
+      const double sum = sums[part * size + i];
+      all[i] += sum;
+      for (std::size_t b = 0; b < without.size(); ++b) without[b][i] += b == block ? 0.0 : sum;
+    }
+  }
+  std::vector<Coherence> scores;
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    const auto lines = std::span(line_of).subspan(t * offsets.size(), offsets.size());
+    Coherence& score = scores.emplace_back();
+    score.score = excess(all, width, lines);
+    for (std::size_t b = 0; b < without.size(); ++b) score.without[b] = excess(without[b], width, lines);
+  }
   return scores;
 }
 
+Mat3 Orientation::matrix(const Mat3& axes) const noexcept {
+  const Mat3 image = image_axes(axes);
+  return image * turn.matrix() * glm::transpose(image) * matrix_of(frame, axes);
+}
+
+namespace {
+
+/// Ten degrees about each axis, either way.
+std::vector<Mat3> slight_rotations() {
+  constexpr double kSine = 0.1736481776669303;
+  const double cosine = std::sqrt(1.0 - kSine * kSine);
+  std::vector<Mat3> rotations;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double sine : {-kSine, kSine}) {
+      Mat3 rotation{1.0};
+      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+      rotation[next][next] = rotation[last][last] = cosine;
+      rotation[next][last] = sine;
+      rotation[last][next] = -sine;
+      rotations.push_back(rotation);
+    }
+  }
+  return rotations;
+}
+
+/// Answers to a wrong orientation, the simplest first: what was taken, turned, in another frame, both. Turns come
+/// behind the one that was taken.
+std::vector<Orientation> answers_to(VectorFrame taken) {
+  std::vector<Orientation> answers;
+  const auto add_turns = [&answers](VectorFrame frame) {
+    for (const AxisTurn& turn : axis_turns()) answers.push_back({frame, turn});  // the identity first
+  };
+  add_turns(taken);
+  for (int f = 0; f < kVectorFrameCount; ++f) answers.push_back({static_cast<VectorFrame>(f), {}});
+  for (int f = 0; f < kVectorFrameCount; ++f) add_turns(static_cast<VectorFrame>(f));
+  return answers;
+}
+
+/// "--vectors scanner --flip k"; the frame is left out where it is the one that was taken.
+std::string words_of(const Orientation& answer, VectorFrame taken) {
+  std::string text = answer.frame == taken ? "" : "--vectors " + std::string(name_of(answer.frame));
+  const std::string turned = answer.turn.words();
+  if (!text.empty() && !turned.empty()) text += ' ';
+  return text + turned;
+}
+
+}  // namespace
+
 OrientationVerdict check_orientation(const DirectionMap& directions, const UniformTopology& topology,
-                                     int threads) {
-  OrientationVerdict verdict;
-  // Fewer voxels are no anatomy.
+                                     const Orientation& taken, int threads) {
+  OrientationVerdict verdict{.best = {taken.frame, {}}, .advice = {}};
   if (directions.size() < kLeastCoherent) return verdict;
-  const Mat3 image = image_axes(topology.axes);
-  const std::vector<AxisTurn> turns = axis_turns();
+  const Mat3 turned = Orientation{VectorFrame::kScanner, taken.turn}.matrix(topology.axes);
+  const Mat3 undone = glm::transpose(taken.matrix(topology.axes));
+  const std::vector<Orientation> answers = answers_to(taken.frame);
   std::vector<Mat3> matrices;
-  matrices.reserve(turns.size());
-  for (const AxisTurn& turn : turns) matrices.push_back(image * turn.matrix() * glm::transpose(image));
-  const std::vector<double> scores = directions.coherence(matrices, threads);
-  const auto best = std::max_element(scores.begin(), scores.end());
-  verdict.best = turns[as_size(best - scores.begin())];
+  for (const Orientation& answer : answers) {
+    const Mat3 behind = Orientation{VectorFrame::kScanner, answer.turn}.matrix(topology.axes);
+    matrices.push_back(behind * turned * matrix_of(answer.frame, topology.axes) * undone);
+  }
+  const std::vector<Coherence> scores = directions.coherence(matrices, threads);
+  constexpr double kBetter = 0.005;  // what a later, less simple answer has to be better by
+  std::size_t best = 0;
+  for (std::size_t a = 1; a < scores.size(); ++a) {
+    if (scores[a].score > scores[best].score + kBetter) best = a;
+  }
+  const bool suspicious = clearly_better(scores[best], scores.front());
   constexpr double kLeastSum = 1e-3;  // 1 + s is none below zero
-  verdict.gain = (1.0 + *best) / std::max(1.0 + scores.front(), kLeastSum);
-  verdict.suspicious = *best - scores.front() > kClearCoherence;
+  verdict.gain = (1.0 + scores[best].score) / std::max(1.0 + scores.front().score, kLeastSum);
+  verdict.suspicious = suspicious;
+  if (!suspicious) return verdict;
+  verdict.best = answers[best];
+  verdict.advice = words_of(verdict.best, taken.frame);
+  std::vector<Mat3> rotated{matrices[best]};
+  for (const Mat3& rotation : slight_rotations()) rotated.push_back(rotation * matrices[best]);
+  const std::vector<Coherence> after = directions.coherence(rotated, threads);
+  verdict.rotated = std::any_of(after.begin() + 1, after.end(), [&after](const Coherence& one) {
+    return clearly_better(one, after.front());
+  });
   return verdict;
 }
 

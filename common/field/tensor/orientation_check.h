@@ -10,14 +10,20 @@
 /// counts only whether alike neighbours lie along the fibre. A smooth form of the fibre coherence index of
 /// Schilling et al. 2019 ("A fiber coherence index for quality control of B-table orientation in diffusion MRI
 /// scans"), which counts pairs within an angle; the comparison with independence is ours.
+///
+/// How far chance goes is asked of the image itself: s(T) is taken again without each of its eight octants
+/// (the jackknife of Quenouille and Tukey over blocks; neighbouring voxels are alike, so that single ones are no
+/// independent samples).
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -38,6 +44,18 @@ struct AxisTurn {
 /// first is the identity.
 [[nodiscard]] std::vector<AxisTurn> axis_turns();
 
+/// s(T) of all voxels, and without those of each octant.
+struct Coherence {
+  static constexpr std::size_t kBlocks = 8;
+  double score = 0.0;
+  std::array<double, kBlocks> without{};
+
+  bool operator==(const Coherence&) const = default;
+};
+/// Whether `a` lines up better than `b` by more than chance gives: alike neighbours do lie along the fibres of
+/// `a` (s > 0.02), by 0.02 more than along those of `b`, and by 1.5 standard errors of the difference.
+[[nodiscard]] bool clearly_better(const Coherence& a, const Coherence& b) noexcept;
+
 /// Main directions of the voxels that count in (1), computed once for any number of turns.
 class DirectionMap {
  public:
@@ -45,7 +63,7 @@ class DirectionMap {
   DirectionMap(std::span<const float> tensors, const UniformTopology& topology, int threads);
 
   /// s(T) for each of `turns`, in the data's axes; the same for any number of threads.
-  [[nodiscard]] std::vector<double> coherence(std::span<const Mat3> turns, int threads) const;
+  [[nodiscard]] std::vector<Coherence> coherence(std::span<const Mat3> turns, int threads) const;
   /// Voxels that count.
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
@@ -56,15 +74,33 @@ class DirectionMap {
   std::size_t count_ = 0;
 };
 
-struct OrientationVerdict {
-  AxisTurn best;
-  double gain = 1.0;        ///< (1 + s(best)) / (1 + s(identity))
-  bool suspicious = false;  ///< the best turn is not the identity, by so much that it is no chance
+/// Fewer voxels are no anatomy.
+inline constexpr std::size_t kLeastCoherent = 200;
+
+/// What is taken of the numbers in a file: the frame that they are along, and a turn behind it.
+struct Orientation {
+  VectorFrame frame = VectorFrame::kScanner;
+  AxisTurn turn;
+
+  /// From numbers in the file to the data's axes. @param axes of the image.
+  [[nodiscard]] Mat3 matrix(const Mat3& axes) const noexcept;
 };
 
-/// Scores all turns along the image's axes. Nothing is suspicious where fewer than 200 voxels count: these
-/// are no anatomy.
+struct OrientationVerdict {
+  Orientation best;  ///< the frame that would be right, and the turn behind the one that was taken
+  std::string
+      advice;         ///< the options that say so, "--vectors scanner --flip k"; empty: nothing is suspicious
+  double gain = 1.0;  ///< (1 + s(best)) / (1 + s(as taken))
+  bool suspicious = false;  ///< the best is clearly_better() than what was taken
+  bool rotated = false;  ///< suspicious, and a rotation by 10 degrees behind the best is clearly better still
+};
+
+/// Scores frames, turns along the image's axes, and their combinations. Of
+/// those that are as good that one is best which changes least: the turn, the frame, both. Nothing is
+/// suspicious where fewer than kLeastCoherent voxels count.
+/// @param directions of tensors that were read as `taken`.
 [[nodiscard]] OrientationVerdict check_orientation(const DirectionMap& directions,
-                                                   const UniformTopology& topology, int threads);
+                                                   const UniformTopology& topology, const Orientation& taken,
+                                                   int threads);
 
 }  // namespace palpate

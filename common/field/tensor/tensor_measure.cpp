@@ -18,16 +18,16 @@ namespace {
 constexpr std::array<std::string_view, kTensorMeasureCount> kNames{"fa", "md",   "cl", "cp",
                                                                    "cs", "mode", "v1", "color"};
 
-double number_of(TensorMeasure measure, const Vec3& eigenvalues) {
+double number_of(TensorMeasure measure, const Vec3& eigenvalues, WestinScale westin) {
   switch (measure) {
     case TensorMeasure::kMd:
       return mean_diffusivity(eigenvalues);
     case TensorMeasure::kLinear:
-      return anisotropy(eigenvalues).linear;
+      return anisotropy(eigenvalues, westin).linear;
     case TensorMeasure::kPlanar:
-      return anisotropy(eigenvalues).planar;
+      return anisotropy(eigenvalues, westin).planar;
     case TensorMeasure::kSpherical:
-      return anisotropy(eigenvalues).spherical;
+      return anisotropy(eigenvalues, westin).spherical;
     case TensorMeasure::kMode:
       return mode_of_anisotropy(eigenvalues);
     default:
@@ -72,7 +72,7 @@ int component_count(TensorMeasure measure) noexcept {
 }
 
 std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice, TensorMeasure measure,
-                                   int threads) {
+                                   int threads, WestinScale westin) {
   const DataArray& array = *image.find(choice.array, choice.association);
   const auto components = as_size(component_count(measure));
   std::vector<float> values(components * array.tuples, std::numeric_limits<float>::quiet_NaN());
@@ -83,7 +83,7 @@ std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& cho
       const SymmetricEigen eigen =
           symmetric_eigen({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
       if (components == 1) {
-        values[p] = static_cast<float>(number_of(measure, eigen.values));
+        values[p] = static_cast<float>(number_of(measure, eigen.values, westin));
         continue;
       }
       const Vec3 triple = triple_of(measure, eigen);

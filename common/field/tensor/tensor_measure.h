@@ -33,9 +33,10 @@ inline constexpr int kTensorMeasureCount = 8;
 [[nodiscard]] int component_count(TensorMeasure measure) noexcept;
 
 /// The measure at every point, NaN where there is no tensor; the same for any number of threads.
-/// @pre `image` has the array of `choice`.
+/// @param westin of c_l, c_p and c_s. @pre `image` has the array of `choice`.
 [[nodiscard]] std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice,
-                                                 TensorMeasure measure, int threads);
+                                                 TensorMeasure measure, int threads,
+                                                 WestinScale westin = WestinScale::kTrace);
 
 struct TensorMeasures {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/field/vector_choice.h"
 
 namespace palpate {
@@ -23,8 +24,11 @@ inline constexpr int kTensorLayoutCount = 3;
 /// What a file says of diffusion, besides its arrays.
 struct DiffusionInfo {
   TensorLayout layout = TensorLayout::kData;
+  /// What vectors and tensors are along, where the file says so and they are still as stored.
+  std::optional<VectorFrame> frame;
   /// Where the file holds diffusion-weighted signals: a row for every component of the array kSignalArray.
   std::optional<GradientTable> gradients;
+  VectorFrame gradient_frame = VectorFrame::kScanner;  ///< from which they were turned into the data's axes
 };
 
 /// What loaders call the array of diffusion-weighted signals.

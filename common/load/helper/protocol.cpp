@@ -33,7 +33,9 @@ RawLayout decode_raw(const json& object) {
 }
 
 json encode_diffusion(const DiffusionInfo& diffusion) {
-  json object{{"layout", static_cast<int>(diffusion.layout)}};
+  json object{{"layout", static_cast<int>(diffusion.layout)},
+              {"gradient_frame", static_cast<int>(diffusion.gradient_frame)}};
+  if (diffusion.frame) object["frame"] = static_cast<int>(*diffusion.frame);
   if (!diffusion.gradients) return object;
   object["gradients"] = json::array();
   for (std::size_t i = 0; i < diffusion.gradients->weightings.size(); ++i) {
@@ -48,6 +50,13 @@ DiffusionInfo decode_diffusion(const json& object) {
   const std::uint64_t layout = count_at(object, "layout");
   if (layout >= kTensorLayoutCount) malformed("unknown layout of tensors");
   diffusion.layout = static_cast<TensorLayout>(layout);
+  const auto frame_at = [&object](const char* key) {
+    const std::uint64_t frame = count_at(object, key);
+    if (frame >= kVectorFrameCount) malformed("unknown axes of vectors");
+    return static_cast<VectorFrame>(frame);
+  };
+  diffusion.gradient_frame = frame_at("gradient_frame");
+  if (object.contains("frame")) diffusion.frame = frame_at("frame");
   if (!object.contains("gradients")) return diffusion;
   const json& gradients = array_at(object, "gradients");
   if (gradients.size() > kMostGradients) malformed("too many gradients");
@@ -76,6 +85,7 @@ std::string encode(const RequestMessage& request) {
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
     if (open->request.allow_gaps) message["allow_gaps"] = true;
+    if (open->request.left_handed) message["left_handed"] = true;
     if (!open->request.surface_markers.empty())
       message["surface_markers"] = text_from_bytes(open->request.surface_markers);
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
@@ -106,6 +116,7 @@ RequestMessage decode_request(std::string_view text) {
     for (std::string& file : strings_at(message, "files")) open.request.files.emplace_back(std::move(file));
     if (message.contains("series")) open.request.series = string_at(message, "series");
     if (message.contains("allow_gaps")) open.request.allow_gaps = bool_at(message, "allow_gaps");
+    if (message.contains("left_handed")) open.request.left_handed = bool_at(message, "left_handed");
     if (message.contains("surface_markers"))
       open.request.surface_markers = string_at(message, "surface_markers");
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");

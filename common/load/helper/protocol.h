@@ -2,7 +2,7 @@
 ///
 /// Requests
 ///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
-///   "refine": n?, "series": text?, "allow_gaps": bool?, "surface_markers": text?}
+///   "refine": n?, "series": text?, "allow_gaps": bool?, "left_handed": bool?, "surface_markers": text?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
@@ -22,7 +22,7 @@
 ///        "connectivity": offset, "connectivity_count"}                                uint8, int64, int64
 ///   R = {"size": [i, j, k], "type", "big_endian": bool, "spacing", "origin", "skip": bytes}
 ///   D = {"bval": path, "bvec": path}                                              empty: beside the file
-///   G = {"layout": n, "gradients": [[b, x, y, z]…]?}
+///   G = {"layout": n, "gradient_frame": n, "frame": n?, "gradients": [[b, x, y, z]…]?}
 /// Offsets count bytes in the memory file of the answer. Names and paths are bytes, not text: each byte
 /// travels as the character of that number, so any of them comes back as it went.
 ///

@@ -16,6 +16,7 @@
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/vector_frame.h"
 #include "common/math/lattice.h"
 #include "common/math/vec_text.h"
 
@@ -148,8 +149,20 @@ TypeNames names_of(ScalarType type) {
 
 constexpr std::int16_t kRgb = 128, kRgba = 2304;  ///< DT_RGB24, DT_RGBA32
 
+/// The description in the header: its own fields cannot say along which axes directions and tensors are.
+std::string nifti_description(ImageContent content, ImageConvention convention) {
+  const bool fsl = convention == ImageConvention::kFsl;
+  std::string text;
+  if (content == ImageContent::kVector) text = "directions, ";
+  if (content == ImageContent::kTensor) text = fsl ? "xx xy xz yy yz zz, " : "xx yy zz xy xz yz, ";
+  if (text.empty()) return text;
+  return text + frame_mark(fsl ? VectorFrame::kImage : VectorFrame::kScanner) +
+         (fsl ? " (FSL's image axes)" : " (RAS+)");
+}
+
 /// The header of nifti1.h (348 bytes) with its 4 bytes of extension flags; the affine is the sform.
-std::string nifti_header(const UniformTopology& topology, const Stored& stored, ImageSpace space) {
+std::string nifti_header(const UniformTopology& topology, const Stored& stored, ImageSpace space,
+                         const std::string& description = {}) {
   const int volumes = stored.colors() ? 1 : stored.components;
   const std::int16_t colors = stored.components == 4 ? kRgba : kRgb;
   const std::size_t bytes = byte_size(stored.type) * (stored.colors() ? as_size(stored.components) : 1);
@@ -178,6 +191,7 @@ std::string nifti_header(const UniformTopology& topology, const Stored& stored, 
       header.put(at + 4 * as_size(axis), static_cast<float>(topology.axes[axis][row]));
     header.put(at + 12, static_cast<float>(topology.origin[row]));
   }
+  header.put_text(148, description);
   header.put_text(344, std::string_view("n+1\0", 4));
   return header.text();
 }
@@ -243,7 +257,7 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
                  std::span<const float> values, ImageConvention convention, ImageSpace space) {
   const auto components = as_size(component_count(content));
   const std::size_t voxels = values.size() / components;
-  sink.write(nifti_header(topology, stored_as(content), space));
+  sink.write(nifti_header(topology, stored_as(content), space, nifti_description(content, convention)));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),

@@ -21,7 +21,8 @@ enum class ImageContent : std::uint8_t {
 /// Numbers of a voxel.
 [[nodiscard]] int component_count(ImageContent content) noexcept;
 
-/// Along which axes, and in which order, NIfTI files hold directions and tensors: its header cannot say.
+/// Along which axes, and in which order, NIfTI files hold directions and tensors: fields of its header cannot say,
+/// so that its description does (frame_mark()).
 enum class ImageConvention : std::uint8_t {
   kMrtrix,  ///< the axes of the coordinates; xx yy zz xy xz yz
   kFsl      ///< fsl_axes(); xx xy xz yy yz zz

@@ -56,6 +56,8 @@ struct TractTracingOptions {
   double min_radius = 0.0;
   double min_length = 0.0;
   double max_length = 0.0;
+  std::string direction = "both";  ///< forward, backward, both
+  std::int64_t max_steps = 1'000'000;
   std::vector<std::string> include, exclude, stop;  ///< regions; grammar of tract_request.h
 
   bool operator==(const TractTracingOptions&) const = default;
@@ -233,6 +235,7 @@ struct OutputOptions {
   std::string effort = "normal";      ///< effort_from_name()
   std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl
   std::string measure = "fa";         ///< measure: name_of(TensorMeasure)
+  std::string westin = "trace";       ///< measure: name_of(WestinScale)
 };
 
 struct Document {

@@ -97,6 +97,16 @@ const Setting kOutputRows[] = {
      .groups = {Group::kMeasure},
      .kinds = kTensors,
      .saved = false},
+    {.name = "westin",
+     .place = kOutputAt<&OutputOptions::westin>,
+     .help =
+         "what cl, cp and cs are parts of: trace, the sum of the eigenvalues (cp twice, cs three times their "
+         "difference, so that all three add up to 1); largest, the largest eigenvalue, as MRtrix has them",
+     .heading = "Output",
+     .groups = {Group::kMeasure},
+     .kinds = kTensors,
+     .words = "trace|largest",
+     .saved = false},
     {.name = "plane",
      .place = kSliceAt<&SliceOptions::plane>,
      .help = "axial, coronal or sagittal through the middle, or with a place on z, y or x behind it, as in "

@@ -216,13 +216,18 @@ class QuadLanes {
   void plan(unsigned lane, TractPart& part) {
     Lane& l = lanes_[lane];
     next_[lane] = std::min(++l.steps * rules_.limits().spacing, l.longest);
-    if (!(next_[lane] > arc_[lane])) end_side(lane, End::kMaxLength, part);
+    if (!(next_[lane] > arc_[lane])) {
+      end_side(lane, End::kMaxLength, part);
+    } else if (rules_.out_of_steps(l.steps)) {
+      end_side(lane, End::kMaxSteps, part);
+    }
   }
 
   void end_side(unsigned lane, End end, TractPart& part) {
     Lane& l = lanes_[lane];
     l.sides[l.way].end = end;
-    if (l.way == 1) {
+    if (l.way == 1 && !rules_.two_sided()) l.sides[0].clear();
+    if (l.way == 1 && rules_.two_sided()) {
       l.longest -= arc_[lane];
       l.start.direction = -l.start.direction;
       start_side(lane, 0, part);

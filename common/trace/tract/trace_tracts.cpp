@@ -48,7 +48,8 @@ class Tracer {
       if (!rules_.start(walk_, seeds[i], start, part)) continue;
       const double length = follow(start, rules_.limits().max_length, sides_[1]);
       start.direction = -start.direction;
-      follow(start, rules_.limits().max_length - length, sides_[0]);
+      sides_[0].clear();
+      if (rules_.two_sided()) follow(start, rules_.limits().max_length - length, sides_[0]);
       rules_.keep(seeds[i], static_cast<std::uint32_t>(first + i), sides_, part);
     }
   }
@@ -66,6 +67,10 @@ class Tracer {
       const double next = std::min(n * limits.spacing, longest);
       if (!(next > arc)) {
         side.end = End::kMaxLength;
+        return arc;
+      }
+      if (rules_.out_of_steps(n)) {
+        side.end = End::kMaxSteps;
         return arc;
       }
       TractState now;
@@ -259,6 +264,7 @@ void check_tract_options(const TractOptions& options) {
   not_negative(options.min_radius, "min radius");
   not_negative(options.min_length, "min length");
   not_negative(options.max_length, "max length");
+  if (options.max_steps < 1) refuse("max steps: at least one is expected");
   if (!(options.cutoff >= 0.0 && options.cutoff <= 1.0)) {
     refuse("cutoff lies between 0 and 1, found " + short_number(options.cutoff));
   }

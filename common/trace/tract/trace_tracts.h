@@ -16,6 +16,10 @@
 
 namespace palpate {
 
+/// Which way lines go from their seed: along the main eigenvector whose longest part is positive, against it, or
+/// both.
+enum class TractSense : std::uint8_t { kBoth, kForward, kBackward };
+
 /// Lengths in data units (mm). Zeros stand for what a *voxel* says, the shortest step of the grid.
 struct TractOptions {
   /// euler and rk4 take one step from each output point to the next; dp54 controls its error.
@@ -28,8 +32,10 @@ struct TractOptions {
   double min_radius = 0.0;  ///< of curvature, read as the angle that a step then turns; 0: a voxel
   double min_length = 0.0;  ///< shorter lines are dropped
   double max_length = 0.0;  ///< 0: the diagonal of the field
-  std::vector<TractRegion> include;  ///< lines that miss one of them are dropped
-  std::vector<TractRegion> exclude;  ///< lines that enter one of them are dropped
+  TractSense sense = TractSense::kBoth;
+  std::int64_t max_steps = 1'000'000;  ///< from point to point, to each side of a seed
+  std::vector<TractRegion> include;    ///< lines that miss one of them are dropped
+  std::vector<TractRegion> exclude;    ///< lines that enter one of them are dropped
   /// Lines end where they enter one of them, that point included; one that holds the seed counts only after
   /// the line has left it.
   std::vector<TractRegion> stop;
@@ -48,12 +54,13 @@ struct TractsDropped {
 
 struct TractResult {
   /// By seed, a line each: from the end that lies against the main eigenvector at the seed, through the
-  /// seed, to the other. Points are `step` apart but for the first and the last. `error` of each point: the
+  /// seed, to the other; of one way from the seed on. Points are `step` apart but for the first and the last. `error` of each point: the
   /// sum of the steps' error estimates from the seed on [mm], which says nothing of how the field spreads
   /// neighbouring lines.
   Tractogram lines;
-  std::vector<std::uint32_t> seeds;      ///< of each line
-  std::vector<std::array<End, 2>> ends;  ///< of each line: of its first point, of its last
+  std::vector<std::uint32_t> seeds;  ///< of each line
+  /// Of each line: of its first point, of its last. A seed that a line begins at is kStoppedByRule.
+  std::vector<std::array<End, 2>> ends;
   std::array<std::size_t, kEndCount> end_counts{};
   TractsDropped dropped;
   double error_max = 0.0;  ///< data units

@@ -28,11 +28,12 @@ struct TractSide {
   End end = End::kLeftDomain;
 
   void clear() noexcept {
+    end = End::kStoppedByRule;
     points.clear();
     errors.clear();
   }
 };
-using TractSides = std::array<TractSide, 2>;  ///< backward, forward
+using TractSides = std::array<TractSide, 2>;  ///< the second side that is followed, the first
 
 /// What one part of the seeds yields.
 struct TractPart {
@@ -67,7 +68,11 @@ class TractRules {
                        [&](const TractRegion& r) { return r.contains(x_s * to_data_); });
   }
 
-  /// The state at a seed, looking forward; false where no line starts there.
+  /// Whether a line has a second side.
+  [[nodiscard]] bool two_sided() const noexcept { return options_->sense == TractSense::kBoth; }
+  [[nodiscard]] bool out_of_steps(std::int64_t step) const noexcept { return step > options_->max_steps; }
+
+  /// The state at a seed, looking the way of the first side; false where no line starts there.
   template <class Tensors>
   [[nodiscard]] bool start(Tensors& tensors, const Vec3& seed, TractState& at, TractPart& part) const {
     at = {};
@@ -84,7 +89,7 @@ class TractRules {
     }
     // Eigenvectors have no sign: one is chosen by their longest part, so that the lines do not depend on it.
     at.direction = symmetric_eigen(at.tensor.matrix()).vectors[0];
-    if (!positive(at.direction)) at.direction = -at.direction;
+    if (positive(at.direction) == (options_->sense == TractSense::kBackward)) at.direction = -at.direction;
     return true;
   }
 

@@ -56,19 +56,20 @@ class Directions {
 
   struct Answer {
     double fa = -1.0;  ///< below zero: no tensor
+    bool outside = false;
     double cosine = 0.0;
   };
   [[nodiscard]] Answer ask(const Vec3& x, const Vec3& direction) const {
     const Vec3 v = glm::round(voxel_from_world_ * (x - image_.origin));
     for (int axis = 0; axis < 3; ++axis) {
-      if (!(v[axis] >= 0.0 && v[axis] < image_.points[axis])) return {};
+      if (!(v[axis] >= 0.0 && v[axis] < image_.points[axis])) return {.outside = true};
     }
     const TensorSample sample = field_.voxel(Index3{v});
     if (sample.status != SampleStatus::kOk) return {};
     const SymmetricEigen eigen = symmetric_eigen(sample.value);
     const double fa = std::min(1.0, fractional_anisotropy(eigen.values));
     if (!std::isfinite(fa)) return {};
-    return {fa, std::min(1.0, std::abs(glm::dot(direction, eigen.vectors[0])))};
+    return {.fa = fa, .cosine = std::min(1.0, std::abs(glm::dot(direction, eigen.vectors[0])))};
   }
 
  private:
@@ -79,7 +80,7 @@ class Directions {
 
 struct Sum {
   double score = 0.0;
-  std::size_t inside = 0;
+  std::size_t inside = 0, outside = 0;
   double angles = 0.0;  ///< [rad]
   std::size_t with_angle = 0;
 };
@@ -88,6 +89,7 @@ Sum score_of(const Directions& directions, const std::vector<Piece>& pieces, con
   Sum sum;
   for (const Piece& piece : pieces) {
     const auto answer = directions.ask(map.matrix * piece.middle + map.shift, map.matrix * piece.direction);
+    sum.outside += answer.outside ? 1 : 0;
     if (answer.fa < 0.0) continue;
     ++sum.inside;
     sum.score += answer.fa * answer.cosine * answer.cosine;
@@ -191,6 +193,7 @@ TractFit fit_of_tracts(const TensorField& field, const Tractogram& lines, int th
   const auto count = static_cast<double>(pieces.size());
   const Sum& as_is = sums.front();
   fit.inside = static_cast<double>(as_is.inside) / count;
+  fit.outside = static_cast<double>(as_is.outside) / count;
   fit.score = as_is.score / count;
   fit.anisotropic = as_is.with_angle;
   if (as_is.with_angle > 0)
@@ -213,7 +216,10 @@ std::string fit_sentence(const TractFit& fit, const std::string& option) {
   text += fit.anisotropic > 0 ? short_number(std::round(10.0 * fit.angle) / 10.0) +
                                     " degrees from the main direction on average"
                               : "none where FA is above 0.2";
-  if (!fit.suspicious) return text;
+  if (fit.strays())
+    text += "; " + short_number(std::round(1000.0 * fit.outside) / 10.0) +
+            " % lie beyond the image: are these the tracts of another one?";
+  if (!fit.suspicious) return (fit.strays() ? "WARNING: " : "") + text;
   return "WARNING: " + text + "; turned they fit " +
          (std::isfinite(fit.gain) ? short_number(std::round(100.0 * (fit.gain - 1.0))) + " % better"
                                   : "at all") +

@@ -51,12 +51,16 @@ void turn_tracts(const AffineMap& map, Tractogram& lines);
 struct TractFit {
   std::size_t pieces = 0;       ///< asked, spread evenly over the lines
   double inside = 0.0;          ///< part of them whose voxel has a tensor
+  double outside = 0.0;         ///< part of them beyond the voxels of the image
   std::size_t anisotropic = 0;  ///< pieces in a voxel with FA > 0.2
   double angle = 0.0;           ///< mean of those with FA > 0.2, between line and main direction [degrees]
   double score = 0.0;           ///< s of the lines as they are
   TractTurn best;               ///< of 48 turns of the image and 7 of the world
   double gain = 1.0;            ///< s(best) / score; infinite where the lines as they are hit nothing
   bool suspicious = false;      ///< the best turn is not the identity, by so much that it is no chance
+
+  /// Whether many pieces lie beyond the image.
+  [[nodiscard]] bool strays() const noexcept { return outside > 0.1; }
 };
 
 /// Scores all turns. Nothing is suspicious where fewer than 100 pieces of the best turn meet a tensor.

@@ -20,6 +20,22 @@ Vec3 falling(std::mt19937_64& random, double least) {
   return {v[2], v[1], v[0]};
 }
 
+// Eigenvalues 4, 2, 1: thirds of seven, or quarters.
+TEST(DiffusionMeasures, LinearPlanarAndSphericalPartsComeInTwoScales) {
+  const Vec3 values{4.0, 2.0, 1.0};
+  const Anisotropy trace = anisotropy(values, WestinScale::kTrace);
+  EXPECT_EQ(trace.linear, anisotropy(values).linear);
+  EXPECT_NEAR(trace.linear, 2.0 / 7.0, 1e-15);
+  EXPECT_NEAR(trace.planar, 2.0 / 7.0, 1e-15);
+  EXPECT_NEAR(trace.spherical, 3.0 / 7.0, 1e-15);
+  const Anisotropy largest = anisotropy(values, WestinScale::kLargest);
+  EXPECT_EQ(largest.linear, 0.5);
+  EXPECT_EQ(largest.planar, 0.25);
+  EXPECT_EQ(largest.spherical, 0.25);
+  EXPECT_EQ(anisotropy({0.0, 0.0, 0.0}, WestinScale::kLargest).spherical, 1.0);
+  EXPECT_EQ(anisotropy({2.0, 1.0, -1.0}, WestinScale::kLargest).planar, 0.5);
+}
+
 TEST(DiffusionMeasures, PureFormsAreAtTheCorners) {
   const Anisotropy line = anisotropy({3.0, 0.0, 0.0}), plane = anisotropy({3.0, 3.0, 0.0}),
                    ball = anisotropy({3.0, 3.0, 3.0});

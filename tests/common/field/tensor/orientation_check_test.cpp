@@ -2,6 +2,7 @@
 
 #include "common/field/tensor/orientation_check.h"
 
+#include <cmath>
 #include <set>
 #include <vector>
 
@@ -50,14 +51,30 @@ TEST(OrientationCheck, FindsTheWayBackFromWrongTurns) {
     const AxisTurn& wrong = turns[t];
     const Made made = helix(wrong.matrix());
     const OrientationVerdict verdict =
-        check_orientation(DirectionMap(made.tensors, made.topology, 2), made.topology, 2);
+        check_orientation(DirectionMap(made.tensors, made.topology, 2), made.topology, {}, 2);
     EXPECT_EQ(verdict.suspicious, !wrong.is_identity()) << wrong.words() << " gain " << verdict.gain;
     if (!verdict.suspicious) continue;
     // Up to the sign, both turns together change nothing.
-    const Mat3 both = verdict.best.matrix() * wrong.matrix();
+    const Mat3 both = verdict.best.turn.matrix() * wrong.matrix();
     EXPECT_TRUE(both == Mat3{1.0} || both == Mat3{-1.0})
-        << wrong.words() << " is answered by " << verdict.best.words() << ", gain " << verdict.gain;
+        << wrong.words() << " is answered by " << verdict.advice << ", gain " << verdict.gain;
   }
+}
+
+// A table that was turned by a few degrees, which no flip mends, is not advised away in silence.
+TEST(OrientationCheck, SaysThatARotationIsLeft) {
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  const Mat3 rotation{Vec3{c, s, 0.0}, Vec3{-s, c, 0.0}, Vec3{0.0, 0.0, 1.0}};
+  const AxisTurn flip{{0, 1, 2}, {false, false, true}};
+  const Made flipped = helix(flip.matrix()), both = helix(rotation * flip.matrix());
+  const OrientationVerdict mended =
+      check_orientation(DirectionMap(flipped.tensors, flipped.topology, 2), flipped.topology, {}, 2);
+  EXPECT_EQ(mended.advice, "--flip k");
+  EXPECT_FALSE(mended.rotated);
+  const OrientationVerdict left =
+      check_orientation(DirectionMap(both.tensors, both.topology, 2), both.topology, {}, 2);
+  EXPECT_TRUE(left.suspicious);
+  EXPECT_TRUE(left.rotated) << left.advice;
 }
 
 TEST(DirectionMap, ScoresAlikeForAnyNumberOfThreads) {

@@ -47,8 +47,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
            cache, markers);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
-    const auto& [m, n, o, p, q, r, s, t, u] = tensor;
-    expect("tensor", m, n, o, p, q, r, s, t, u);
+    const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
+    expect("tensor", m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1);
     (void)secondary, (void)kind, (void)remesher;  // what the program makes of the others
   }
   {
@@ -56,8 +56,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tracing", a, b, c, d, e, f, g, h, i);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.tracts;
-    expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = document.tracts;
+    expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
@@ -105,8 +105,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("hand", a, b, c, d, e, f);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i] = document.output;
-    expect("output", a, b, c, d, e, f, g, h, i);
+    const auto& [a, b, c, d, e, f, g, h, i, j] = document.output;
+    expect("output", a, b, c, d, e, f, g, h, i, j);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j] = document.calibration;

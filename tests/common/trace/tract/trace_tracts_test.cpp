@@ -193,6 +193,58 @@ TEST(TraceTracts, PowersOfTwoScaleTheLinesAndNothingElse) {
   }
 }
 
+TEST(TraceTracts, GoesTheWayAndTheStepsThatItIsTold) {
+  const Helices helices{kPitch};
+  const UniformTopology uniform = around_helix(Mat3{1.0});
+  DataSet image =
+      test::tensor_image(uniform, [&](const Vec3& x) { return tensor_along(helices.direction(x)); });
+  const auto packed = make_tensor_field(image, {.array = "D"}, "image");
+  RectilinearTopology lattice;  // the same, read one line at a time
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < uniform.points[axis]; ++i)
+      lattice.coordinates[static_cast<std::size_t>(axis)].push_back(uniform.origin[axis] + i);
+  }
+  image.topology = lattice;
+  const auto single = make_tensor_field(image, {.array = "D"}, "image");
+  const std::vector<Vec3> seeds{helices.at(kRadius, 0.0, 0.0), helices.at(kRadius, 0.0, 1.0)};
+  for (const auto& field : {packed, single}) {
+    TractOptions options;
+    options.max_length = 6.0;
+    options.step = 0.25;
+    options.sense = TractSense::kForward;
+    const TractResult forward = trace_tracts(*field, seeds, options);
+    options.sense = TractSense::kBackward;
+    const TractResult backward = trace_tracts(*field, seeds, options);
+    options.sense = TractSense::kBoth;
+    options.max_steps = 10;
+    const TractResult both = trace_tracts(*field, seeds, options);
+    ASSERT_EQ(forward.lines.line_count(), 2U);
+    ASSERT_EQ(backward.lines.line_count(), 2U);
+    ASSERT_EQ(both.lines.line_count(), 2U);
+    for (std::size_t l = 0; l < 2; ++l) {
+      const auto up = forward.lines.line(l), down = backward.lines.line(l), short_one = both.lines.line(l);
+      ASSERT_EQ(up.size(), 25U);  // 6 / 0.25 steps
+      ASSERT_EQ(down.size(), 25U);
+      EXPECT_EQ(up.front(), Vec3f{seeds[l]});
+      EXPECT_EQ(down.front(), Vec3f{seeds[l]});
+      // The helix runs along y there: forward is where its longest part is positive.
+      EXPECT_GT(up[4].y, up[0].y);
+      EXPECT_LT(down[4].y, down[0].y);
+      EXPECT_EQ(forward.ends[l], (std::array{End::kStoppedByRule, End::kMaxLength}));
+      EXPECT_EQ(backward.ends[l], (std::array{End::kStoppedByRule, End::kMaxLength}));
+      ASSERT_EQ(short_one.size(), 21U);
+      EXPECT_EQ(both.ends[l], (std::array{End::kMaxSteps, End::kMaxSteps}));
+      for (std::size_t p = 0; p <= 10; ++p) {
+        EXPECT_LT(glm::distance(short_one[10 + p], up[p]), 1e-4F);
+        EXPECT_LT(glm::distance(short_one[10 - p], down[p]), 1e-4F);
+      }
+    }
+  }
+  TractOptions none;
+  none.max_steps = 0;
+  EXPECT_THROW((void)trace_tracts(*packed, seeds, none), Error);
+}
+
 TEST(TraceTracts, BothWaysOfReadingTensorsAgree) {
   // A rectilinear grid at equal steps is the same image, read through TensorField::sample().
   const Case made = many_lines();

@@ -90,6 +90,18 @@ TEST(TractOrientation, FindsTheWayBackFromWrongTurns) {
   }
 }
 
+TEST(TractOrientation, SaysThatTractsLieBeyondTheImage) {
+  const Bundle bundle;
+  Tractogram far = bundle.lines;
+  for (Vec3f& x : far.points) x += Vec3f{1000.0F, 0.0F, 0.0F};
+  const TractFit fit = fit_of_tracts(*bundle.field, far, 2);
+  EXPECT_EQ(fit.outside, 1.0);
+  const std::string said = fit_sentence(fit, "--turn");
+  EXPECT_TRUE(said.starts_with("WARNING")) << said;
+  EXPECT_NE(said.find("100 % lie beyond the image"), std::string::npos) << said;
+  EXPECT_LT(fit_of_tracts(*bundle.field, bundle.lines, 2).outside, 0.1);
+}
+
 TEST(TractOrientation, ScoresAlikeForAnyNumberOfThreadsAndWithoutLines) {
   const Bundle bundle;
   EXPECT_EQ(fit_of_tracts(*bundle.field, bundle.lines, 1).score,
