@@ -116,10 +116,9 @@ void add_strokes(BareHeart& heart, const Direction& direction, Progress* progres
     if (progress && t % 4096 == 0) progress->check();
     if (const auto stroke = stroke_in(heart, t, direction(t))) heart.strokes.push_back(*stroke);
   }
-  heart.notes.push_back(
-      "fibres: " + counted(heart.strokes.size(), "stroke") + ", one in " +
-      (every == 1 ? std::string("each triangle") : "every " + std::to_string(every) + "th triangle") +
-      " along which a fibre lies");
+  heart.notes.push_back("fibres: " + counted(heart.strokes.size(), "stroke") + ", one in " +
+                        (every == 1 ? std::string("each triangle") : std::to_string(every) + " triangles") +
+                        " along which a fibre lies");
 }
 
 const UnstructuredTopology& cells_of(const DataSet& block, const std::string& file) {
@@ -236,15 +235,25 @@ void add_border(BareHeart& heart, const TensorField* fibres, Progress* progress)
       progress);
 }
 
+/// Whether a time step has points and cells as the one that the heart was made of, and the scalar.
+bool fits(const BareHeart& heart, const std::vector<DataSet>& blocks, const ScalarChoice& choice) {
+  if (blocks.size() != 1) return false;
+  const DataSet& block = blocks.front();
+  const DataArray* const array = block.find(choice.array, choice.association);
+  return block.point_count() == heart.file_points && block.cell_count() == heart.file_cells &&
+         array != nullptr && choice.component < array->components;
+}
+
 /// Of every corner of the mesh, then of both ends of every branch.
 std::vector<double> corner_values(const BareHeart& heart, const std::vector<DataSet>& blocks,
                                   const ScalarChoice& choice, const std::string& file, int threads) {
   std::vector<double> values;
   values.reserve(heart.points.size() + 2 * heart.branches.size());
-  const DataArray* const array = blocks.front().find(choice.array, choice.association);
-  if (array == nullptr)
-    refuse_data(file, "no array '" + choice.array + "' at this time step", "it at every step");
+  if (!fits(heart, blocks, choice))
+    refuse_data(file, "another mesh, or no array '" + choice.array + "', at this time step",
+                "those of the step that was opened");
   check_block(blocks.front(), 0, 1, file);
+  const DataArray* const array = blocks.front().find(choice.array, choice.association);
   const bool of_cells = choice.association == Association::kCell;
   if (heart.grid) {
     const std::vector<double> at_points =
@@ -273,7 +282,9 @@ std::optional<ValueRange> range_of_steps(Input& input, const BareHeart& heart, c
   for (const std::size_t step : spread_steps(input)) {
     if (step == shown) continue;
     input.set_time_step(step);
-    widen(range, corner_values(heart, input.read({choice.array}), choice, input.title(), threads));
+    const std::vector<DataSet> blocks = input.read({choice.array});
+    if (fits(heart, blocks, choice))
+      widen(range, corner_values(heart, blocks, choice, input.title(), threads));
   }
   return range;
 }
@@ -340,6 +351,8 @@ std::shared_ptr<const BareHeart> load_bare_heart(Input& input, const std::string
   check_block(block, 0, 1, file);
   if (progress) progress->begin("finding the surface", 0);
   auto heart = std::make_shared<BareHeart>();
+  heart->file_points = block.point_count();
+  heart->file_cells = block.cell_count();
   if (!shell) {
     heart->grid = fibres ? fibres->grid() : make_field_grid(blocks, file, threads);
     if (!heart->grid->tets)
@@ -381,6 +394,7 @@ BareScene make_bare_scene(Input& input, const BareHeart& heart, const HeartOptio
     values = corner_values(heart, input.read({choice.array}), choice, input.title(), threads);
     const bool same = before != nullptr && before->name == array->name;
     array->range = range_of_steps(input, heart, choice, values, same ? before->range : std::nullopt, threads);
+    if (!array->range) array->range = usual_range(values);  // there may be no line to have one
   }
   draw(heart, values, parse_cut(options.cut), scene, *array);
   scene.surface.contours = options.contours;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -47,6 +48,7 @@ struct BareHeart {
   std::vector<std::uint32_t> cells;   ///< of the file behind each triangle; only without a grid
   std::vector<Stroke> strokes;
   std::vector<Branch> branches;
+  std::size_t file_points = 0, file_cells = 0;  ///< of the step that it was made of
   Box bounds;
   std::vector<std::string> notes;  ///< what is drawn, why there are no layers
 };
@@ -68,7 +70,7 @@ struct BareScene {
 
 /// @param options its `angle` names a scalar of the file; an angle, which takes layers, stands for the first.
 /// @param before what coloured this heart at another time step (default_appearance.h); null: nothing.
-/// @throws Error (usage) for an unknown scalar, (bad input); Cancelled.
+/// @throws Error (usage) for an unknown scalar, (bad input) for a step with another mesh; Cancelled.
 [[nodiscard]] BareScene make_bare_scene(Input& input, const BareHeart& heart, const HeartOptions& options,
                                         int threads, const LineArray* before);
 

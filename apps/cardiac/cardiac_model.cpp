@@ -168,7 +168,9 @@ SceneState CardiacModel::present_bare(Input& input, const OpenHeart& heart, cons
   state.lines = scene.lines;
   state.surfaces = {std::move(scene.surface)};
   state.color_array = scene.array;
-  state.document.heart.layer.clear();  // a session that has one is refused by render
+  // A session that has them is refused by render.
+  state.document.heart.layer.clear();
+  state.document.heart.lens.clear();
   if (!scene.array->name.empty()) state.document.heart.angle = scene.array->name;
   state.notes.insert(state.notes.end(), heart.notes.begin(), heart.notes.end());
   if (!scene.note.empty()) state.notes.push_back(scene.note);

@@ -52,8 +52,7 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
   } else if (!state.tensors) {
     throw usage_error("there are no tensors to trace tracts through");
   } else {
-    const ViewTracts traced =
-        trace_view_tracts(document.tracts, document.common, *state.tensors->image, &progress);
+    const ViewTracts traced = trace_view_tracts(document, *state.tensors->image, &progress);
     show(traced.bundle);
     state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
     state.seeds = traced.seeds;
@@ -102,13 +101,14 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
   }
   show_tracts(with, before, shown, progress, state);
   if (const std::string& file = with.tensors.underlay; !file.empty()) {
-    const bool read =
-        before != nullptr && before->tensors && before->tensors->underlay && shown.tensors.underlay == file;
+    const bool read = before != nullptr && before->tensors && before->tensors->underlay &&
+                      shown.tensors.underlay == file &&
+                      shown.input.tensor.handedness == with.input.tensor.handedness;
     Underlay underlay;
     if (read) {
       underlay.image = before->tensors->underlay->image;
     } else {
-      underlay = load_underlay(file, &progress);
+      underlay = load_underlay(with, &progress);
     }
     for (std::string& note : show_underlay(underlay, with, state.tensors))
       state.notes.push_back(std::move(note));

@@ -26,7 +26,7 @@ ViewTracts tracts_of(const Document& options, const VerbContext& context,
     const TensorField* const field = tensors ? tensors->image->field.get() : nullptr;
     return read_view_tracts(options.tract_appearance, field, options.common.threads, &context.progress);
   }
-  ViewTracts tracts = trace_view_tracts(options.tracts, options.common, *tensors->image, &context.progress);
+  ViewTracts tracts = trace_view_tracts(options, *tensors->image, &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
   return tracts;
 }
@@ -58,7 +58,7 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
                              .opacity = options.tract_appearance.opacity};
   }
   if (!options.tensors.underlay.empty()) {
-    const Underlay underlay = load_underlay(options.tensors.underlay, &context.progress);
+    const Underlay underlay = load_underlay(options, &context.progress);
     for (const std::string& note : show_underlay(underlay, options, parts.tensors))
       context.console.note(note);
     drawn.what += ", an underlay of " + counted(underlay.image->point_count(), "voxel");

@@ -58,8 +58,9 @@ Document with_input_role(Document options, const Input& input) {
   return options;
 }
 
-Underlay load_underlay(const std::filesystem::path& file, Progress* progress) {
-  InputOptions spec{.files = {file}};
+Underlay load_underlay(const Document& document, Progress* progress) {
+  InputOptions spec{.files = {document.tensors.underlay}};
+  spec.tensor.handedness = document.input.tensor.handedness;
   spec.kind = FieldKind::kScalar;
   Input input = Input::open(spec, progress);
   Underlay underlay{load_volume(input, progress), input.notes()};

@@ -38,7 +38,7 @@ struct Underlay {
   std::vector<std::string> notes;            ///< what the user should know
 };
 /// Reads the default scalar of `file`, of any format that is an image. @throws Error (bad input), Cancelled.
-[[nodiscard]] Underlay load_underlay(const std::filesystem::path& file, Progress* progress);
+[[nodiscard]] Underlay load_underlay(const Document& document, Progress* progress);
 
 /// Checks what can be checked before anything is read. @throws Error (usage).
 void check_underlay_options(const TensorOptions& options);

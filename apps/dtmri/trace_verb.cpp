@@ -13,6 +13,7 @@
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
 #include "common/scene/plan.h"
+#include "common/scene/tensor_spec.h"
 
 namespace palpate {
 namespace {
@@ -124,7 +125,8 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   const int threads = options.common.threads;
   TractSummary summary;
   Stopwatch regions;
-  const TractRequest request = tract_request(options.tracts, threads, &context.progress);
+  const bool left_handed = parse_tensor_spec(options.input.tensor).left_handed;
+  const TractRequest request = tract_request(options.tracts, left_handed, threads, &context.progress);
   summary.options = request.options;
   const double seconds_regions = regions.seconds();
 
@@ -146,8 +148,8 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   summary.field = input.field_label();
   std::vector<std::string> of_masks = check_regions(request, image.image);
-  const std::vector<Vec3> seeds =
-      tract_seeds(options.tracts, options.common.seed, *field, image.image, of_masks, &context.progress);
+  const std::vector<Vec3> seeds = tract_seeds(options.tracts, left_handed, options.common.seed, *field,
+                                              image.image, of_masks, &context.progress);
   for (const std::string& note : of_masks) console.note(note);
   summary.seeds = seeds.size();
   summary.seconds_prepare = seconds_regions + prepare.seconds();

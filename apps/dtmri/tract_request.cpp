@@ -13,6 +13,7 @@
 #include "common/load/read_tractogram.h"
 #include "common/render/tract/tract_bundle.h"
 #include "common/scene/seeds.h"
+#include "common/scene/tensor_spec.h"
 #include "common/scene/voxel_seeds.h"
 #include "common/trace/tract/tract_orientation.h"
 
@@ -37,7 +38,7 @@ Sphere parse_sphere(std::string_view numbers, const std::string& grammar) {
 }
 
 std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, const std::string& option,
-                                       std::vector<MaskFile>& masks, Progress* progress) {
+                                       bool left_handed, std::vector<MaskFile>& masks, Progress* progress) {
   std::vector<TractRegion> regions;
   for (const std::string& text : texts) {
     std::string refusal = option;
@@ -45,7 +46,7 @@ std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, co
     if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
       regions.emplace_back(parse_sphere(numbers, refusal));
     } else if (const auto file = after(text, "mask:"); !file.empty()) {
-      masks.push_back(read_mask(file, progress));
+      masks.push_back(read_mask(file, progress, left_handed));
       regions.emplace_back(masks.back().mask);
     } else {
       throw usage_error(refusal);
@@ -127,7 +128,7 @@ void check_view_tracts(const TractTracingOptions& options, const TractAppearance
   numbers.include.clear();
   numbers.exclude.clear();
   numbers.stop.clear();
-  (void)tract_request(numbers, 1);
+  (void)tract_request(numbers, false, 1);
 }
 
 ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
@@ -147,15 +148,17 @@ ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* fiel
   return tracts;
 }
 
-ViewTracts trace_view_tracts(const TractTracingOptions& options, const CommonOptions& common,
-                             const TensorVoxels& voxels, Progress* progress) {
-  const TractRequest request = tract_request(options, common.threads, progress);
+ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels, Progress* progress) {
+  const TractTracingOptions& options = document.tracts;
+  const bool left_handed = parse_tensor_spec(document.input.tensor).left_handed;
+  const TractRequest request = tract_request(options, left_handed, document.common.threads, progress);
   const TractOptions& how = request.options;
   // Seeds are laid over the voxels; what these hold is asked of the field.
   DataSet lattice;
   lattice.topology = UniformTopology{voxels.points, voxels.origin, voxels.axes};
   std::vector<std::string> notes = check_regions(request, lattice);
-  const std::vector<Vec3> seeds = tract_seeds(options, common.seed, *voxels.field, lattice, notes, progress);
+  const std::vector<Vec3> seeds =
+      tract_seeds(options, left_handed, document.common.seed, *voxels.field, lattice, notes, progress);
   TractResult result = trace_tracts(*voxels.field, seeds, how, progress);
   ViewTracts tracts;
   tracts.seeds = seeds.size();
@@ -167,7 +170,8 @@ ViewTracts trace_view_tracts(const TractTracingOptions& options, const CommonOpt
   return tracts;
 }
 
-TractRequest tract_request(const TractTracingOptions& options, int threads, Progress* progress) {
+TractRequest tract_request(const TractTracingOptions& options, bool left_handed, int threads,
+                           Progress* progress) {
   TractRequest request;
   TractOptions& tracts = request.options;
   tracts.integrator = integrator_from_name(options.integrator);
@@ -182,9 +186,9 @@ TractRequest tract_request(const TractTracingOptions& options, int threads, Prog
   tracts.sense = sense_from_name(options.direction);
   tracts.max_steps = options.max_steps;
   check_tract_options(tracts);
-  tracts.include = parse_regions(options.include, "--include", request.masks, progress);
-  tracts.exclude = parse_regions(options.exclude, "--exclude", request.masks, progress);
-  tracts.stop = parse_regions(options.stop, "--stop", request.masks, progress);
+  tracts.include = parse_regions(options.include, "--include", left_handed, request.masks, progress);
+  tracts.exclude = parse_regions(options.exclude, "--exclude", left_handed, request.masks, progress);
+  tracts.stop = parse_regions(options.stop, "--stop", left_handed, request.masks, progress);
   tracts.threads = threads;
   return request;
 }
@@ -214,7 +218,7 @@ std::string why_no_tract(const TractResult& result, const TractOptions& options)
   return why;
 }
 
-std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,
+std::vector<Vec3> tract_seeds(const TractTracingOptions& options, bool left_handed, std::uint64_t random_seed,
                               const TensorField& field, const DataSet& image, std::vector<std::string>& notes,
                               Progress* progress) {
   const std::string& text = options.seeds;
@@ -235,7 +239,7 @@ std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t 
     return seeds_in(voxels_of(image, text), [&](const Vec3& x) { return region.contains(x); });
   }
   if (const auto file = after(text, "mask:"); !file.empty()) {
-    const MaskFile mask = read_mask(file, progress);
+    const MaskFile mask = read_mask(file, progress, left_handed);
     if (const auto* const voxels = std::get_if<UniformTopology>(&image.topology))
       check_mask(mask, *voxels, notes);
     return seeds_in(mask.mask->voxels(), [&](const Vec3& x) { return mask.mask->contains(x); });

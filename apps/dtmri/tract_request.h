@@ -29,18 +29,19 @@ struct TractRequest {
   std::vector<MaskFile> masks;
 };
 
-/// Masks are read. @throws Error (usage), (bad input) naming a mask; Cancelled.
-[[nodiscard]] TractRequest tract_request(const TractTracingOptions& options, int threads,
+/// Masks are read. @param left_handed LoadRequest::left_handed, for masks. @throws Error (usage), (bad input) naming a mask; Cancelled.
+[[nodiscard]] TractRequest tract_request(const TractTracingOptions& options, bool left_handed, int threads,
                                          Progress* progress = nullptr);
 
 /// What the user should know of masks over `image`. @throws Error (bad input) where one lies beside it.
 [[nodiscard]] std::vector<std::string> check_regions(const TractRequest& request, const DataSet& image);
 
-/// @param image that `field` was made of. @param notes as check_regions(), of a mask of seeds; appended.
+/// @param left_handed as tract_request(). @param image that `field` was made of. @param notes as check_regions(), of a mask of seeds; appended.
 /// @throws Error (usage) that shows the grammar, (bad input) naming a file; Cancelled.
-[[nodiscard]] std::vector<Vec3> tract_seeds(const TractTracingOptions& options, std::uint64_t random_seed,
-                                            const TensorField& field, const DataSet& image,
-                                            std::vector<std::string>& notes, Progress* progress = nullptr);
+[[nodiscard]] std::vector<Vec3> tract_seeds(const TractTracingOptions& options, bool left_handed,
+                                            std::uint64_t random_seed, const TensorField& field,
+                                            const DataSet& image, std::vector<std::string>& notes,
+                                            Progress* progress = nullptr);
 
 /// Of tracing that gave no line: what became of its seeds and lines, and by which option.
 [[nodiscard]] std::string why_no_tract(const TractResult& result, const TractOptions& options);
@@ -65,9 +66,9 @@ void check_view_tracts(const TractTracingOptions& options, const TractAppearance
 [[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
                                           Progress* progress);
 
-/// Traces through `voxels` as the verb `trace` does. @pre options.seeds is not empty.
+/// Traces through `voxels` as the verb `trace` does. @pre document.tracts.seeds is not empty.
 /// @throws Error (usage), (bad input) as tract_options() and tract_seeds(); Cancelled.
-[[nodiscard]] ViewTracts trace_view_tracts(const TractTracingOptions& options, const CommonOptions& common,
-                                           const TensorVoxels& voxels, Progress* progress);
+[[nodiscard]] ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels,
+                                           Progress* progress);
 
 }  // namespace palpate

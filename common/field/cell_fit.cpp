@@ -14,13 +14,16 @@ constexpr double kFlat = 0.02;
 /// Centres nearer than this part of the cells, squared, weigh no more.
 constexpr double kNear = 1e-6;
 
+/// What is left of a pivot of a matrix by rounding, as a part of its diagonal.
+constexpr double kRounding = 1e-13;
+
 /// L with L L^T = a, or false.
 bool cholesky(const Mat3& a, double least, Mat3& l) {
   l = Mat3(0.0);
   for (int j = 0; j < 3; ++j) {
     double pivot = a[j][j];
     for (int k = 0; k < j; ++k) pivot -= l[k][j] * l[k][j];
-    if (!(pivot > least)) return false;
+    if (!(pivot > std::max(least, kRounding * a[j][j]))) return false;
     l[j][j] = std::sqrt(pivot);
     for (int i = j + 1; i < 3; ++i) {
       double sum = a[j][i];

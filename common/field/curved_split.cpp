@@ -240,7 +240,14 @@ class CurvedSplitter {
       ++times;
     }
     out_.parts = order_ * times;
-    if (times > 1) {
+    // One cell of a high order among many others is no reason to run out of memory.
+    constexpr std::size_t kAtOnce = 64 * kMostParts;
+    const auto too_many = [&] {
+      const auto n = as_size(out_.parts);
+      return n * n * n * out_.cells > kAtOnce;
+    };
+    while (times == 1 && out_.parts > 2 && too_many()) --out_.parts;
+    if (out_.parts != order_) {
       most = 0.0;
       for (const Sampled& s : sampled) most = std::max(most, bound(*s.block, s.cell, out_.parts));
     }
@@ -259,8 +266,7 @@ class CurvedSplitter {
     if (cells == nullptr) {
       for (std::size_t c = 0; c < block.cell_count(); ++c)
         out_.cell_of.push_back(static_cast<std::uint32_t>(first_cell_ + c));
-      DataSet& same = out_.blocks.emplace_back(block);
-      same.arrays.clear();
+      out_.blocks.push_back(block);  // with its arrays, whose memory it shares
       close_block(block);
       return;
     }
@@ -317,7 +323,7 @@ class CurvedSplitter {
     const auto number = static_cast<std::int64_t>(position.size() / 3);
     if (shared) {
       std::vector<std::pair<std::int64_t, std::int64_t>> key;
-      constexpr double kDigits = 1e6;
+      constexpr double kDigits = 999'983.0;  // no dyadic weight lies half way between two of its parts
       for (const auto& [node, weight] : sum) key.emplace_back(nodes[node], std::llround(kDigits * weight));
       std::ranges::sort(key);
       const auto [found, fresh] = made_.try_emplace(std::move(key), number);

@@ -325,6 +325,12 @@ std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const Field
                                                      const DataSet& block, const ScalarChoice& choice,
                                                      const std::string& file, int threads) {
   check_block(block, 0, 1, file);
+  if (block.point_count() != grid->input_points || block.cell_count() != grid->input_cells)
+    refuse_data(
+        file,
+        std::to_string(block.point_count()) + " points and " + std::to_string(block.cell_count()) + " cells",
+        std::to_string(grid->input_points) + " and " + std::to_string(grid->input_cells) +
+            ", as at the time step that was opened");
   const DataArray* array = block.find(choice.array, choice.association);
   if (array == nullptr) refuse_missing(choice, file);
   check_component(*array, choice);

@@ -50,7 +50,7 @@ bool moves(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
 /// The first step after that of the input at which something moves: many runs start from rest, and a field that is
 /// zero shows nothing. Empty where its own does, or none of the next ones and not the last. Errors are left to the
 /// read that is asked for.
-std::optional<std::size_t> moving_step(Input& input, Progress* progress) {
+std::optional<std::size_t> moving_step(Input& input, bool& failed, Progress* progress) {
   constexpr std::size_t kMostTried = 16;
   const std::size_t own = input.time().step;
   std::optional<std::size_t> found;
@@ -68,6 +68,7 @@ std::optional<std::size_t> moving_step(Input& input, Progress* progress) {
     throw;
   } catch (const Error&) {
     found.reset();
+    failed = true;
   }
   input.set_time_step(own);
   return found == own ? std::nullopt : found;
@@ -167,7 +168,10 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
   }
   input.part_fields();
   if (spec.kind == FieldKind::kVector && spec.time.empty() && input.times().size() > 1) {
-    if (const auto step = moving_step(input, progress)) {
+    bool failed = false;
+    const auto step = moving_step(input, failed, progress);
+    if (failed) input.open_files(progress);  // a helper that a later step has ended answers no more
+    if (step) {
       const std::vector<double>& times = input.times();
       FileInfo info = *input.file();
       info.notes.push_back("nothing moves at time " + exact_number(times[input.time_.step]) + ": opened at " +
@@ -207,8 +211,8 @@ void Input::open_files(Progress* progress) {
   request.allow_gaps = spec_.allow_gaps;
   request.surface_markers = spec_.surface_markers;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
+  request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
   if (spec_.kind == FieldKind::kTensor) {
-    request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};
   }
   source_ = Source::open(request, {}, progress);

@@ -48,6 +48,7 @@ AxisTurn turn_of(const TensorSpec& words) {
 std::vector<std::size_t> parse_volumes(const std::string& text) {
   std::vector<std::size_t> volumes;
   if (text.empty()) return volumes;
+  std::vector<bool> named(kMostGradients, false);
   for (const std::string_view word : split(text, ',')) {
     const std::string_view part = trimmed(word);
     const std::size_t dash = part.find('-');
@@ -58,10 +59,11 @@ std::vector<std::size_t> parse_volumes(const std::string& text) {
                         ": volumes counted from 0 are expected, with '-' between the first and the last of "
                         "several, such as 3,7,12-15");
     }
-    for (std::size_t v = *first; v <= *last; ++v) volumes.push_back(v);
+    std::fill(named.begin() + static_cast<std::ptrdiff_t>(*first),
+              named.begin() + static_cast<std::ptrdiff_t>(*last) + 1, true);
   }
-  std::sort(volumes.begin(), volumes.end());
-  volumes.erase(std::unique(volumes.begin(), volumes.end()), volumes.end());
+  for (std::size_t v = 0; v < named.size(); ++v)
+    if (named[v]) volumes.push_back(v);
   return volumes;
 }
 

@@ -257,7 +257,7 @@ class DicomLoader : public Loader {
     }
     if (!series_.traces.empty())
       info.notes.push_back(counted(series_.traces.size(), "weighted volume") +
-                           " without a direction left out");
+                           " without a direction left out; --leave-out counts the others from 0");
     if (volumes_.empty()) {
       throw input_error({series_.frames.front().file, "",
                          "belongs to a series whose weighted volumes have no direction",
@@ -267,6 +267,7 @@ class DicomLoader : public Loader {
     array_.name = kSignalArray;
     array_.components = static_cast<int>(volumes_.size());
     info.diffusion.gradients = std::move(table);
+    info.diffusion.gradient_frame = VectorFrame::kLps;
   }
 
   DicomSeries series_;

@@ -166,8 +166,10 @@ struct NiftiFile::Image {
     array_.name = "scalars";
     if (array_.components > 1) array_.name = volumes_ == 3 ? "vectors" : "components";
     if (stored_.components > 1 && volumes_ == 1) array_.name = kColorArray;
-    if (volumes_ == 3 && !stated_frame())
-      place_.notes.emplace_back("vectors as stored: the header does not say along which axes");
+    if (const auto frame = stated_frame(); volumes_ == 3 && frame != VectorFrame::kScanner)
+      place_.notes.push_back("vectors as stored: " +
+                             (frame ? "along " + std::string(words_of(*frame)) + ", as the header says"
+                                    : std::string("the header does not say along which axes")));
     array_.type = stored_.type;
     slope_ = image.scl_slope;
     intercept_ = image.scl_inter;

@@ -251,6 +251,8 @@ class NrrdLoader : public Loader {
     for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
       for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
     }
+    if (frame == Mat3{1.0} && signs_ == Vec3{-1.0, -1.0, 1.0})
+      info.diffusion.gradient_frame = VectorFrame::kLps;
     for (int c = 0; c < 3; ++c) frame[c] *= signs_;
     info.diffusion.gradients =
         read_nrrd_gradients(keys, static_cast<std::size_t>(stored_components_), frame, file_, info.notes);

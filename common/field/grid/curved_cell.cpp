@@ -12,7 +12,7 @@ namespace {
 
 using Point = std::array<int, 3>;
 
-/// Beyond it the inverse of the monomials loses too many digits.
+/// Beyond it the inverse loses too many digits.
 constexpr int kMostOrder = 8;
 
 Point between(const Point& a, const Point& b, int m, int n) {
@@ -159,6 +159,15 @@ double power(double x, int n) {
   return out;
 }
 
+/// T_n of Chebyshev's polynomials on [0, 1]: the sets of exponents hold whatever divides one of theirs, so that they span
+/// what powers do, with an inverse that keeps its digits up to kMostOrder.
+double chebyshev(double x, int n) {
+  double before = 1.0, here = 2.0 * x - 1.0;
+  if (n == 0) return before;
+  for (int k = 1; k < n; ++k) before = std::exchange(here, 2.0 * (2.0 * x - 1.0) * here - before);
+  return here;
+}
+
 double binomial(int n, int k) {
   double out = 1.0;
   for (int i = 1; i <= k; ++i) out *= static_cast<double>(n - k + i) / i;
@@ -171,6 +180,10 @@ constexpr double kApex = 1e-12;
 }  // namespace
 
 std::unique_ptr<CurvedCell> CurvedCell::make(std::uint8_t type, std::size_t nodes) {
+  // Quadratic ones have one number of nodes each; those of Lagrange and Bezier say their order by it.
+  if ((type == kQuadraticTetrahedron && nodes != 10) || (type == kTriquadraticHexahedron && nodes != 27) ||
+      (type == 32 && nodes != 18))
+    return nullptr;
   auto out = std::make_unique<CurvedCell>();
   out->linear_ = linear_type_of(type);
   std::vector<Point> lattice;
@@ -255,7 +268,8 @@ void CurvedCell::basis(const Vec3& xi, std::vector<double>& out) const {
     out = {1.0, x, y, z, x * y, x * z, y * z, x * x, y * y, z * z, q, q * x, q * y};
     return;
   }
-  for (const auto& e : exponents_) out.push_back(power(xi.x, e[0]) * power(xi.y, e[1]) * power(xi.z, e[2]));
+  for (const auto& e : exponents_)
+    out.push_back(chebyshev(xi.x, e[0]) * chebyshev(xi.y, e[1]) * chebyshev(xi.z, e[2]));
 }
 
 void CurvedCell::bernstein(const Vec3& xi, std::vector<double>& out) const {

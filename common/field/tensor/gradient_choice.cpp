@@ -82,7 +82,6 @@ ChosenGradients choose_gradients(const GradientTable& stated, const GradientChoi
   ChosenGradients chosen;
   scale_weightings(choice, file, table, chosen.notes);
   const std::size_t count = table.weightings.size();
-  const double largest = table.largest_weighting();
   std::vector<bool> kept(count, true);
   for (const std::size_t volume : choice.left_out) {
     if (volume >= count)
@@ -90,13 +89,19 @@ ChosenGradients choose_gradients(const GradientTable& stated, const GradientChoi
                         std::to_string(count - 1));
     kept[volume] = false;
   }
+  // What counts as unweighted is a share of the largest b that may stay.
+  double largest = choice.max_weighting;
+  if (!choice.shells.empty()) largest = std::min(largest, *std::ranges::max_element(choice.shells));
+  double found = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (kept[i]) found = std::max(found, table.weightings[i]);
+  largest = std::min(largest, found);
   const auto is_zero = [&](std::size_t i) { return !(table.weightings[i] > kApart * largest); };
   std::vector<std::size_t> undirected;
   bool unweighted = false;
   for (std::size_t i = 0; i < count; ++i) {
-    if (!kept[i]) continue;
-    unweighted = unweighted || is_zero(i);
-    if (!is_zero(i) && table.directions[i] == Vec3{0.0}) undirected.push_back(i);
+    unweighted = unweighted || is_zero(i);  // also one that is left out tells how the file was written
+    if (kept[i] && !is_zero(i) && table.directions[i] == Vec3{0.0}) undirected.push_back(i);
   }
   if (!undirected.empty() && unweighted) {
     for (const std::size_t i : undirected) kept[i] = false;

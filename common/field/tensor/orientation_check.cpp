@@ -152,10 +152,10 @@ double excess(std::span<const double> sums, std::size_t width, std::span<const s
 
 }  // namespace
 
-bool clearly_better(const Coherence& a, const Coherence& b) noexcept {
+bool clearly_better(const Coherence& a, const Coherence& b, double by) noexcept {
   constexpr double kClear = 0.02, kErrors = 1.5;
   const double better = a.score - b.score;
-  if (!(a.score > kClear && better > kClear)) return false;
+  if (!(a.score > kClear && better > by)) return false;
   constexpr auto kCount = static_cast<double>(Coherence::kBlocks);
   double mean = 0.0, squares = 0.0;
   for (std::size_t block = 0; block < Coherence::kBlocks; ++block)
@@ -178,15 +178,18 @@ std::vector<Coherence> DirectionMap::coherence(std::span<const Mat3> turns, int 
   const std::size_t width = set.lines().size();
   const auto slices = as_size(points_.z);
   const std::size_t in_slice = as_size(points_.x) * as_size(points_.y);
-  // By slice and quarter of it: the order of sums is fixed.
-  constexpr std::size_t kQuarters = 4;
+  // By slab of slices and quarter of it: the order of sums is fixed, and their number has a bound.
+  constexpr std::size_t kQuarters = 4, kMostSlabs = 64;
+  const std::size_t slabs = std::min(slices, kMostSlabs);
   const std::size_t size = offsets.size() * width;
-  std::vector<double> sums(slices * kQuarters * size, 0.0);
-  parallel_for(slices, threads, [&](std::size_t first, std::size_t last) {
+  std::vector<double> sums(slabs * kQuarters * size, 0.0);
+  parallel_for(slabs, threads, [&](std::size_t first, std::size_t last) {
+    std::size_t slab = first;
     const auto parts_of = [&](std::size_t slice) {
       return SliceParts(std::span(directions_).subspan(slice * in_slice, in_slice), set.lines());
     };
-    for (std::size_t slice = first; slice < last; ++slice) {
+    for (std::size_t slice = first * slices / slabs; slice < last * slices / slabs; ++slice) {
+      while ((slab + 1) * slices / slabs <= slice) ++slab;
       const SliceParts here = parts_of(slice);
       const SliceParts above = parts_of(std::min(slice + 1, slices - 1));
       for (int j = 0; j < points_.y; ++j) {
@@ -194,7 +197,7 @@ std::vector<Coherence> DirectionMap::coherence(std::span<const Mat3> turns, int 
           const float* const u = here.row(index_in(points_, {i, j, 0}));
           if (u == nullptr) continue;
           const std::size_t quarter = (2 * i >= points_.x ? 1U : 0U) + (2 * j >= points_.y ? 2U : 0U);
-          double* const sum = sums.data() + (slice * kQuarters + quarter) * size;
+          double* const sum = sums.data() + (slab * kQuarters + quarter) * size;
           for (std::size_t n = 0; n < offsets.size(); ++n) {
             const Index3 there{i + offsets[n].x, j + offsets[n].y, 0};
             if (there.x < 0 || there.y < 0 || there.x >= points_.x || there.y >= points_.y ||
@@ -213,9 +216,9 @@ std::vector<Coherence> DirectionMap::coherence(std::span<const Mat3> turns, int 
   std::vector<double> all(size, 0.0);
   std::array<std::vector<double>, Coherence::kBlocks> without;
   without.fill(all);
-  for (std::size_t part = 0; part < slices * kQuarters; ++part) {
+  for (std::size_t part = 0; part < slabs * kQuarters; ++part) {
     const std::size_t block =
-        part % kQuarters + (2 * (part / kQuarters) >= slices ? kQuarters : std::size_t{0});
+        part % kQuarters + (2 * (part / kQuarters) >= slabs ? kQuarters : std::size_t{0});
     for (std::size_t i = 0; i < size; ++i) {
       const double sum = sums[part * size + i];
       all[i] += sum;
@@ -308,8 +311,9 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   std::vector<Mat3> rotated{matrices[best]};
   for (const Mat3& rotation : slight_rotations()) rotated.push_back(rotation * matrices[best]);
   const std::vector<Coherence> after = directions.coherence(rotated, threads);
+  constexpr double kByRotation = 0.01;  // ten degrees change less than another axis does
   verdict.rotated = std::any_of(after.begin() + 1, after.end(), [&after](const Coherence& one) {
-    return clearly_better(one, after.front());
+    return clearly_better(one, after.front(), kByRotation);
   });
   return verdict;
 }

@@ -53,8 +53,8 @@ struct Coherence {
   bool operator==(const Coherence&) const = default;
 };
 /// Whether `a` lines up better than `b` by more than chance gives: alike neighbours do lie along the fibres of
-/// `a` (s > 0.02), by 0.02 more than along those of `b`, and by 1.5 standard errors of the difference.
-[[nodiscard]] bool clearly_better(const Coherence& a, const Coherence& b) noexcept;
+/// `a` (s > 0.02), by `by` more than along those of `b`, and by 1.5 standard errors of the difference.
+[[nodiscard]] bool clearly_better(const Coherence& a, const Coherence& b, double by = 0.02) noexcept;
 
 /// Main directions of the voxels that count in (1), computed once for any number of turns.
 class DirectionMap {

@@ -250,8 +250,8 @@ const Setting kInputRows[] = {
      .words = "right|left"},
     {.name = "bvec-length",
      .place = kTensorReadingAt<&TensorSpec::bvec_length>,
-     .help =
-         "where gradient directions are not of unit length: scale the b-values by its square, or ignore it",
+     .help = "where gradient directions are not of unit length: scale the b-values by its square, or ignore "
+             "it (in NRRD files it is a part of the format, and always counts)",
      .heading = "Tensors",
      .groups = {Group::kInput},
      .kinds = kTensors,

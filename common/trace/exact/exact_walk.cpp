@@ -37,6 +37,7 @@ bool ExactWalk::start(const Vec3& seed) {
   exit_face_ = -1;
   pieces_in_cell_ = 0;
   standing_ = 0;
+  seams_standing_ = 0;
   modes_.reset();
   robust_pieces_ = long_cells_ = 0;
   has_piece_ = false;
@@ -137,7 +138,7 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   entry_ = -1;
   ++pieces_in_cell_;
   // What moves by rounding makes no progress.
-  if (arc > 16.0 * kUlp * cell_.size) standing_ = 0;
+  if (arc > 16.0 * kUlp * cell_.size) standing_ = seams_standing_ = 0;
   const Vec3 v = velocity(cell_, w).xyz();
   const double speed = glm::length(v);
   if (speed > 0.0) direction_ = v * (1.0 / speed);
@@ -178,7 +179,7 @@ std::optional<End> ExactWalk::cross(int face) {
       settle(beyond, x);
       return std::nullopt;
     }
-    const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, standing_);
+    const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, seams_standing_++);
     if (there.cell == kNoCell) return End::kLeftDomain;
     settle(there.cell, there.x);
     error_.add(there.error);

@@ -76,6 +76,7 @@ class ExactWalk final : public LineWalk {
   int pieces_in_cell_ = 0;
   double rate_at_entry_ = 0.0;
   int standing_ = 0;
+  int seams_standing_ = 0;  ///< of the crossings without a move, those of seams
 
   std::optional<AffineModes> modes_;  ///< of the cell, where the robust path took it
   double modes_time_ = 0.0;           ///< since the modes began

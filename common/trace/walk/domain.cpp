@@ -33,6 +33,11 @@ BoxDomain::BoxDomain(const VectorField& field, double sign)
 bool TetDomain::locate(const Vec3& x) {
   TetPoint found;
   if (!mesh_->mesh().locate(x, kNoCell, found)) return false;
+  // The walk may have been another line's.
+  stuck_ = 0;
+  last_seam_ = Vec3{HUGE_VAL};
+  crossed_seam_ = false;
+  seam_error_ = 0.0;
   load(found.cell);
   return true;
 }

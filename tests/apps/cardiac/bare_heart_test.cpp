@@ -156,6 +156,9 @@ TEST_F(BareHeartTest, ShowsTheBorderOfAVolumeWithoutFibres) {
   const BareScene shown = scene(*heart);
   EXPECT_EQ(shown.array->name, "vm");
   EXPECT_EQ(shown.note, "");
+  ASSERT_TRUE(shown.array->range) << "there is no line whose values could give it";
+  EXPECT_NEAR(shown.array->range->lower, 1.0, 0.1);
+  EXPECT_NEAR(shown.array->range->upper, 7.0, 0.1);
   expect_linear(shown);
   EXPECT_NE(scene(*heart, {.angle = "transverse"}).note, "");
   EXPECT_THROW((void)scene(*heart, {.angle = "nothing"}), Error);

@@ -42,6 +42,9 @@ constexpr std::array<Kind, 16> kKinds{{{24, 10},
                                        {73, 40},
                                        {73, 75}}};
 
+/// Up to the highest order that is read.
+constexpr std::array<Kind, 4> kHighOrders{{{71, 165}, {72, 216}, {72, 729}, {73, 405}}};
+
 Vec3 random_inside(std::uint8_t linear, std::mt19937_64& random) {
   std::uniform_real_distribution<double> one(0.0, 1.0);
   for (;;) {
@@ -55,7 +58,9 @@ Vec3 random_inside(std::uint8_t linear, std::mt19937_64& random) {
 
 TEST(CurvedCell, PolynomialsOfItsOrderAreItsOwn) {
   std::mt19937_64 random(3);
-  for (const Kind& kind : kKinds) {
+  std::vector<Kind> kinds(kKinds.begin(), kKinds.end());
+  kinds.insert(kinds.end(), kHighOrders.begin(), kHighOrders.end());
+  for (const Kind& kind : kinds) {
     SCOPED_TRACE(std::to_string(kind.type) + " of " + std::to_string(kind.nodes));
     const auto cell = CurvedCell::make(kind.type, kind.nodes);
     ASSERT_TRUE(cell);
@@ -71,8 +76,9 @@ TEST(CurvedCell, PolynomialsOfItsOrderAreItsOwn) {
         one += weights[i];
         sum += weights[i] * f(cell->nodes()[i]);
       }
-      EXPECT_NEAR(one, 1.0, 1e-11);
-      EXPECT_NEAR(sum, f(xi), 1e-10);
+      // Equidistant nodes multiply rounding, by some thousand at order 8.
+      EXPECT_NEAR(one, 1.0, order > 4 ? 1e-8 : 1e-11);
+      EXPECT_NEAR(sum, f(xi), order > 4 ? 1e-8 : 1e-10);
     }
   }
 }
@@ -110,6 +116,9 @@ TEST(CurvedCell, OthersAreNotKnown) {
   EXPECT_FALSE(CurvedCell::make(72, 28));
   EXPECT_FALSE(CurvedCell::make(71, 11));
   EXPECT_FALSE(CurvedCell::make(25, 21));
+  EXPECT_FALSE(CurvedCell::make(24, 20));
+  EXPECT_FALSE(CurvedCell::make(29, 64));
+  EXPECT_FALSE(CurvedCell::make(32, 40));
 }
 
 /// Cells of one kind that fill the boxes of a lattice of 2 x 2 x 2, with shared nodes; `bend` moves the nodes.

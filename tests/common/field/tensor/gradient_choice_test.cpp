@@ -112,5 +112,27 @@ TEST(GradientChoice, LeavesOutWhatItIsTold) {
   }
 }
 
+// What counts as unweighted goes by what may stay, not by a shell that is left out.
+TEST(GradientChoice, TakesShellsFarBelowTheLargestWeighting) {
+  GradientTable stated = icosahedron(800.0);
+  for (const double b : {17800.0, 17800.0}) {
+    stated.weightings.push_back(b);
+    stated.directions.emplace_back(1.0, 0.0, 0.0);
+  }
+  using Volumes = std::vector<std::size_t>;
+  EXPECT_EQ(choose_gradients(stated, {.shells = {800.0}}, "dwi").volumes, (Volumes{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(choose_gradients(stated, {.max_weighting = 900.0}, "dwi").volumes,
+            (Volumes{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(choose_gradients(stated, {.max_weighting = 500.0}, "dwi").volumes, (Volumes{0}));
+}
+
+TEST(GradientChoice, TakesNoTraceImageAsUnweightedWhereTheUnweightedOneIsLeftOut) {
+  GradientTable stated = icosahedron();
+  stated.weightings.push_back(1000.0);
+  stated.directions.emplace_back(0.0);
+  EXPECT_EQ(choose_gradients(stated, {.left_out = {0}}, "dwi").volumes,
+            (std::vector<std::size_t>{1, 2, 3, 4, 5, 6}));
+}
+
 }  // namespace
 }  // namespace palpate::test
