@@ -72,6 +72,8 @@ void measure_error(const SceneView& view, const RenderedImage& rendered, RenderS
     summary.image_error = rendered.error->rms;
     summary.image_error_kind =
         "root mean square of full scale, of some pixels against 32 samples a voxel and tables of 512 entries";
+    if (!rendered.error->of_asked_voxels)
+      summary.image_error_kind += ", from the coarser voxels that are drawn: what these hide is not in it";
     return;
   }
   const RenderedImage fine = render_image(view, kOversampling * image.width, kOversampling * image.height);
@@ -115,9 +117,15 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
                   std::to_string(bricks.bytes >> 20U) + " MB\n");
   }
   if (const auto& n = rendered.coarser_voxels) {
+    std::string error;
+    if (rendered.error && rendered.error->of_asked_voxels)
+      error = "; root mean square of the picture's error " + short_number(rendered.error->rms) +
+              " of full scale, worst " + short_number(rendered.error->worst);
+    if (rendered.error && !rendered.error->of_asked_voxels)
+      error = "; what they hide is not known: not even those of one ray fit";
     console.note("drawn from " + std::to_string(n->x) + " x " + std::to_string(n->y) + " x " +
                  std::to_string(n->z) +
-                 " voxels, each the mean of several: finer ones do not fit --gpu-memory");
+                 " voxels, each the mean of several: finer ones do not fit --gpu-memory" + error);
   }
   console.print(stereo_text(drawn.view));
 }

@@ -56,7 +56,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
     const double milliseconds = renderer.finish();
     if (i > 0 || budget == 0.0) result.frame_ms.push_back(milliseconds);
   }
-  if (error) {
+  if (error || renderer.coarser_voxels()) {
     renderer.keep_for_error(true);
     renderer.draw(drawn, width, height, result.quality.resolution);
     while (renderer.estimate_error()) {

@@ -31,7 +31,8 @@ struct RenderedImage {
 /// while something moves, after it stood still: errors of savings are looked at, then frames settle the
 /// quality, before those that are timed. Usable from
 /// any one thread; leaves no context current.
-/// @param error whether to estimate that of a volume (volume/image_error.h).
+/// @param error whether to estimate that of a volume (volume/estimate/image_error.h); in any case where coarser
+/// voxels are drawn than were asked for.
 /// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.
 [[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0,
                                          double budget = 0.0, bool error = false);

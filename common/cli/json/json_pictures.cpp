@@ -63,6 +63,7 @@ std::string render_json(const RenderSummary& summary) {
     json["image_error_spread"] = estimate->spread;
     json["image_error_worst"] = estimate->worst;
     json["image_error_pixels"] = estimate->pixels;
+    json["image_error_of_asked_voxels"] = estimate->of_asked_voxels;
     json["image_error_ms"] = estimate->milliseconds;
   }
   if (!summary.tables_by.empty()) json["tables_by"] = summary.tables_by;

@@ -104,8 +104,8 @@ struct VolumePass::State {
   const LineLayers* layers = nullptr;
 
   // What was drawn last, and what is kept of it.
-  VolumeView shown;                          // of update()
-  std::shared_ptr<const VolumeImage> asked;  // for, which may be finer
+  VolumeView shown;  // of update()
+  VolumeView asked;  // for, whose voxels may be finer
   std::optional<VolumeView> drawn_view;
   FrameBlock drawn_block;
   std::uint32_t drawn_depth = 0;  // of opaque things, as draw() was given it
@@ -320,7 +320,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   VolumeView view = asked;
   if (s.layers != nullptr) view.context = {};
   view.storage = storage_of_whole(view);
-  if (s.again && s.asked != asked.image) s.again.reset();
+  if (s.again && s.asked.image != asked.image) s.again.reset();
   if (s.again) s.again->textures.release_bricks();
   const std::uint64_t voxels = s.textures.changes();
   s.textures.update(view, make_brick_sight(block, frame));
@@ -330,7 +330,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   }
   view.storage = asked.storage;
   view = s.textures.drawn(std::move(view));
-  s.asked = asked.image;
+  s.asked = asked;
   s.room = ShapeRoom::of(view);
   std::vector<std::string> defines = s.textures.shader_defines();
   defines.push_back(s.room.shader_define());
@@ -397,8 +397,20 @@ const VolumeView& VolumePass::drawn_view() const {
 }
 
 void VolumePass::draw_as(const VolumeView& as, std::uint32_t opaque_depth, float step) {
-  PALPATE_CHECK(state_->drawn_view && bricks().complete());
+  PALPATE_CHECK(state_->textures.image() != nullptr && bricks().complete());
   state_->cast_again(as, opaque_depth, step, nullptr);
+}
+
+const VolumeView& VolumePass::asked_view() const noexcept { return state_->asked; }
+
+const LineLayers* VolumePass::layers() const noexcept { return state_->layers; }
+
+bool VolumePass::has_asked_voxels() const {
+  const VolumeView &asked = state_->asked, &shown = state_->shown;
+  for (std::size_t field = 0; field < field_count(asked); ++field) {
+    if (shows_field(asked, field) && image_of(asked, field) != image_of(shown, field)) return false;
+  }
+  return true;
 }
 
 bool VolumePass::refine(int doublings) {
@@ -440,7 +452,7 @@ void VolumePass::draw_planes(const FrameBlock& block) {
 
 std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
   const auto& drawn = state_->textures.image();
-  if (drawn == nullptr || drawn == state_->asked) return std::nullopt;
+  if (drawn == nullptr || drawn == state_->asked.image) return std::nullopt;
   return drawn->points;
 }
 

@@ -67,13 +67,19 @@ class VolumePass {
 
   /// The volume of the last draw(), with what was drawn in place of its images. @pre draw().
   [[nodiscard]] const VolumeView& drawn_view() const;
-  /// Draws rays through that volume again, with other samples and tables, over the framebuffer that is bound:
-  /// for a sparse set of its pixels (saving_estimate.h), or to refine it. Needs the block of that frame bound to
-  /// 0.
-  /// @param as drawn_view() but for samples, tables, what is left out and what is kept; a context that is
+  /// What the last update() asked for. Its images are drawn_view()'s where has_asked_voxels(). @pre update().
+  [[nodiscard]] const VolumeView& asked_view() const noexcept;
+  /// Whether the voxels that were asked for are there, of the context and of the fields that lenses show; else
+  /// coarser ones, as they do not fit their storage. @pre update().
+  [[nodiscard]] bool has_asked_voxels() const;
+  [[nodiscard]] const LineLayers* layers() const noexcept;  ///< of show_layers()
+  /// Draws rays through the volume of the last update(), with other samples and tables, over the framebuffer
+  /// that is bound: for a sparse set of its pixels (sparse_rays.h), or to refine it. Needs the block of that frame
+  /// bound to 0.
+  /// @param as what is drawn but for samples, tables, what is left out and what is kept; a context that is
   /// drawn alone, and fewer samples far from the viewer, it has not.
   /// @param opaque_depth as draw() was given it. @param step its pixels along either edge, to one of these.
-  /// @pre draw(), and bricks().complete().
+  /// @pre update(), and bricks().complete().
   void draw_as(const VolumeView& as, std::uint32_t opaque_depth, float step);
 
   /// Draws nothing, but refines one more part of the picture of the last draw(), to what finer_view() gives,

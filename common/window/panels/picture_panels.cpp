@@ -80,7 +80,8 @@ std::string frame_text(const PanelState& state) {
   if (const TractShare& share = state.picture.tracts; share.drawn < share.all)
     text += std::to_string(share.drawn) + " of " + counted(share.all, "tract") + ", ";
   if (const auto& error = state.picture.error) {
-    std::snprintf(part.data(), part.size(), "error %.2g/255, worst %.0f, ", 255.0 * error->rms,
+    std::snprintf(part.data(), part.size(), "error%s %.2g/255, worst %.0f, ",
+                  error->of_asked_voxels ? "" : " of samples alone", 255.0 * error->rms,
                   255.0 * error->worst);
     text += part.data();
   }

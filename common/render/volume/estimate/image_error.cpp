@@ -87,6 +87,7 @@ void ErrorSum::add(const std::array<int, 4>& shown, const std::array<int, 4>& co
 ImageError ErrorSum::error() const noexcept {
   ImageError error;
   error.pixels = pixels_;
+  error.of_asked_voxels = of_asked_voxels_;
   if (pixels_ == 0) return error;
   const auto n = static_cast<double>(pixels_);
   const double mean = sum_ / n;

@@ -7,7 +7,9 @@
 ///
 /// spread is the standard error of rms, as of pixels taken at random. Rounds of larger and larger k look at
 /// other pixels, all but a few. A converged pixel is that of converged_view() along the same ray over the
-/// same opaque things, rounded as the picture is: of a picture that is converged the error is zero.
+/// same opaque things, rounded as the picture is: of a picture that is converged the error is zero. Its voxels
+/// are those that were asked for, also where the picture is of coarser ones, as its memory holds no finer ones
+/// (finest_rays.h).
 #pragma once
 
 #include <array>
@@ -23,6 +25,9 @@ struct ImageError {
   double spread = 0.0;  ///< of rms
   double worst = 0.0;   ///< of any component of a pixel that was looked at
   std::size_t pixels = 0;
+  /// Whether converged pixels are of the voxels that were asked for. Else some are of coarser ones, as drawn:
+  /// what these hide is not in the error.
+  bool of_asked_voxels = true;
   double milliseconds = 0.0;  ///< that it took
 };
 
@@ -30,7 +35,7 @@ struct ImageError {
 [[nodiscard]] bool is_converged(const ImageError& error) noexcept;
 
 /// The view with so many samples and entries of tables that more change nothing that is seen, and nothing
-/// left out or kept: what errors are told against. Of the same voxels, coarser ones where these are drawn.
+/// left out or kept: what errors are told against. Of the same voxels.
 [[nodiscard]] VolumeView converged_view(VolumeView view);
 
 /// The view with such shares of its samples outside and inside lenses, along rays through its finest voxels
@@ -54,16 +59,24 @@ struct PixelLattice {
 };
 inline constexpr int kErrorPixels = 1024;
 
+/// Columns [left, right) and rows [bottom, top) of a lattice.
+struct LatticeBox {
+  int left = 0, bottom = 0, right = 0, top = 0;
+};
+
 /// (1), pixel by pixel.
 class ErrorSum {
  public:
   void add(const std::array<int, 4>& shown, const std::array<int, 4>& converged) noexcept;
+  /// From now on ImageError::of_asked_voxels is false.
+  void add_coarser() noexcept { of_asked_voxels_ = false; }
   [[nodiscard]] ImageError error() const noexcept;
 
  private:
   std::size_t pixels_ = 0;
   double sum_ = 0.0, squares_ = 0.0;  ///< of q
   int worst_ = 0;
+  bool of_asked_voxels_ = true;
 };
 
 }  // namespace palpate

@@ -105,6 +105,84 @@ TEST(SavingEstimate, TellsTheErrorsOfPicturesWithThem) {
   }
 }
 
+/// Where coarser voxels are drawn, as finer ones do not fit, the error knows what these hide. Against the same
+/// picture of all voxels, pixel by pixel.
+class CoarserVoxels : public testing::TestWithParam<int> {};
+
+/// Specks of one voxel, which means hide; and others.
+VolumeView volume_of_case(int number) {
+  const auto specks = [](const Vec3& x) {
+    const Vec3 g = glm::round(64.0 * (x + 1.0));
+    const auto k = static_cast<int>(g.x + 37.0 * g.y + 101.0 * g.z);
+    return k % 97 == 0 ? 1.0 : 0.02 * (1.0 + x.x);
+  };
+  const Formula formula = number % 3 == 0 ? Formula(specks) : number % 3 == 1 ? marschner_lobb : blobs;
+  VolumeView view = view_of(sampled_block(
+      Index3(129), Vec3(2.0 / 128.0), number % 2 == 0 ? ScalarType::kFloat32 : ScalarType::kUint8, formula));
+  view.transfer = layered(view.image->lowest, view.image->highest);
+  view.samples_per_voxel = 3.0;
+  view.shading = number % 2 == 1;
+  view.storage.brick_cells = 8;
+  if (number >= 3) {
+    Lens lens;
+    lens.samples_per_voxel = 2.0;
+    lens.shape = make_sphere({0.1, 0.0, 0.2}, 0.6);
+    lens.transfer = ColorTransfer({{0.3, {1.0F, 1.0F, 0.2F}, 0.0}, {0.7, {1.0F, 0.2F, 0.9F}, 0.1}});
+    view.lenses.push_back(lens);
+  }
+  if (number >= 4)
+    view.cuts.push_back({.kept = {.outward = glm::normalize(Vec3(1.0, 0.3, 0.2)), .offset = 0.2}});
+  return view;
+}
+
+TEST_P(CoarserVoxels, AreInTheError) {
+  const OffscreenContext context;
+  SceneView view;
+  view.volume = volume_of_case(GetParam());
+  view.bounds = view.volume->image->bounds();
+  view.camera = make_camera(view.bounds, {.azimuth = 25.0, .elevation = 20.0}, 1.25,
+                            GetParam() % 2 == 0 ? Projection::kPerspective : Projection::kOrthographic);
+  view.show_axes = view.show_color_bar = false;
+  SceneRenderer renderer;
+  const Image best = picture_of(renderer, converged(view));
+
+  view.volume->storage.memory = view.volume->image->byte_count() / 3;
+  renderer.keep_for_error(true);
+  const Image shown = picture_of(renderer, view);
+  ASSERT_TRUE(renderer.coarser_voxels());
+  while (renderer.estimate_error()) {
+  }
+  ASSERT_TRUE(renderer.image_error());
+  const ImageError error = *renderer.image_error();
+  EXPECT_TRUE(error.of_asked_voxels);
+  const Difference truth = difference(shown, best);
+  EXPECT_GT(truth.rms, 0.4 / 255.0) << "nothing to find";
+  EXPECT_NEAR(error.rms, truth.rms, 4.0 * error.spread + 0.3 / 255.0);
+  EXPECT_LE(error.worst, (truth.worst + 1) / 255.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, CoarserVoxels, testing::Range(0, 6));
+
+// Memory that does not hold the voxels of one ray.
+TEST(ImageError, SaysWhereFinestVoxelsDoNotFit) {
+  const OffscreenContext context;
+  SceneView view;
+  view.volume = volume_of_case(0);
+  view.volume->storage.brick_cells = 32;
+  view.volume->storage.memory = view.volume->image->byte_count() / 60;
+  view.bounds = view.volume->image->bounds();
+  view.camera = make_camera(view.bounds, {.azimuth = 25.0, .elevation = 20.0}, 1.25);
+  SceneRenderer renderer;
+  renderer.keep_for_error(true);
+  renderer.draw(view, kWidth, kHeight);
+  ASSERT_TRUE(renderer.coarser_voxels());
+  while (renderer.estimate_error()) {
+  }
+  ASSERT_TRUE(renderer.image_error());
+  EXPECT_FALSE(renderer.image_error()->of_asked_voxels);
+  EXPECT_GT(renderer.image_error()->pixels, 0U);
+}
+
 // Pixels that the lens changes are those that show some of it.
 TEST(SavingEstimate, KnowsWhichPixelsShowALens) {
   const OffscreenContext context;
