@@ -1,6 +1,7 @@
 /// A tetrahedral mesh with its vectors, packed for the walks through it.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "common/field/vector_field.h"
@@ -9,6 +10,9 @@
 namespace palpate {
 
 /// Points and vectors of a mesh packed for the walk, frame L: 64 bytes a point.
+///
+/// A point rests if some cell has no corner that is faster than rest_speed(): a solid block's. A slow point
+/// between fast ones alone does not: it may lie on the slow manifold of a stiff flow.
 class ExactMesh {
  public:
   /// That of a field: packed at the first call, and kept as long as the field lives.
@@ -20,10 +24,16 @@ class ExactMesh {
   [[nodiscard]] const TetMesh& mesh() const noexcept { return *mesh_; }
   [[nodiscard]] const PackedVertex* vertices() const noexcept { return vertices_.get(); }
   [[nodiscard]] const ExactMeshView& view() const noexcept { return view_; }
+  [[nodiscard]] double rest_speed() const noexcept { return rest_speed_; }  ///< rest_speed.h
+  /// Whether that vertex rests.
+  [[nodiscard]] bool rests(std::size_t vertex) const noexcept;
 
  private:
   const TetMesh* mesh_;
+  void mark_resting();
+
   std::unique_ptr<PackedVertex[]> vertices_;
+  double rest_speed_ = 0.0;
   ExactMeshView view_;
 };
 

@@ -71,11 +71,12 @@ void zeros_between(const Function& f, const Instants& knots, double first_value,
   }
 }
 
-/// E[a, b].
+/// E[a, b]. By the larger node: with the smaller one far below, its exponential sinks to zero while that of their
+/// difference overflows.
 double difference(double a, double b, double t) {
-  const double x = (b - a) * t;
+  const double x = std::abs(b - a) * t;
   constexpr double kSmall = 1e-12;
-  return std::exp(a * t) * t * (std::abs(x) > kSmall ? std::expm1(x) / x : 1 + 0.5 * x);
+  return std::exp(std::max(a, b) * t) * t * (x > kSmall ? -std::expm1(-x) / x : 1 - 0.5 * x);
 }
 
 /// E[a, b, c], sorted.
@@ -195,7 +196,8 @@ FirstZero::Fall FirstZero::find_complex(double until) const {
   const double phase = 0.5 * kPi - std::arg(kappa);
 
   // f = r + Re(K exp(lambda t)), r over the nodes 0 and gamma; r - |K| exp(alpha t) bounds it from below.
-  const Envelope envelope = make_envelope(kappa / (lambda * (lambda - gamma)), lambda, gamma);
+  const Complex amplitude = kappa / (lambda * (lambda - gamma));
+  const Envelope envelope = make_envelope(amplitude, lambda, gamma);
 
   constexpr int kMaxRounds = 24;
   constexpr std::size_t kMaxKnots = 8;
@@ -213,9 +215,20 @@ FirstZero::Fall FirstZero::find_complex(double until) const {
     std::sort(knots.begin(), knots.end());
     if (const std::optional<double> found = scan(t, end, knots)) return {true, *found};
     t = end;
-    if (t < until && envelope.usable && envelope.value(t) > 0) {
-      const std::optional<double> crossing = envelope.first_zero(t, until);
-      t = std::max(t, crossing.value_or(until));
+    if (!(t < until)) break;
+    // Once the turns are less than rounding, f is r: monotone.
+    constexpr double kGone = 0.125 * kFaceRounding;
+    if (std::abs(amplitude) * std::exp(lambda.real() * t) <= kGone && lambda.real() <= 0) {
+      const double at_until = value(until);
+      if (at_until >= -kFaceRounding) return {false, until};
+      return {true, fall_between(t, until, value(t), at_until)};
+    }
+    if (envelope.usable && envelope.value(t) > 0) {
+      const double before = t;
+      t = std::max(t, envelope.first_zero(t, until).value_or(until));
+      // The envelope has digits enough for its value, not for the time at which a slow one comes to zero.
+      if (const double at_t = value(t); at_t < -kFaceRounding)
+        return {true, fall_between(before, t, value(before), at_t)};
     }
   }
   return {false, t};

@@ -9,13 +9,7 @@
 
 namespace palpate {
 
-TetDomain::TetDomain(const ExactMesh& mesh, double sign)
-    : mesh_(&mesh),
-      sign_(sign),
-      rest_speed_(palpate::rest_speed(mesh.mesh().points().size(), [&](std::size_t i) {
-        const double* v = mesh.vertices()[i].v;
-        return std::hypot(v[0], v[1], v[2]);
-      })) {}
+TetDomain::TetDomain(const ExactMesh& mesh, double sign) : mesh_(&mesh), sign_(sign) {}
 
 BoxDomain::BoxDomain(const VectorField& field, double sign)
     : grid_(field.box_grid()), values_(&field.values()), sign_(sign) {
@@ -28,6 +22,39 @@ BoxDomain::BoxDomain(const VectorField& field, double sign)
         });
       },
       values_->values);
+}
+
+unsigned BoxDomain::slow_corners(const BoxCell& cell) const {
+  unsigned slow = 0;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const double x = corner & 1U, y = corner >> 1U & 1U, z = corner >> 2U;
+    const Vec3 v = ((cell.c[0] + x * cell.c[1]) + y * (cell.c[2] + x * cell.c[4])) +
+                   z * ((cell.c[3] + x * cell.c[6]) + y * (cell.c[5] + x * cell.c[7]));
+    if (glm::dot(v, v) <= rest_speed_ * rest_speed_) slow |= 1U << corner;
+  }
+  return slow;
+}
+
+// Seldom more than a look at `slow`: most cells have no slow corner.
+bool BoxDomain::has_resting_corner(unsigned slow) const {
+  constexpr unsigned kAll = 0xFF;
+  if (slow == 0 || slow == kAll) return slow == kAll;
+  const Index3 cells = grid_->points() - 1;
+  BoxCell beside;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    if ((slow >> corner & 1U) == 0) continue;
+    const Index3 last =
+        index_ + Index3(corner & 1U, corner >> 1U & 1U, corner >> 2U);  // of the cells around it
+    for (unsigned i = 0; i < 8; ++i) {
+      const Index3 at = last - Index3(i & 1U, i >> 1U & 1U, i >> 2U);
+      if (at == index_ || at.x < 0 || at.y < 0 || at.z < 0 || at.x >= cells.x || at.y >= cells.y ||
+          at.z >= cells.z)
+        continue;
+      grid_->load(at, *values_, beside);
+      if (slow_corners(beside) == kAll) return true;
+    }
+  }
+  return false;
 }
 
 bool TetDomain::locate(const Vec3& x) {
@@ -49,8 +76,7 @@ void TetDomain::load(CellIndex cell) {
   bad_ = !load_cell(affine, mesh_->vertices(), tet.data(), sign_);
   rest_here_ = 0.0;
   for (const std::uint32_t i : tet) {
-    const double* v = mesh_->vertices()[i].v;
-    if (std::hypot(v[0], v[1], v[2]) <= rest_speed_) rest_here_ = rest_speed_;
+    if (mesh_->rests(i)) rest_here_ = mesh_->rest_speed();
   }
   const PackedVertex& corner = mesh_->vertices()[tet[3]];
   corner_ = Pack4::load(corner.x);

@@ -101,7 +101,7 @@ class BoxDomain : public BoxFaces {
     return true;
   }
   [[nodiscard]] bool bad() const { return bad_; }
-  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner is slower, else 0.
+  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests (exact_mesh.h), else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double face_scale() const { return size_; }
@@ -177,13 +177,7 @@ class BoxDomain : public BoxFaces {
     BoxCell cell;
     grid_->load(index_, *values_, cell);
     bad_ = cell.bad_data;
-    rest_here_ = 0.0;
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const double x = corner & 1U, y = corner >> 1U & 1U, z = corner >> 2U;
-      const Vec3 v = ((cell.c[0] + x * cell.c[1]) + y * (cell.c[2] + x * cell.c[4])) +
-                     z * ((cell.c[3] + x * cell.c[6]) + y * (cell.c[5] + x * cell.c[7]));
-      if (glm::dot(v, v) <= rest_speed_ * rest_speed_) rest_here_ = rest_speed_;
-    }
+    rest_here_ = has_resting_corner(slow_corners(cell)) ? rest_speed_ : 0.0;
     corner_ = Pack4{cell.lower, 0.0};
     // Of x - lo rather than of u: a product less in each evaluation.
     const Vec3& inverse = cell.inverse_size;
@@ -198,6 +192,10 @@ class BoxDomain : public BoxFaces {
     }
     size_ = std::max(cell.size.x, std::max(cell.size.y, cell.size.z));
   }
+
+  /// A bit for each corner, x first, that is no faster than rest_speed_.
+  [[nodiscard]] unsigned slow_corners(const BoxCell& cell) const;
+  [[nodiscard]] bool has_resting_corner(unsigned slow) const;
 
   const BoxGrid* grid_;
   const PointVectors* values_;
@@ -218,7 +216,7 @@ class TetDomain {
 
   [[nodiscard]] bool locate(const Vec3& x);
   [[nodiscard]] bool bad() const { return bad_; }
-  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner is slower, else 0.
+  /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests, else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] static double face_scale() { return 1.0; }
@@ -265,7 +263,6 @@ class TetDomain {
 
   const ExactMesh* mesh_;
   double sign_;
-  double rest_speed_ = 0.0;
   CellIndex cell_ = kNoCell;
   bool bad_ = false;
   double rest_here_ = 0.0;

@@ -381,15 +381,16 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
     verdict.wrong_end = "left within the domain";
   }
   // Where it stagnates it is to stay, but for speeds that the values at the vertices cannot tell from zero.
-  Long fastest = 0;
-  for (const Long3& row : field.a) {
-    for (const Long value : row) fastest = std::max(fastest, std::abs(value));
-  }
   if (line.end == End::kStagnation) {
-    const Long later = line.direction == TraceDirection::kForward ? 2 : -2;
-    const Long3 then = field.at(seed, last.time + later);
-    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) &&
-        length(field.velocity(then)) > 0x1p-50L * fastest) {
+    const Long ahead = line.direction == TraceDirection::kForward ? 1 : -1;
+    const Long3 then = field.at(seed, last.time + 2 * ahead);
+    // The slowest that it comes to be: once fast rates have died out, and before a slow one has grown.
+    Long fastest = 0;
+    for (const Vec3& x : mesh.points) fastest = std::max(fastest, length(field.velocity(as_long(x))));
+    Long slowest = length(field.velocity(then));
+    for (Long t = 0x1p-70L; t < 2; t *= 4)
+      slowest = std::min(slowest, length(field.velocity(field.at(seed, last.time + ahead * t))));
+    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) && slowest > 0x1p-52L * fastest) {
       verdict.wrong_end = "moves on from its rest";
     }
   }
