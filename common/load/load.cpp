@@ -91,14 +91,12 @@ LoadLimits resolve(LoadLimits limits, std::uint64_t bytes, const FormatRow& row,
   return limits;
 }
 
-Error error_of(const HelperFailure& failure, const std::string& file, std::string_view helper,
-               const LoadLimits& limits) {
+Error error_of(const HelperFailure& failure, const std::string& file, std::string_view helper) {
   const std::string reader = "the reader " + std::string(helper);
   switch (failure.kind) {
     case HelperFailure::Kind::kTimeOut:
       return input_error(
-          {file, "", reader + " was stopped after " + std::to_string(static_cast<int>(limits.seconds)) + " s",
-           "", "the file may be damaged"});
+          {file, "", reader + " " + failure.what, "", "the file may be damaged, or the machine is too busy"});
     case HelperFailure::Kind::kMalformed:
       return input_error({file, "", reader + " gave an answer that makes no sense: " + failure.what, "",
                           "the file may be damaged"});
@@ -121,11 +119,11 @@ struct Source::State {
   template <typename Decode>
   auto ask(const RequestMessage& message, Progress* progress, const Decode& decode) {
     const auto reply = process->ask(encode(message), progress);
-    if (!reply) throw error_of(process->failure(), file, helper, limits);
+    if (!reply) throw error_of(process->failure(), file, helper);
     try {
       return decode(*reply);
     } catch (const ProtocolError& error) {
-      throw error_of({HelperFailure::Kind::kMalformed, error.what()}, file, helper, limits);
+      throw error_of({HelperFailure::Kind::kMalformed, error.what()}, file, helper);
     }
   }
 };

@@ -4,8 +4,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
+#include <limits>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -137,6 +140,15 @@ std::string HelperProcess::how_it_ended() {
   return line.empty() ? how : how + " (" + line + ")";
 }
 
+// Time for which the helper and its threads have had a processor [s]; infinite where nobody knows.
+double HelperProcess::worked() const noexcept {
+  clockid_t clock{};
+  timespec time{};
+  if (::clock_getcpuclockid(pid_, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
 std::optional<HelperProcess::Reply> HelperProcess::fail(HelperFailure::Kind kind, std::string what) {
   end();
   socket_.reset();
@@ -160,13 +172,26 @@ std::optional<HelperProcess::Reply> HelperProcess::ask(
   if (progress != nullptr) progress->begin(doing, kParts);
   std::string stage = doing;
   std::uint64_t reported = 0;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(limits_.seconds);
+  constexpr double kPatience = 3.0, kBusy = 0.5;  // of the limit
+  const auto begin = Clock::now();
+  const double worked_before = worked();
+  const auto too_long = [&](double seconds) {
+    // A helper that had to wait for a processor, or a disk, has not had its time.
+    return seconds > limits_.seconds &&
+           (seconds > kPatience * limits_.seconds || worked() - worked_before >= kBusy * limits_.seconds);
+  };
   while (true) {
     if (progress != nullptr && progress->cancelled()) {
       (void)fail(HelperFailure::Kind::kEnded, "was cancelled");
       throw Cancelled();
     }
-    if (Clock::now() > deadline) return fail(HelperFailure::Kind::kTimeOut, "took too long");
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (too_long(seconds)) {
+      std::array<char, 96> text{};
+      std::snprintf(text.data(), text.size(), "was stopped after %.0f s (it had a processor for %.1f s)",
+                    seconds, worked() - worked_before);
+      return fail(HelperFailure::Kind::kTimeOut, text.data());
+    }
     Frame frame;
     UniqueFd fd;
     switch (receive_frame(socket_.get(), kCancelPoll, frame, fd)) {

@@ -44,7 +44,8 @@ class HelperProcess {
     std::shared_ptr<const MappedMemory> memory;
   };
 
-  /// Sends a request and waits for its answer at most `limits.seconds`. Empty: see failure(); the helper
+  /// Sends a request and waits for its answer at most `limits.seconds`; on a busy machine, where it had a processor
+  /// for less than half of them, up to three times as long. Empty: see failure(); the helper
   /// was ended then.
   /// @throws Cancelled, within a tenth of a second of `progress` being cancelled; the helper is ended.
   std::optional<Reply> ask(std::string_view json, Progress* progress);
@@ -60,6 +61,7 @@ class HelperProcess {
  private:
   std::optional<Reply> fail(HelperFailure::Kind kind, std::string what);
   std::string how_it_ended();
+  [[nodiscard]] double worked() const noexcept;
   void end() noexcept;
 
   LoadLimits limits_;

@@ -46,6 +46,10 @@ void misbehave(const std::string& how) {
     std::exit(7);
   }
   if (how == "hang") wait_for_ever();
+  if (how == "late") {
+    ::usleep(1'500'000);
+    answer(good_info());
+  }
   if (how == "close") {
     ::close(kHelperSocket);
     wait_for_ever();

@@ -70,6 +70,10 @@ TEST_F(FakeHelper, AnEndIsReportedWithTheLastWords) {
 TEST_F(FakeHelper, OneThatHangsIsStoppedAtTheTimeLimit) {
   EXPECT_TRUE(contains(refusal("hang"), "stopped after"));
 }
+// It had no processor for that long: 1.5 s of a limit of 1 s.
+TEST_F(FakeHelper, OneThatHadToWaitHasItsTime) {
+  EXPECT_EQ(Source::open({{file("late")}, {}}, kLimits).info().times.size(), 2U);
+}
 TEST_F(FakeHelper, OneThatHangsUpButLivesOnIsEnded) { EXPECT_TRUE(contains(refusal("close"), "ended")); }
 TEST_F(FakeHelper, OneThatOnlyReportsProgressIsStoppedToo) {
   EXPECT_TRUE(contains(refusal("flood"), "stopped after"));
