@@ -11,11 +11,29 @@
 #include "common/render/gl/object.h"
 #include "common/render/gl/target.h"
 #include "common/render/volume/volume_bindings.h"
+#include "common/render/volume/voxels/voxel_bricks.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::uint64_t kShare = 4;  // of the picture's memory, for the finest voxels
+// Memory for the finest voxels: half of the picture's.
+std::uint64_t memory_beside(const VolumeView& view) { return view.storage.memory / 2; }
+
+// Bricks so small that those along a few rays fit.
+int brick_cells_for(const VolumeView& view) {
+  const Index3 n = view.image->points;
+  const auto bytes_along_a_ray = [&](int cells) {
+    const double points = cells + 3.0;
+    return 3.0 * std::max({n.x, n.y, n.z}) / cells * points * points * points *
+           static_cast<double>(byte_size(view.image->type));
+  };
+  constexpr double kRays = 4.0;
+  int cells = view.storage.brick_cells > 0 ? view.storage.brick_cells : kPoolBrickCells;
+  while (cells % (2 * kBrickCells) == 0 &&
+         kRays * bytes_along_a_ray(cells) > static_cast<double>(memory_beside(view)))
+    cells /= 2;
+  return cells;
+}
 
 // The pixels of `lattice` over what lies behind, once `draw` has drawn rays there.
 template <typename Draw>
@@ -88,7 +106,7 @@ std::vector<std::uint8_t> cast_sparse_rays(VolumePass& pass, const VolumeView& a
 
 std::vector<LatticeBox> FinestRays::boxes(const VolumeView& asked, const PixelLattice& lattice) {
   constexpr double kRoom = 8.0;  // bricks at the border of a box are those of its neighbours, too
-  const double memory = static_cast<double>(asked.storage.memory) / static_cast<double>(kShare);
+  const auto memory = static_cast<double>(memory_beside(asked));
   const double parts = memory > 0.0 ? kRoom * static_cast<double>(asked.image->byte_count()) / memory : 1.0;
   const auto most = static_cast<double>(std::max(lattice.columns, lattice.rows));
   const int side = static_cast<int>(std::clamp(std::ceil(std::sqrt(parts)), 1.0, most));
@@ -111,8 +129,7 @@ std::optional<std::vector<std::uint8_t>> FinestRays::cast(const VolumePass& pass
                                                           const LatticeBox& box) {
   const VolumeView converged = converged_view(pass.asked_view());
   VolumeView held = converged;
-  held.storage.memory /= kShare;
-  held.storage.upload = 0;
+  held.storage = {.memory = memory_beside(converged), .brick_cells = brick_cells_for(converged)};
   held.table_entries = 2;  // nothing is drawn with them
   finest_.show_layers(pass.layers(), true);
   finest_.update(held, frame, seen_through(box, lattice, picture.block));

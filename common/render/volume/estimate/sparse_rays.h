@@ -33,7 +33,7 @@ struct StillPicture {
                                                          const PixelLattice& lattice);
 
 /// Rays through the voxels that a picture asked for and whose memory did not hold them. A few rays at a time
-/// look up few bricks: those of a box of pixels fit where those of the picture do not. Takes a quarter of the
+/// look up few bricks: those of a box of pixels fit where those of the picture do not. Takes half of the
 /// picture's memory beside it.
 class FinestRays {
  public:
