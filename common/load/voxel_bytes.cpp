@@ -51,6 +51,11 @@ std::string text_end_note(const std::string& file) {
   return open ? "its last number ends with the file, without a line end: it may be cut off there" : "";
 }
 
+std::string taken_from_end_note(std::uint64_t before) {
+  return "the header takes the last bytes of the file for voxels, behind " + counted(before, "other byte") +
+         ": if the file is cut off, every voxel is wrong, and nothing tells";
+}
+
 void fill_with_pattern(std::span<std::byte> memory) noexcept {
   for_each_word(memory.size(), [&](std::size_t at, std::size_t bytes, std::uint64_t word) {
     std::memcpy(memory.data() + at, &word, bytes);

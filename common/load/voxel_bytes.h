@@ -25,6 +25,10 @@ void check_voxel_counts(const std::string& file, const VoxelCounts& counts);
 /// A sentence where text of numbers ends within a word: it may be cut off there; else empty.
 [[nodiscard]] std::string text_end_note(const std::string& file);
 
+/// A sentence where the voxels are the last bytes of a file and `before` others stand before them: nothing tells that a
+/// file is whole.
+[[nodiscard]] std::string taken_from_end_note(std::uint64_t before);
+
 /// Fills memory that a reader is given: no word of it (8 bytes) is what data hold but by a chance of 2^-64.
 void fill_with_pattern(std::span<std::byte> memory) noexcept;
 /// How many bytes were written into such memory before the first word that was not. Up to 3 bytes behind the last

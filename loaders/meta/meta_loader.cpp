@@ -109,7 +109,7 @@ class MetaLoader : public Loader {
     }
     if (!header_.problem.empty())
       throw input_error({file_, "header", header_.problem, "", "the file may be damaged"});
-    if (header_.piece_count > 0) return check_pieces();
+    if (header_.piece_count > 0) return check_pieces(info);
     const bool local = header_.data_file.empty();
     const std::uint64_t there = local ? head.file_size : size_of(header_.data_file);
     voxels_at_ = local ? header_.header_bytes : 0;
@@ -134,6 +134,7 @@ class MetaLoader : public Loader {
     const std::uint64_t behind = available - header_.bytes();
     if (header_.skip < 0) {
       voxels_at_ = there - header_.bytes();
+      if (behind > 0) info.notes.push_back(taken_from_end_note(behind));
     } else if (behind > 0) {
       info.notes.push_back(counted(behind, "byte") + " behind the voxels left unread");
     }
@@ -142,7 +143,7 @@ class MetaLoader : public Loader {
   [[nodiscard]] std::uint64_t piece_bytes() const { return header_.bytes() / header_.piece_count; }
 
   /// Each piece holds as many bytes as it has to, and no others but those that HeaderSize passes over.
-  void check_pieces() const {
+  void check_pieces(FileInfo& info) const {
     std::uint64_t there = 0;
     std::vector<std::uint64_t> sizes;
     for (const std::string& name : header_.pieces) {
@@ -161,6 +162,8 @@ class MetaLoader : public Loader {
            std::to_string(wanted) + " of voxels behind " + std::to_string(skip) + " of HeaderSize",
            "HeaderSize = -1 takes the last ones of each file"});
     }
+    if (header_.skip < 0 && there > wanted * sizes.size())
+      info.notes.push_back(taken_from_end_note(there - wanted * sizes.size()));
   }
 
   /// Numbers that the header states along the axes, or `otherwise`.

@@ -95,6 +95,7 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
     claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
     claims.skips = true;
+    if (field.starts_with("byte")) claims.from_end = value == "-1";
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
     const std::vector<std::string_view> parts = words(value);
@@ -200,10 +201,12 @@ std::string check_nrrd(const std::string& file) {
         claims.detached ? (std::filesystem::path(file).parent_path() / claims.data_files.front()).string()
                         : file);
   }
-  const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
-  if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
   std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()
   for (const std::uint64_t size : claims.sizes) wanted *= size;
+  if (encoding == "raw" && claims.from_end && available > wanted)
+    return taken_from_end_note(available - wanted);
+  const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
+  if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
   if (!claims.detached) return gzip_rest(file, claims.header_bytes, wanted);
   return gzip_rest(std::filesystem::path(file).parent_path() / claims.data_files.front(), 0, wanted);
 }
