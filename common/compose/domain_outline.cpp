@@ -59,11 +59,12 @@ std::vector<std::vector<Vec3>> tet_outline(const TetMesh& mesh, const LocalFrame
   return outline;
 }
 
-std::vector<std::vector<Vec3>> box_outline(const Box& box, const LocalFrame& frame) {
+std::vector<std::vector<Vec3>> box_outline(const BoxGrid& grid, const LocalFrame& frame) {
+  const Box box = grid.bounds();
   std::vector<std::vector<Vec3>> outline;
   const auto corner = [&](int bits) {
     const Vec3 part{bits & 1, bits >> 1 & 1, bits >> 2 & 1};
-    return frame.data_from_local(box.lower + part * box.size());
+    return frame.data_from_local(grid.in_frame(box.lower + part * box.size()));
   };
   for (int from = 0; from < 8; ++from) {
     for (const int axis : {1, 2, 4}) {
@@ -93,8 +94,7 @@ std::vector<std::vector<Vec3>> image_outline(const Vec3& origin, const Mat3& axe
 
 std::vector<std::vector<Vec3>> domain_outline(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) return tet_outline(*mesh, field.frame());
-  if (field.box_grid() && field.frame().rotated)
-    return box_outline(field.box_grid()->bounds(), field.frame());
+  if (field.box_grid() && field.frame().rotated) return box_outline(*field.box_grid(), field.frame());
   return {};
 }
 

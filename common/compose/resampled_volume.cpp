@@ -77,12 +77,12 @@ std::optional<UniformTopology> image_lattice(const VectorField& field) {
   const Box box = grid->bounds();
   UniformTopology lattice;
   lattice.points = grid->points();
-  lattice.origin = frame.data_from_local(box.lower);
+  lattice.origin = frame.data_from_local(grid->in_frame(box.lower));
   const Vec3 step = box.size() / Vec3(lattice.points - 1);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 along{0.0};
     along[axis] = step[axis];
-    lattice.axes[axis] = frame.data_from_local(along);
+    lattice.axes[axis] = frame.data_from_local(grid->in_frame(along));
   }
   return lattice;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "common/base/index.h"
@@ -18,6 +19,9 @@ namespace {
 
 /// Axes of an image may be off a right angle by what six digits in a header lose, no more.
 constexpr double kRightAngle = 0x1p-20;
+/// Volume that unit vectors along an image's axes must span.
+constexpr double kFlattest = 1e-6;
+constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
 /// Cells thinner than this part of the grid, or than the rounding of its coordinates, cannot be told apart.
 constexpr double kLeastWidth = 0x1p-500;
 constexpr double kCoordinateRounding = 0x1p-50;
@@ -88,7 +92,6 @@ void note_blanking(FieldGrid& grid, const DataSet& block) {
                              ": cells around them count as bad data");
 }
 
-/// Null where the axes are sheared.
 std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string& file) {
   const auto& topology = std::get<UniformTopology>(block.topology);
   const Index3& n = topology.points;
@@ -111,7 +114,9 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   // Steps along the grid's axes and the directions they take, free of overflow.
   Vec3 spacing{0.0};
   Mat3 direction{1.0};
-  bool aligned = true;
+  Mat3 along_axes{1.0};  // B of box_grid.h
+  bool aligned = true, sheared = false;
+  double skew = 0.0;  // the largest cosine between two axes
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3& a = axes[axis];
     const double largest = std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)});
@@ -128,22 +133,30 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
       spacing[axis] = axes[axis][axis];
     }
   } else {
-    const double skew = std::max({std::abs(glm::dot(direction[0], direction[1])),
-                                  std::abs(glm::dot(direction[1], direction[2])),
-                                  std::abs(glm::dot(direction[2], direction[0]))});
-    if (skew > kRightAngle) return nullptr;
+    skew = std::max({std::abs(glm::dot(direction[0], direction[1])),
+                     std::abs(glm::dot(direction[1], direction[2])),
+                     std::abs(glm::dot(direction[2], direction[0]))});
+    sheared = skew > kRightAngle;
     if (glm::determinant(direction) < 0.0) {
       reverse(0);
       direction[0] = -direction[0];
     }
+    if (sheared && !(glm::determinant(direction) > kFlattest))
+      refuse_data(file, "axes of the grid that lie in one plane", "three directions");
+    const Mat3 own = direction;
     // A signed permutation is orthonormal as it is; other axes are made so, the first kept.
     if (skew > 0.0) {
       direction[1] = glm::normalize(direction[1] - glm::dot(direction[0], direction[1]) * direction[0]);
       direction[2] = glm::cross(direction[0], direction[1]);
     }
+    if (sheared) {
+      along_axes = glm::transpose(direction) * own;
+      along_axes[0] = Vec3(1.0, 0.0, 0.0);
+      along_axes[1].z = 0.0;
+    }
     grid->frame.rotation = direction;
     grid->frame.rotated = true;
-    if (skew > 0x1p-40) {
+    if (skew > 0x1p-40 && !sheared) {
       grid->notes.lines.push_back("the grid's axes are off a right angle by " + number_text(skew) +
                                   ": taken as right angles");
     }
@@ -159,17 +172,23 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
     grid->bounds.include(x);
   }
   grid->frame.length_exponent = length_exponent_of(grid->bounds, file);
-  const Vec3 local_origin = grid->frame.local_from_data(origin);
+  const Vec3 start = grid->frame.local_from_data(origin);
+  const Vec3 local_origin = sheared ? glm::inverse(along_axes) * start : start;
   const Vec3 local_spacing = spacing * power_of_two(-grid->frame.length_exponent);
   for (int axis = 0; axis < 3; ++axis) {
     const double last = local_origin[axis] + local_spacing[axis] * (n[axis] - 1);
     check_widths(local_spacing[axis], std::max(std::abs(local_origin[axis]), std::abs(last)), file);
   }
-  const auto box = std::make_shared<BoxGrid>(n, local_origin, local_spacing);
+  const auto box = sheared ? std::make_shared<BoxGrid>(n, local_origin, local_spacing, along_axes)
+                           : std::make_shared<BoxGrid>(n, local_origin, local_spacing);
   hide_cells(*grid, block, *box);
   grid->box = box;
   grid->notes.lines.push_back("uniform grid of " + size_text(n) + " points" +
-                              (grid->frame.rotated ? ", turned against the axes" : "") +
+                              (sheared ? ", its axes off right angles by " +
+                                             number_text(std::asin(std::min(1.0, skew)) * kDegreesARadian) +
+                                             " degrees"
+                               : grid->frame.rotated ? ", turned against the axes"
+                                                     : "") +
                               ": trilinear interpolation");
   note_blanking(*grid, block);
   return grid;

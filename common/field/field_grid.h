@@ -44,7 +44,7 @@ struct FieldGrid {
   }
 };
 
-/// One uniform or rectilinear block becomes a box grid; everything else is split into tetrahedra.
+/// One uniform or rectilinear block becomes a box grid, a sheared one, too; everything else is split into tetrahedra.
 /// @throws Error (bad input) with `file` for hostile or flat topologies.
 [[nodiscard]] std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks,
                                                                const std::string& file, int threads);

@@ -118,9 +118,9 @@ DataSet lattice(const BoxGrid& grid, const LocalFrame& frame, const std::array<N
     Vec3 step{0.0};
     step[a] = along.step * (grid.coordinate(a, 1) - grid.coordinate(a, 0));
     topology.points[a] = along.count;
-    topology.axes[a] = frame.data_from_local(step);
+    topology.axes[a] = frame.data_from_local(grid.in_frame(step));
   }
-  topology.origin = frame.data_from_local(origin);
+  topology.origin = frame.data_from_local(grid.in_frame(origin));
   data.topology = topology;
   return data;
 }

@@ -19,10 +19,11 @@ SampleStatus load(const TetMesh& mesh, const PointScalars& values, const Vec3& x
   return tet.bad_data ? SampleStatus::kBadData : SampleStatus::kOk;
 }
 
-SampleStatus load(const BoxGrid& grid, const PointScalars& values, const Vec3& x,
+/// @param y along the grid's axes.
+SampleStatus load(const BoxGrid& grid, const PointScalars& values, const Vec3& y,
                   ScalarBoxCell& cell) noexcept {
   Index3 index;
-  if (!grid.locate(x, index)) return SampleStatus::kOutside;
+  if (!grid.locate(y, index)) return SampleStatus::kOutside;
   load_scalar_cell(grid, values, index, cell);
   return cell.bad_data ? SampleStatus::kBadData : SampleStatus::kOk;
 }
@@ -43,9 +44,12 @@ SampleStatus ScalarField::jet(const Vec3& x_local, CellHint& hint, Jet3& out) co
   }
   if (box_) {
     ScalarBoxCell cell;
-    const SampleStatus status = load(*box_, values_, x_local, cell);
-    if (status == SampleStatus::kOk)
-      out = {cell.value(x_local), cell.gradient(x_local), cell.hessian(x_local)};
+    const Vec3 y = box_->along_axes(x_local);
+    const SampleStatus status = load(*box_, values_, y, cell);
+    if (status == SampleStatus::kOk) {
+      out = {cell.value(y), box_->gradient_in_frame(cell.gradient(y)),
+             box_->hessian_in_frame(cell.hessian(y))};
+    }
     return status;
   }
   if (!analytic_->bounds().contains(x_local)) return SampleStatus::kOutside;
@@ -66,8 +70,9 @@ ScalarSample ScalarField::sample(const Vec3& x_data, CellHint& hint) const noexc
     value = glm::dot(at.b, tet.s);
   } else if (box_) {
     ScalarBoxCell cell;
-    out.status = load(*box_, values_, x, cell);
-    if (out.status == SampleStatus::kOk) value = cell.value(x);
+    const Vec3 y = box_->along_axes(x);
+    out.status = load(*box_, values_, y, cell);
+    if (out.status == SampleStatus::kOk) value = cell.value(y);
   } else if (bounds_.contains(x_data)) {
     value = analytic_->value(x);
     out.status = std::isfinite(value) ? SampleStatus::kOk : SampleStatus::kBadData;

@@ -58,12 +58,13 @@ VectorSample VectorField::sample(const Vec3& x_data, CellHint& hint) const noexc
     out.status = vertices.finite ? SampleStatus::kOk : SampleStatus::kBadData;
     v = at.b[0] * vertices.v[0] + at.b[1] * vertices.v[1] + at.b[2] * vertices.v[2] + at.b[3] * vertices.v[3];
   } else if (box_) {
+    const Vec3 y = box_->along_axes(x);
     Index3 index;
-    if (!box_->locate(x, index)) return out;
+    if (!box_->locate(y, index)) return out;
     BoxCell cell;
     box_->load(index, values_, cell);
     out.status = cell.bad_data ? SampleStatus::kBadData : SampleStatus::kOk;
-    v = cell.velocity(x);
+    v = cell.velocity(y);
   } else {
     if (!bounds_.contains(x_data)) return out;
     v = analytic_->velocity(x);
@@ -88,12 +89,14 @@ SampleStatus VectorField::jacobian(const Vec3& x_data, CellHint& hint, Mat3& m) 
       local += glm::outerProduct(vertices.v[i + 1] - vertices.v[0], gradients[static_cast<int>(i)]);
     }
   } else if (box_) {
+    const Vec3 y = box_->along_axes(x);
     Index3 index;
-    if (!box_->locate(x, index)) return SampleStatus::kOutside;
+    if (!box_->locate(y, index)) return SampleStatus::kOutside;
     BoxCell cell;
     box_->load(index, values_, cell);
     if (cell.bad_data) return SampleStatus::kBadData;
-    local = cell.jacobian(x);
+    local = cell.jacobian(y);
+    if (box_->sheared()) local = local * glm::transpose(box_->gradients());
   } else {
     if (!bounds_.contains(x_data)) return SampleStatus::kOutside;
     local = analytic_->jacobian(x);

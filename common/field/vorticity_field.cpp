@@ -136,12 +136,16 @@ void VorticityField::recover_on_boxes() {
         for (int corner = 0; corner < 8; ++corner)
           speed = std::max(speed, glm::length(vector_at(field_->values(), point_at(corner_at(corner)))));
         // Each derivative is a difference of two values over a side of the cell.
-        const Vec3 per_side = cell.inverse_size;
+        const Mat3 gradients = grid.gradients();
+        Vec3 per_side = cell.inverse_size;
+        for (int axis = 0; axis < 3; ++axis) per_side[axis] *= glm::length(gradients[axis]);
         const double uncertain = 2.0 * rounding * speed * (per_side.x + per_side.y + per_side.z);
         for (int corner = 0; corner < 8; ++corner) {
           const Index3 at = corner_at(corner);
           const Vec3 x{grid.coordinate(0, at.x), grid.coordinate(1, at.y), grid.coordinate(2, at.z)};
-          means.add(point_at(at), vorticity(cell.jacobian(x)), uncertain, 1.0);
+          const Mat3 jacobian = cell.jacobian(x);
+          means.add(point_at(at), vorticity(grid.sheared() ? jacobian * glm::transpose(gradients) : jacobian),
+                    uncertain, 1.0);
         }
       }
     }
@@ -187,11 +191,12 @@ VectorSample VorticityField::sample(const Vec3& x_data, CellHint& hint) const no
     const TetMesh::Tet& vertices = mesh->cells()[as_size(at.cell)];
     for (int i = 0; i < 4; ++i) local += at.b[i] * vector_at(values_, vertices[as_size(i)]);
   } else if (const BoxGrid* grid = field_->box_grid()) {
+    const Vec3 y = grid->along_axes(x);
     Index3 index;
-    if (!grid->locate(x, index)) return out;
+    if (!grid->locate(y, index)) return out;
     BoxCell cell;
     grid->load(index, values_, cell);
-    local = cell.bad_data ? Vec3{std::numeric_limits<double>::quiet_NaN()} : cell.velocity(x);
+    local = cell.bad_data ? Vec3{std::numeric_limits<double>::quiet_NaN()} : cell.velocity(y);
   } else {
     Mat3 m;
     out.status = field_->jacobian(x_data, hint, m);

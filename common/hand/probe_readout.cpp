@@ -11,7 +11,7 @@ template <class Field>
 std::string cell_text(const Field& field, const Vec3& x, const CellHint& hint) {
   if (const BoxGrid* grid = field.box_grid()) {
     Index3 cell{0};
-    if (!grid->locate(field.frame().local_from_data(x), cell)) return {};
+    if (!grid->locate(grid->along_axes(field.frame().local_from_data(x)), cell)) return {};
     return std::to_string(cell.x) + "  " + std::to_string(cell.y) + "  " + std::to_string(cell.z);
   }
   return field.tet_mesh() != nullptr ? std::to_string(hint.cell) : std::string();

@@ -96,9 +96,9 @@ class PointSource {
   [[nodiscard]] Vec3 draw(std::mt19937_64& random) const {
     const LocalFrame& frame = field_.frame();
     if (mesh_) return frame.data_from_local(mesh_->draw(random));
-    // The grid's own box, which may be turned against the data's axes.
+    // The grid's own box, which may be turned against the data's axes, or sheared.
     if (const BoxGrid* grid = field_.box_grid())
-      return frame.data_from_local(draw_in(grid->bounds(), random));
+      return frame.data_from_local(grid->in_frame(draw_in(grid->bounds(), random)));
     Vec3 x{0.0};
     CellHint hint;
     for (int attempt = 0; attempt < kMostTries; ++attempt) {

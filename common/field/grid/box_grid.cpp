@@ -60,6 +60,14 @@ BoxGrid::BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing)
   }
 }
 
+BoxGrid::BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing, const Mat3& directions)
+    : BoxGrid(points, origin, spacing) {
+  PALPATE_CHECK(glm::determinant(directions) > 0.0);
+  sheared_ = true;
+  directions_ = directions;
+  inverse_ = glm::inverse(directions);
+}
+
 BoxGrid::BoxGrid(std::array<std::vector<double>, 3> coordinates) : coordinates_(std::move(coordinates)) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double>& x = coordinates_[as_size(axis)];
@@ -93,20 +101,20 @@ double BoxGrid::coordinate(int axis, int i) const noexcept {
   return coordinates_[as_size(axis)][as_size(i)];
 }
 
-bool BoxGrid::locate(const Vec3& x, Index3& cell) const noexcept {
+bool BoxGrid::locate(const Vec3& y, Index3& cell) const noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const int last = points_[axis] - 2;
     // The comparison is false for NaN.
-    if (!(x[axis] >= coordinate(axis, 0) && x[axis] <= coordinate(axis, last + 1))) return false;
+    if (!(y[axis] >= coordinate(axis, 0) && y[axis] <= coordinate(axis, last + 1))) return false;
     int i = 0;
     if (uniform()) {
-      i = std::clamp(static_cast<int>((x[axis] - origin_[axis]) * inverse_spacing_[axis]), 0, last);
+      i = std::clamp(static_cast<int>((y[axis] - origin_[axis]) * inverse_spacing_[axis]), 0, last);
       // The product may round across a grid line; the line's own position decides.
-      if (x[axis] < coordinate(axis, i)) --i;
-      if (i < last && x[axis] >= coordinate(axis, i + 1)) ++i;
+      if (y[axis] < coordinate(axis, i)) --i;
+      if (i < last && y[axis] >= coordinate(axis, i + 1)) ++i;
     } else {
       const std::vector<double>& lines = coordinates_[as_size(axis)];
-      const auto above = std::upper_bound(lines.begin(), lines.end(), x[axis]);
+      const auto above = std::upper_bound(lines.begin(), lines.end(), y[axis]);
       i = std::min(static_cast<int>(above - lines.begin()) - 1, last);
     }
     cell[axis] = i;

@@ -1,6 +1,9 @@
-/// Uniform and rectilinear grids in local frame L: direct cell search and trilinear cells.
+/// Uniform and rectilinear grids: direct cell search and trilinear cells.
 ///
-/// Inside the cell with corners lo, lo + d the interpolant is, with u = (x - lo) / d in [0, 1]^3,
+/// Coordinates y run along the grid's axes: x = B y in local frame L, where the columns of B are unit vectors
+/// along the axes. B is the identity unless a uniform grid is sheared: its axes are at no right angles.
+///
+/// Inside the cell with corners lo, lo + d the interpolant is, with u = (y - lo) / d in [0, 1]^3,
 ///
 ///   v(u) = c_0 + c_x u_x + c_y u_y + c_z u_z + c_xy u_x u_y + c_yz u_y u_z + c_zx u_z u_x
 ///          + c_xyz u_x u_y u_z                                                                  (1)
@@ -21,23 +24,23 @@ struct PointVectors;
 
 /// The polynomial (1) of one cell.
 struct BoxCell {
-  Vec3 lower{0.0};          ///< lo, frame L
-  Vec3 size{1.0};           ///< d, frame L
+  Vec3 lower{0.0};          ///< lo, along the axes
+  Vec3 size{1.0};           ///< d
   Vec3 inverse_size{1.0};   ///< 1 / d
   std::array<Vec3, 8> c{};  ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz, local speed
   Index3 index{0};          ///< cell index
   bool bad_data = false;    ///< hidden, or a corner's value is not finite or blanked
 
-  [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept {
-    const Vec3 u = (x - lower) * inverse_size;
+  [[nodiscard]] Vec3 velocity(const Vec3& y) const noexcept {
+    const Vec3 u = (y - lower) * inverse_size;
     // Horner in z, then y, then x.
     return (c[0] + u.x * c[1]) + u.y * (c[2] + u.x * c[4]) +
            u.z * ((c[3] + u.x * c[6]) + u.y * (c[5] + u.x * c[7]));
   }
 
-  /// dv/dx, m[j] = dv/dx_j.
-  [[nodiscard]] Mat3 jacobian(const Vec3& x) const noexcept {
-    const Vec3 u = (x - lower) * inverse_size;
+  /// dv/dy, m[j] = dv/dy_j.
+  [[nodiscard]] Mat3 jacobian(const Vec3& y) const noexcept {
+    const Vec3 u = (y - lower) * inverse_size;
     return Mat3{(c[1] + u.y * c[4] + u.z * c[6] + u.y * u.z * c[7]) * inverse_size.x,
                 (c[2] + u.x * c[4] + u.z * c[5] + u.x * u.z * c[7]) * inverse_size.y,
                 (c[3] + u.y * c[5] + u.x * c[6] + u.x * u.y * c[7]) * inverse_size.z};
@@ -46,9 +49,11 @@ struct BoxCell {
 
 class BoxGrid {
  public:
-  /// Uniform: points at origin + spacing * (i, j, k), frame L. @pre points >= 2, spacing > 0 on each axis.
+  /// Uniform: points at origin + spacing * (i, j, k). @pre points >= 2, spacing > 0 on each axis.
   BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing);
-  /// Rectilinear: strictly increasing coordinates, at least two an axis, frame L.
+  /// Uniform and sheared: `origin` and `spacing` along the axes. @pre `directions` is B, of positive determinant.
+  BoxGrid(const Index3& points, const Vec3& origin, const Vec3& spacing, const Mat3& directions);
+  /// Rectilinear: strictly increasing coordinates, at least two an axis.
   explicit BoxGrid(std::array<std::vector<double>, 3> coordinates);
   /// Makes cells bad data whatever their corners hold. @pre one byte a cell, 1 where hidden.
   void hide_cells(std::vector<std::uint8_t> hidden);
@@ -61,12 +66,30 @@ class BoxGrid {
   }
 
   [[nodiscard]] const Index3& points() const noexcept { return points_; }
-  [[nodiscard]] Box bounds() const noexcept;
+  [[nodiscard]] Box bounds() const noexcept;  ///< along the axes
   [[nodiscard]] bool uniform() const noexcept { return coordinates_[0].empty(); }
 
-  /// The cell that holds `x`; points on a shared face belong to the upper cell, on the upper border to the
+  /// @name Between frame L and the axes
+  /// @{
+  [[nodiscard]] bool sheared() const noexcept { return sheared_; }
+  [[nodiscard]] const Mat3& directions() const noexcept { return directions_; }  ///< B
+  [[nodiscard]] Vec3 along_axes(const Vec3& x) const noexcept { return sheared_ ? inverse_ * x : x; }
+  [[nodiscard]] Vec3 in_frame(const Vec3& y) const noexcept { return sheared_ ? directions_ * y : y; }
+  [[nodiscard]] Mat3 gradients() const noexcept {
+    return glm::transpose(inverse_);
+  }  ///< B^-T: of y_1, y_2, y_3
+  /// B^-T times the gradient along the axes.
+  [[nodiscard]] Vec3 gradient_in_frame(const Vec3& g) const noexcept { return sheared_ ? g * inverse_ : g; }
+  [[nodiscard]] Mat3 hessian_in_frame(const Mat3& h) const noexcept {
+    return sheared_ ? glm::transpose(inverse_) * h * inverse_ : h;
+  }
+  /// @}
+
+  /// All that follow take and give coordinates along the axes.
+
+  /// The cell that holds `y`; points on a shared face belong to the upper cell, on the upper border to the
   /// last one. False outside and for NaN.
-  [[nodiscard]] bool locate(const Vec3& x, Index3& cell) const noexcept;
+  [[nodiscard]] bool locate(const Vec3& y, Index3& cell) const noexcept;
   /// Position of grid line `i` on `axis`. The same bits from either side of a face.
   [[nodiscard]] double coordinate(int axis, int i) const noexcept;
   /// Loads the polynomial of `cell`. @pre `cell` lies in the grid.
@@ -77,6 +100,8 @@ class BoxGrid {
   Vec3 origin_{0.0};
   Vec3 spacing_{1.0};
   Vec3 inverse_spacing_{1.0};
+  bool sheared_ = false;
+  Mat3 directions_{1.0}, inverse_{1.0};  ///< B and B^-1
   std::array<std::vector<double>, 3> coordinates_;
   std::array<std::vector<double>, 3> inverse_widths_;  ///< rectilinear: 1 / width of each interval
   std::vector<std::uint8_t> hidden_;                   ///< cells; empty where none is

@@ -1,7 +1,8 @@
-/// Scalars at the points of a grid, and the interpolant of one cell in frame L: what a servo step, a ray or a
+/// Scalars at the points of a grid, and the interpolant of one cell: what a servo step, a ray or a
 /// contour evaluates once it has found its cell.
 ///
-/// Inside the box cell with corners lo, lo + d the interpolant is, with u = (x - lo) / d in [0, 1]^3,
+/// Inside the box cell with corners lo, lo + d the interpolant is, with u = (y - lo) / d in [0, 1]^3
+/// and y along the grid's axes (box_grid.h),
 ///
 ///   s(u) = c_0 + c_x u_x + c_y u_y + c_z u_z + c_xy u_x u_y + c_yz u_y u_z + c_zx u_z u_x
 ///          + c_xyz u_x u_y u_z                                                                  (1)
@@ -44,27 +45,27 @@ struct PointScalars {
 
 /// The polynomial (1) of one cell, local values.
 struct ScalarBoxCell {
-  Vec3 lower{0.0};  ///< lo, frame L; the bits of the grid lines
+  Vec3 lower{0.0};  ///< lo, along the axes; the bits of the grid lines
   Vec3 upper{1.0};
   Vec3 inverse_size{1.0};     ///< 1 / d
   std::array<double, 8> c{};  ///< c_0 c_x c_y c_z c_xy c_yz c_zx c_xyz
   Index3 index{0};
   bool bad_data = false;  ///< a corner's value is not finite or blanked
 
-  [[nodiscard]] double value(const Vec3& x) const noexcept {
-    const Vec3 u = (x - lower) * inverse_size;
+  [[nodiscard]] double value(const Vec3& y) const noexcept {
+    const Vec3 u = (y - lower) * inverse_size;
     return (c[0] + u.x * c[1]) + u.y * (c[2] + u.x * c[4]) +
            u.z * ((c[3] + u.x * c[6]) + u.y * (c[5] + u.x * c[7]));
   }
-  [[nodiscard]] Vec3 gradient(const Vec3& x) const noexcept {
-    const Vec3 u = (x - lower) * inverse_size;
+  [[nodiscard]] Vec3 gradient(const Vec3& y) const noexcept {
+    const Vec3 u = (y - lower) * inverse_size;
     return Vec3{(c[1] + u.y * c[4]) + u.z * (c[6] + u.y * c[7]),
                 (c[2] + u.x * c[4]) + u.z * (c[5] + u.x * c[7]),
                 (c[3] + u.y * c[5]) + u.x * (c[6] + u.y * c[7])} *
            inverse_size;
   }
-  [[nodiscard]] Mat3 hessian(const Vec3& x) const noexcept {
-    const Vec3 u = (x - lower) * inverse_size;
+  [[nodiscard]] Mat3 hessian(const Vec3& y) const noexcept {
+    const Vec3 u = (y - lower) * inverse_size;
     const double xy = (c[4] + u.z * c[7]) * (inverse_size.x * inverse_size.y);
     const double yz = (c[5] + u.x * c[7]) * (inverse_size.y * inverse_size.z);
     const double zx = (c[6] + u.y * c[7]) * (inverse_size.z * inverse_size.x);

@@ -151,13 +151,14 @@ TensorSample TensorField::sample(const Vec3& x_data, CellHint& hint) const noexc
   const Vec3 x = frame().local_from_data(x_data);
   CornerMean mean;
   if (const BoxGrid* const box = grid_->box.get()) {
+    const Vec3 y = box->along_axes(x);
     Index3 cell;
-    if (!box->locate(x, cell)) return {};
+    if (!box->locate(y, cell)) return {};
     const Index3 n = box->points();
     std::array<std::array<double, 2>, 3> weight{};
     for (int axis = 0; axis < 3; ++axis) {
       const double lower = box->coordinate(axis, cell[axis]), upper = box->coordinate(axis, cell[axis] + 1);
-      const double u = (x[axis] - lower) / (upper - lower);
+      const double u = (y[axis] - lower) / (upper - lower);
       weight[as_size(axis)] = {1.0 - u, u};
     }
     for (unsigned corner = 0; corner < 8; ++corner) {

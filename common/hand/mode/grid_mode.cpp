@@ -101,12 +101,22 @@ Mat3 axes_of_data(const Workspace& workspace) {
           workspace.turned({0.0, 0.0, 1.0})};
 }
 
-/// The points of the data; of a formula or a mesh 64 nodes a diagonal from the lower corner on.
+/// Whether places along axes at right angles from the first point on lie beside the points of the grid.
+bool leans(const BoxGrid& box) {
+  constexpr double kPart = 0.1;  // of a step
+  const Box along = box.bounds();
+  const Vec3 step = along.size() / Vec3(box.points() - 1);
+  const double off = glm::distance(box.in_frame(along.size()), along.size());
+  return off > kPart * std::min({step.x, step.y, step.z});
+}
+
+/// The points of the data; of a formula, a mesh or an image whose axes are at no right angles 64 nodes a diagonal from
+/// the lower corner on.
 Lattice lattice_of_data(const HapticScene& scene) {
   const Workspace& workspace = scene.workspace;
   Lattice lattice{.axes = axes_of_data(workspace)};
   const BoxGrid* box = scene.scalar->box_grid();
-  if (box == nullptr) {
+  if (box == nullptr || leans(*box)) {
     constexpr double kNodes = 64.0;
     lattice.origin = workspace.workspace_from_data(scene.scalar->bounds().lower);
     lattice.spacing = Vec3{workspace.scale() * scene.scalar->diagonal() / kNodes};
@@ -118,7 +128,7 @@ Lattice lattice_of_data(const HapticScene& scene) {
     first[a] = box->coordinate(a, 0);
     lattice.spacing[a] = workspace.local_scale() * (box->coordinate(a, last) - first[a]) / last;
   }
-  lattice.origin = workspace.workspace_from_local(first);
+  lattice.origin = workspace.workspace_from_local(box->in_frame(first));
   return lattice;
 }
 

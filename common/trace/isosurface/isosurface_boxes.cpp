@@ -19,14 +19,15 @@ class GridBoxes {
  public:
   using Patch = ScalarBoxCell;
 
-  GridBoxes(const BoxGrid& grid, const PointScalars& values, const Vec3& start) noexcept
-      : grid_(grid), values_(values) {
+  GridBoxes(const BoxGrid& grid, const AxesMetric& metric, const PointScalars& values,
+            const Vec3& start) noexcept
+      : grid_(grid), metric_(metric), values_(values) {
     Index3 cell;
     if (!grid.locate(start, cell)) return;
     const Vec3 lower{grid.coordinate(0, cell.x), grid.coordinate(1, cell.y), grid.coordinate(2, cell.z)};
     const Vec3 upper{grid.coordinate(0, cell.x + 1), grid.coordinate(1, cell.y + 1),
                      grid.coordinate(2, cell.z + 1)};
-    reach_ = glm::distance(lower, upper);
+    reach_ = metric.length(upper - lower);
   }
 
   template <class Visit>
@@ -55,9 +56,11 @@ class GridBoxes {
   }
   /// The diagonal of the cell where the search began.
   [[nodiscard]] double reach() const noexcept { return reach_; }
+  [[nodiscard]] const AxesMetric& metric() const noexcept { return metric_; }
 
  private:
   const BoxGrid& grid_;
+  const AxesMetric& metric_;
   const PointScalars& values_;
   double reach_ = 0.0;
 };
@@ -87,8 +90,10 @@ class FormulaBoxes {
     return true;
   }
   [[nodiscard]] double reach() const noexcept { return reach_; }
+  [[nodiscard]] static const AxesMetric& metric() noexcept { return kRightAngles; }
 
  private:
+  inline static const AxesMetric kRightAngles{};
   FormulaPatch patch_;
   double reach_;
 };
@@ -113,15 +118,32 @@ bool inside(const Box& box, const Vec3& x) noexcept {
 }  // namespace
 
 BoxIsosurfaceSearch::BoxIsosurfaceSearch(std::shared_ptr<const ScalarField> field)
-    : field_(std::move(field)), grid_(*field_->box_grid()), scale_(*field_) {}
+    : field_(std::move(field)), grid_(*field_->box_grid()), scale_(*field_) {
+  if (grid_.sheared()) metric_ = AxesMetric(grid_.directions());
+}
 
 SurfaceFit BoxIsosurfaceSearch::settle(const Vec3& x, SurfacePoint& point, SearchWork& work) const noexcept {
-  const GridBoxes boxes(grid_, field_->values(), point.position);
-  return SurfaceDescent<GridBoxes>(boxes, scale_, point.level, work).settle(x, point.position);
+  Vec3 y = grid_.along_axes(point.position);
+  const GridBoxes boxes(grid_, metric_, field_->values(), y);
+  SurfaceFit fit = SurfaceDescent<GridBoxes>(boxes, scale_, point.level, work).settle(grid_.along_axes(x), y);
+  point.position = grid_.in_frame(y);
+  fit.gradient = grid_.gradient_in_frame(fit.gradient);
+  if (grid_.sheared()) fit.jacobian = grid_.directions() * fit.jacobian * glm::transpose(grid_.gradients());
+  return fit;
 }
 
 int BoxIsosurfaceSearch::advance(SurfacePath& path, const Vec3& to, const SurfaceLevels& levels,
                                  SearchWork& work) const noexcept {
+  if (!grid_.sheared()) return advance_along_axes(path, to, levels, work);
+  const Vec3 end = grid_.along_axes(to);
+  path.at = grid_.along_axes(path.at);
+  const int crossed = advance_along_axes(path, end, levels, work);
+  path.at = path.at == end ? to : grid_.in_frame(path.at);
+  return crossed;
+}
+
+int BoxIsosurfaceSearch::advance_along_axes(SurfacePath& path, const Vec3& to, const SurfaceLevels& levels,
+                                            SearchWork& work) const noexcept {
   Index3 index;
   if (!grid_.locate(path.at, index)) {
     path.at = to;

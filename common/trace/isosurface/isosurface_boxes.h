@@ -3,11 +3,12 @@
 
 #include <memory>
 
+#include "common/trace/isosurface/axes_metric.h"
 #include "common/trace/isosurface/isosurface.h"
 
 namespace palpate {
 
-/// On a uniform or rectilinear grid.
+/// On a uniform or rectilinear grid. Searches run along its axes (box_grid.h).
 class BoxIsosurfaceSearch final : public IsosurfaceSearch {
  public:
   /// @pre field->box_grid().
@@ -20,7 +21,12 @@ class BoxIsosurfaceSearch final : public IsosurfaceSearch {
 
  private:
   std::shared_ptr<const ScalarField> field_;
+  /// advance() with places along the axes.
+  [[nodiscard]] int advance_along_axes(SurfacePath& path, const Vec3& to, const SurfaceLevels& levels,
+                                       SearchWork& work) const noexcept;
+
   const BoxGrid& grid_;
+  AxesMetric metric_;
   IsosurfaceScale scale_;
 };
 

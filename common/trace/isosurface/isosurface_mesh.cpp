@@ -112,11 +112,13 @@ class Triangles {
 /// Marches through a grid of boxes slice by slice along z, two slices of vertices at hand.
 class BoxMarch {
  public:
-  /// @param exact x -> s - s_0 of the field, where the grid is only a sampling of it; null: the grid is the
+  /// @param axes the grid along whose axes all coordinates are.
+  /// @param exact y -> s - s_0 of the field, where the grid is only a sampling of it; null: the grid is the
   /// field.
-  BoxMarch(const BoxGrid& grid, const PointScalars& values, double level,
+  BoxMarch(const BoxGrid& grid, const BoxGrid& axes, const PointScalars& values, double level,
            std::function<double(const Vec3&)> exact, std::size_t most)
       : grid_(grid),
+        axes_(axes),
         values_(values),
         level_(level),
         exact_(std::move(exact)),
@@ -200,10 +202,11 @@ class BoxMarch {
           [&](int from, int to) {
             return vertex(first, path[as_size(std::min(from, to))], path[as_size(std::max(from, to))]);
           },
-          [&](const Vec3& x) { return cell_.gradient(x); });
+          [&](const Vec3& x) { return axes_.gradient_in_frame(cell_.gradient(axes_.along_axes(x))); });
     }
   }
 
+  /// Along the axes.
   [[nodiscard]] Vec3 position(unsigned corner) const noexcept {
     return {(corner & 1U) != 0 ? cell_.upper.x : cell_.lower.x,
             (corner & 2U) != 0 ? cell_.upper.y : cell_.lower.y,
@@ -237,11 +240,12 @@ class BoxMarch {
     } else {
       part = root_on_edge([&](double u) { return cell_.value(a + u * d) - level_; }, fa, fb);
     }
-    known = triangles_.add_point(a + part * d);
+    known = triangles_.add_point(axes_.in_frame(a + part * d));
     return known;
   }
 
   const BoxGrid& grid_;
+  const BoxGrid& axes_;
   const PointScalars& values_;
   double level_;
   std::function<double(const Vec3&)> exact_;
@@ -306,11 +310,19 @@ IsosurfaceMesh mesh_of_boxes(const ScalarField& field, double level, std::size_t
   constexpr int kFormulaCells = 96;  // along the longest side
   const BoxGrid* const grid = field.box_grid();
   CellHint hint;
-  const auto value = [&](const Vec3& x) {
+  // Along the grid's axes: from frame L and back a place at the border might be outside.
+  const auto value = [&](const Vec3& y) {
+    if (grid != nullptr) {
+      Index3 index;
+      if (!grid->locate(y, index)) return std::nan("");
+      ScalarBoxCell cell;
+      load_scalar_cell(*grid, field.values(), index, cell);
+      return cell.bad_data ? std::nan("") : cell.value(y);
+    }
     Jet3 jet;
-    return field.jet(x, hint, jet) == SampleStatus::kOk ? jet.value : std::nan("");
+    return field.jet(y, hint, jet) == SampleStatus::kOk ? jet.value : std::nan("");
   };
-  const auto exact = [&](const Vec3& x) { return value(x) - local; };
+  const auto exact = [&](const Vec3& y) { return value(y) - local; };
   for (int stride = 1;; stride *= 2) {
     const bool whole = grid != nullptr && stride == 1;
     Sampling sampling;
@@ -324,7 +336,7 @@ IsosurfaceMesh mesh_of_boxes(const ScalarField& field, double level, std::size_t
     const Index3 n = boxes.points();
     if (progress) progress->begin("isosurface", static_cast<std::uint64_t>(n.z - 1));
     try {
-      BoxMarch march(boxes, whole ? field.values() : sampling.values, local,
+      BoxMarch march(boxes, grid != nullptr ? *grid : boxes, whole ? field.values() : sampling.values, local,
                      whole ? std::function<double(const Vec3&)>() : exact, most);
       IsosurfaceMesh mesh = std::move(march).run(progress).finish(level, field.frame());
       mesh.stride = stride;

@@ -15,6 +15,10 @@
 /// is the projection of d on the cone of tangent directions that stay in the box; the steepest of all is
 /// taken. So a crease between two boxes is followed along its curve in the face, and a point held by a crease
 /// or a corner has no way down in any box.
+///
+/// All of this in coordinates y along the boxes' axes. Where these are at no right angles, x = B y, lengths are
+/// those of the metric M = B^T B, gradients turn into directions by its inverse (axes_metric.h), and (1) reads
+/// Z^T (M + lambda H) Z u = Z^T M d with Z^T M Z = 1.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +26,7 @@
 #include <cmath>
 
 #include "common/math/vec.h"
+#include "common/trace/isosurface/axes_metric.h"
 #include "common/trace/isosurface/isosurface.h"
 
 namespace palpate {
@@ -32,13 +37,14 @@ namespace palpate {
 ///   touches;
 ///                                            false if it also touches bad data
 ///   double reach()                           no step is longer than this
+///   const AxesMetric& metric()               of the coordinates
 template <class Boxes>
 class SurfaceDescent {
  public:
   using Patch = typename Boxes::Patch;
 
   SurfaceDescent(const Boxes& boxes, const IsosurfaceScale& scale, double level, SearchWork& work) noexcept
-      : boxes_(boxes), scale_(scale), level_(level), work_(work) {}
+      : boxes_(boxes), metric_(boxes.metric()), scale_(scale), level_(level), work_(work) {}
 
   /// Moves `position` to the local minimum of the distance from `x`.
   [[nodiscard]] SurfaceFit settle(const Vec3& x, Vec3& position) noexcept {
@@ -72,7 +78,7 @@ class SurfaceDescent {
       if (!(level ? step_off(way, x, position) : step_down(way, x, position))) {
         // A way down that no step can take, by more than rounding: the surface has a singular point here.
         constexpr double kRounding = 0x1p-20;
-        if (way.size() > kRounding * glm::length(d)) {
+        if (way.size() > kRounding * metric_.length(d)) {
           fit.end = work_.spent() ? SurfaceEnd::kBudget : SurfaceEnd::kFlat;
         }
         break;
@@ -82,7 +88,7 @@ class SurfaceDescent {
     fit.gradient = way.gradient;
     fit.error = way.patch.value(position) - level_;
     fit.toward = way.toward;
-    fit.jacobian = way.jacobian();
+    fit.jacobian = metric_.lowered(way.jacobian());
     return fit;
   }
 
@@ -96,13 +102,10 @@ class SurfaceDescent {
   [[nodiscard]] static bool has(unsigned free, int axis) noexcept {
     return ((free >> static_cast<unsigned>(axis)) & 1U) != 0;
   }
-  [[nodiscard]] static Vec3 masked(const Vec3& v, unsigned free) noexcept {
-    return {has(free, 0) ? v.x : 0.0, has(free, 1) ? v.y : 0.0, has(free, 2) ? v.z : 0.0};
-  }
 
   /// Below this a way down is rounding: the direction of the force is then right to 2^-38.
   [[nodiscard]] double still(const Vec3& d) const noexcept {
-    return 0x1p-38 * glm::length(d) + scale_.distance;
+    return 0x1p-38 * metric_.length(d) + scale_.distance;
   }
   [[nodiscard]] static bool inside(const Patch& patch, const Vec3& p) noexcept {
     return glm::all(glm::greaterThanEqual(p, patch.lower)) && glm::all(glm::lessThanEqual(p, patch.upper));
@@ -182,7 +185,7 @@ class SurfaceDescent {
   /// Projects `d` on the directions that stay on the surface and in the box; keeps the longest projection.
   void consider(const Patch& patch, const Vec3& p, const Vec3& d, const Vec3& g, Way& best) const noexcept {
     const auto keep = [&](const Vec3& down, unsigned free, int rank) {
-      const double square = glm::dot(down, down);
+      const double square = metric_.dot(down, down);
       if (square <= best.square) return;
       best.patch = patch;
       best.gradient = g;
@@ -192,21 +195,22 @@ class SurfaceDescent {
       best.rank = rank;
       best.found = true;
     };
-    const double slope2 = glm::dot(g, g);
-    const Vec3 down = d - g * (glm::dot(d, g) / slope2);
+    const Vec3 steepest = metric_.raised(g, kAll);
+    const double slope2 = glm::dot(g, steepest);
+    const Vec3 down = d - steepest * (glm::dot(d, g) / slope2);
     if (!leaves(patch, p, down)) {
       keep(down, kAll, 2);
       return;
     }
-    keep(Vec3{0.0}, kAll, glm::dot(down, down) > still(d) * still(d) ? 0 : 2);
+    keep(Vec3{0.0}, kAll, metric_.dot(down, down) > still(d) * still(d) ? 0 : 2);
     for (int axis = 0; axis < 3; ++axis) {
       if (p[axis] > patch.lower[axis] && p[axis] < patch.upper[axis]) continue;
       const unsigned free = without(kAll, axis);
-      const Vec3 face_g = masked(g, free), face_d = masked(d, free);
-      const double face2 = glm::dot(face_g, face_g);
+      const Vec3 face_g = metric_.raised(g, free), face_d = metric_.projected(d, free);
+      const double face2 = glm::dot(g, face_g);
       constexpr double kTouches = 0x1p-60;  // the surface only touches the face
       if (!(face2 > kTouches * slope2)) continue;
-      const Vec3 along = face_d - face_g * (glm::dot(face_d, face_g) / face2);
+      const Vec3 along = face_d - face_g * (glm::dot(face_d, g) / face2);
       if (!leaves(patch, p, along)) keep(along, free, 1);
     }
   }
@@ -214,29 +218,30 @@ class SurfaceDescent {
   /// The matrix of (1) at `p`.
   void bend(const Vec3& p, const Vec3& d, Way& way) const noexcept {
     if (way.rank == 0) return;
-    const Vec3 g = masked(way.gradient, way.free);
-    const double slope2 = glm::dot(g, g);
+    const Vec3 g = metric_.raised(way.gradient, way.free);
+    const double slope2 = metric_.dot(g, g);
     const Vec3 normal = g / std::sqrt(slope2);
     const Mat3 hessian = way.patch.hessian(p);
-    const double lambda = glm::dot(d, g) / slope2;
+    const double lambda = metric_.dot(d, g) / slope2;
     constexpr double kRounding = 0x1p-40;
-    if (way.size() > kRounding * glm::length(d)) {
-      way.first = glm::normalize(way.down - normal * glm::dot(way.down, normal));
+    if (way.size() > kRounding * metric_.length(d)) {
+      way.first = metric_.unit(way.down - normal * metric_.dot(way.down, normal));
     } else {  // any tangent: that of the axis farthest from the normal
+      const Vec3 across = metric_.lowered(normal);
       Vec3 axis{0.0};
       double least = HUGE_VAL;
       for (int i = 0; i < 3; ++i) {
-        if (!has(way.free, i) || std::abs(normal[i]) >= least) continue;
-        least = std::abs(normal[i]);
+        if (!has(way.free, i) || std::abs(across[i]) >= least) continue;
+        least = std::abs(across[i]);
         axis = Vec3{0.0};
         axis[i] = 1.0;
       }
-      way.first = glm::normalize(axis - normal * glm::dot(axis, normal));
+      way.first = metric_.unit(axis - normal * glm::dot(axis, across));
     }
-    const auto bent = [&](const Vec3& v) { return v + lambda * (hessian * v); };
+    const auto bent = [&](const Vec3& v) { return metric_.lowered(v) + lambda * (hessian * v); };
     way.a = glm::dot(way.first, bent(way.first));
     if (way.rank == 1) return;
-    way.second = glm::cross(normal, way.first);
+    way.second = metric_.across(normal, way.first);
     way.b = glm::dot(way.second, bent(way.second));
     way.c = glm::dot(way.second, bent(way.first));
   }
@@ -272,15 +277,16 @@ class SurfaceDescent {
 
   /// Tries `move`, and smaller and smaller parts of it, until the distance from `x` falls.
   [[nodiscard]] bool shorten(Way& way, Vec3 move, int trials, const Vec3& x, Vec3& position) noexcept {
-    const double length = glm::length(move);
+    const double length = metric_.length(move);
     if (length > boxes_.reach()) move *= boxes_.reach() / length;
     const Vec3 d = x - position;
-    const double noise = 4.0 * scale_.distance * (glm::length(d) + scale_.distance);
+    const double noise = 4.0 * scale_.distance * (metric_.length(d) + scale_.distance);
     for (int trial = 0; trial < trials && work_.take(); ++trial, move *= kQuarter) {
       Vec3 next;
       if (!travel(way.patch, way.free, position, move, next)) continue;
       const Vec3 moved = next - position;
-      const double gain = glm::dot(moved, 2.0 * d - moved);  // |x - p|^2 - |x - next|^2, without cancellation
+      // |x - p|^2 - |x - next|^2, without cancellation.
+      const double gain = metric_.dot(moved, 2.0 * d - moved);
       if (gain < -noise) continue;
       const Way ahead = look(next, x);
       // Close to the minimum the distance cannot tell any more: the slope must halve.
@@ -295,7 +301,7 @@ class SurfaceDescent {
   /// From `from` along `move` and back on to the surface, at most to a face of the box.
   [[nodiscard]] bool travel(const Patch& patch, unsigned free, const Vec3& from, const Vec3& move,
                             Vec3& to) const noexcept {
-    to = from + masked(move, free);
+    to = from + metric_.projected(move, free);
     for (;;) {
       // The first face that the way to `to` leaves by.
       double part = 1.0;
@@ -315,11 +321,11 @@ class SurfaceDescent {
         if (free == 0) return false;
         const double bound = to[out] < from[out] ? patch.lower[out] : patch.upper[out];
         // On the face from the beginning: along it, since the surface bends away behind it.
-        to = part > 0.0 ? from + part * (to - from) : from + masked(move, free);
+        to = part > 0.0 ? from + part * (to - from) : from + metric_.projected(move, free);
         to[out] = bound;
         continue;
       }
-      const double reach = std::max(glm::distance(from, to), scale_.distance);
+      const double reach = std::max(metric_.length(to - from), scale_.distance);
       if (!restore(patch, free, reach, to)) return false;
       if (inside(patch, to)) break;
     }
@@ -348,8 +354,8 @@ class SurfaceDescent {
   /// Brings `p` to the level along its gradient within the free axes: Newton's steps (Ikits 2006, eq. 6.16),
   /// in a bracket as soon as there is one. False where there is no root within `farthest`.
   [[nodiscard]] bool restore(const Patch& patch, unsigned free, double farthest, Vec3& p) const noexcept {
-    const Vec3 slope = masked(patch.gradient(p), free);
-    const double length = glm::length(slope);
+    const Vec3 slope = metric_.raised(patch.gradient(p), free);
+    const double length = metric_.length(slope);
     if (!(length > 0.0)) return std::abs(patch.value(p) - level_) <= scale_.value;
     const Vec3 direction = slope / length;
     const Vec3 origin = p;
@@ -373,6 +379,7 @@ class SurfaceDescent {
   }
 
   const Boxes& boxes_;
+  const AxesMetric& metric_;
   const IsosurfaceScale& scale_;
   double level_;
   SearchWork& work_;

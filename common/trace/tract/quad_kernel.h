@@ -21,9 +21,10 @@ template <typename T>
 struct TensorGrid {
   const T* values = nullptr;  ///< six a point, xx xy xz yy yz zz, x fastest
   std::size_t step_y = 0, step_z = 0;
-  double scale = 1.0;  ///< of the tensors, a power of two
-  bool rotated = false;
-  std::array<std::array<double, 3>, 3> axes{};  ///< of the grid, unit vectors; where rotated
+  double scale = 1.0;   ///< of the tensors, a power of two
+  bool turned = false;  ///< or sheared
+  std::array<std::array<double, 3>, 3>
+      axes{};  ///< where turned: products with places are coordinates along the axes
   std::array<double, 3> origin{}, per_length{};
   std::array<double, 3> top{};        ///< index of the last point along each axis
   std::array<double, 3> last_cell{};  ///< top - 1

@@ -58,7 +58,7 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
   const Pack4 zero;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Pack4 along = x[axis];
-    if (image.rotated) {
+    if (image.turned) {
       const auto& e = image.axes[axis];
       along = e[0] * x[0] + e[1] * x[1] + e[2] * x[2];
     }

@@ -63,10 +63,12 @@ class UniformTensors {
     const BoxGrid& box = *grid.box;
     grid_.values = values.data();
     grid_.scale = TractScale::of(field).tensor;
-    grid_.rotated = grid.frame.rotated;
+    grid_.turned = grid.frame.rotated || box.sheared();
+    // Rows of B^-1 R^T: y of data coordinates.
+    const Mat3 along = grid.frame.rotation * box.gradients();
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = as_size(axis);
-      const Vec3& e = grid.frame.rotation[axis];
+      const Vec3& e = along[axis];
       grid_.axes[a] = {e.x, e.y, e.z};
       const int last = box.points()[axis] - 1;
       grid_.origin[a] = box.coordinate(axis, 0);
@@ -86,7 +88,7 @@ class UniformTensors {
     const std::array<std::size_t, 3> steps{6, grid_.step_y, grid_.step_z};
     for (std::size_t a = 0; a < 3; ++a) {
       const auto& e = grid_.axes[a];
-      const double along = grid_.rotated ? e[0] * x.x + e[1] * x.y + e[2] * x.z : x[static_cast<int>(a)];
+      const double along = grid_.turned ? e[0] * x.x + e[1] * x.y + e[2] * x.z : x[static_cast<int>(a)];
       const double u = (along - grid_.origin[a]) * grid_.per_length[a];
       if (!(u >= 0.0 && u <= grid_.top[a])) return SampleStatus::kOutside;
       const int last = static_cast<int>(grid_.last_cell[a]);

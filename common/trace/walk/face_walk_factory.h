@@ -6,11 +6,14 @@
 #include "common/base/check.h"
 #include "common/trace/trace.h"
 #include "common/trace/walk/face_walk.h"
+#include "common/trace/walk/sheared_domain.h"
 
 namespace palpate {
 
 [[nodiscard]] std::unique_ptr<LineWalk> make_box_walk(const BoxDomain& domain, Integrator integrator,
                                                       const WalkSettings& settings);
+[[nodiscard]] std::unique_ptr<LineWalk> make_sheared_walk(const ShearedDomain& domain, Integrator integrator,
+                                                          const WalkSettings& settings);
 [[nodiscard]] std::unique_ptr<LineWalk> make_tet_walk(const TetDomain& domain, Integrator integrator,
                                                       const WalkSettings& settings);
 [[nodiscard]] std::unique_ptr<LineWalk> make_formula_walk(const FormulaDomain& domain, Integrator integrator,

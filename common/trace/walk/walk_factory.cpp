@@ -41,6 +41,8 @@ std::unique_ptr<LineWalk> WalkFactory::make(TraceDirection direction) const {
     return std::make_unique<ExactWalk>(*mesh_, settings_.rest_distance, direction);
   }
   const double sign = direction == TraceDirection::kForward ? 1.0 : -1.0;
+  if (field_.box_grid() != nullptr && field_.box_grid()->sheared())
+    return make_sheared_walk(ShearedDomain(field_, sign), integrator_, settings_);
   if (field_.box_grid() != nullptr) return make_box_walk(BoxDomain(field_, sign), integrator_, settings_);
   if (mesh_ != nullptr) return make_tet_walk(TetDomain(*mesh_, sign), integrator_, settings_);
   return make_formula_walk(FormulaDomain(field_, sign), integrator_, settings_);

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/examples.h"
+#include "common/field/grid/box_grid.h"
 #include "tests/support/sample_meshes.h"
 #include "tests/support/sampled.h"
 
@@ -70,6 +71,86 @@ TEST(ScalarField, LinearFieldsAndTheirGradientsAreExactOnEveryGrid) {
     EXPECT_NEAR(scalar->lowest(), -2.0, 1e-12);
     EXPECT_NEAR(scalar->highest(), 3.5, 1e-12);
   }
+}
+
+/// Any axes: turned, mirrored, sheared, of unlike steps.
+Mat3 random_axes(std::mt19937_64& random) {
+  for (;;) {
+    Mat3 axes;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int row = 0; row < 3; ++row) axes[axis][row] = 2.0 * unit(random) - 1.0;
+      axes[axis] *= std::exp2(4.0 * unit(random)) / glm::length(axes[axis]);
+    }
+    const double volume =
+        glm::determinant(axes) / (glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]));
+    if (std::abs(volume) > 0.1) return axes;
+  }
+}
+
+// On any lattice the interpolant is the polynomial in lattice coordinates g: x = origin + axes g. With values
+// c.g + q g_x g_y g_z over one cell its value, gradient and Hessian in the world are those by the chain rule.
+TEST(ScalarField, LatticesOfAnyAxesAreInterpolatedWithoutTetrahedra) {
+  std::mt19937_64 random(5);
+  int mirrored = 0;
+  for (int lattice = 0; lattice < 50; ++lattice) {
+    const Mat3 axes = random_axes(random);
+    mirrored += glm::determinant(axes) < 0.0 ? 1 : 0;
+    const Vec3 origin{10.0 * unit(random), -5.0, 3.0 * unit(random)};
+    const Vec3 c{1.0 + unit(random), -2.0, unit(random)};
+    const double q = lattice % 2 == 0 ? 0.0 : 0.7;  // of trilinear ones one cell alone is exact
+    const Index3 points = lattice % 2 == 0 ? Index3{4, 5, 6} : Index3{2, 2, 2};
+    DataSet block;
+    block.topology = UniformTopology{points, origin, axes};
+    std::vector<double> values;
+    for (int k = 0; k < points.z; ++k) {
+      for (int j = 0; j < points.y; ++j) {
+        for (int i = 0; i < points.x; ++i) values.push_back(glm::dot(c, Vec3(i, j, k)) + q * i * j * k);
+      }
+    }
+    block.arrays = {make_array("t", Association::kPoint, 1, std::span<const double>(values))};
+    const auto field = make_scalar_field({block}, {"t"}, "test");
+    ASSERT_NE(field->box_grid(), nullptr);
+    ASSERT_TRUE(field->box_grid()->sheared());
+    const Mat3 inverse = glm::inverse(axes);
+    const LocalFrame& frame = field->frame();
+    CellHint hint;
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 part{unit(random), unit(random), unit(random)};
+      const Vec3 g = part * Vec3(points - 1), x = origin + axes * g;
+      const ScalarSample sample = field->sample(x, hint);
+      ASSERT_EQ(sample.status, SampleStatus::kOk);
+      EXPECT_NEAR(sample.value, glm::dot(c, g) + q * g.x * g.y * g.z, 1e-10);
+      const Vec3 along = c + q * Vec3{g.y * g.z, g.z * g.x, g.x * g.y};
+      const Vec3 gradient = along * inverse;  // inverse^T along
+      EXPECT_LT(glm::distance(field->gradient(x, hint).value, gradient), 1e-9 * glm::length(gradient));
+      const Mat3 bend = q * Mat3{Vec3{0.0, g.z, g.y}, Vec3{g.z, 0.0, g.x}, Vec3{g.y, g.x, 0.0}};
+      Jet3 jet;
+      ASSERT_EQ(field->jet(frame.local_from_data(x), hint, jet), SampleStatus::kOk);
+      const double unit_of_hessian = field->value_scale() * frame.length_scale() * frame.length_scale();
+      const Mat3 hessian = glm::transpose(frame.rotation) * glm::transpose(inverse) * bend * inverse *
+                           frame.rotation * unit_of_hessian;
+      for (int axis = 0; axis < 3; ++axis) EXPECT_LT(glm::distance(jet.hessian[axis], hessian[axis]), 1e-8);
+    }
+    // What lies beside the lattice, but in its bounding box, is outside.
+    const Vec3 beside = origin + axes * (Vec3(points - 1) * Vec3{0.5, 1.02, 0.5});
+    EXPECT_EQ(field->sample(beside, hint).status, SampleStatus::kOutside);
+    EXPECT_TRUE(field->bounds().contains(origin + axes * (Vec3(points - 1) * Vec3{0.5})));
+    for (const int corner : {0, 1, 2, 3, 4, 5, 6, 7}) {
+      const Vec3 at = origin + axes * (Vec3(points - 1) * Vec3(corner & 1, corner >> 1 & 1, corner >> 2));
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(at, field->bounds().lower - 1e-12)));
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(at, field->bounds().upper + 1e-12)));
+    }
+  }
+  EXPECT_GT(mirrored, 10);
+}
+
+TEST(ScalarField, AxesInOnePlaneAreRefused) {
+  DataSet block;
+  block.topology =
+      UniformTopology{Index3{2}, Vec3{0.0}, Mat3{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 1e-9}}};
+  const std::vector<float> values(8, 1.0F);
+  block.arrays = {make_array("t", Association::kPoint, 1, std::span<const float>(values))};
+  EXPECT_THROW((void)make_scalar_field({block}, {"t"}, "test"), Error);
 }
 
 TEST(ScalarField, JoinedBlocksBringTheirValuesAlong) {

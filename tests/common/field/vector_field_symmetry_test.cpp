@@ -9,6 +9,7 @@
 
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/vorticity_field.h"
 #include "tests/common/field/sampled_fields.h"
 
 namespace palpate {
@@ -186,7 +187,7 @@ TEST(VectorFieldSymmetry, FlippedAndPermutedAxesGiveTheSameFieldToRounding) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-TEST(VectorFieldSymmetry, ShearedAxesAreSplitIntoTetrahedra) {
+TEST(VectorFieldSymmetry, ShearedAxesAreALattice) {
   const Linear formula;
   DataSet block = test::sample_uniform(formula, {6, 6, 6}, test::SampledType::kFloat64);
   auto& grid = std::get<UniformTopology>(block.topology);
@@ -202,10 +203,19 @@ TEST(VectorFieldSymmetry, ShearedAxesAreSplitIntoTetrahedra) {
   }
   block.arrays[0] = make_array("velocity", Association::kPoint, 3, std::span<const double>(numbers));
   const auto field = field_of(block);
-  ASSERT_NE(field->tet_mesh(), nullptr);
+  ASSERT_NE(field->box_grid(), nullptr);
+  EXPECT_TRUE(field->box_grid()->sheared());
   CellHint hint;
   const Vec3 x = grid.origin + grid.axes * Vec3{2.3, 4.1, 1.7};
   EXPECT_LT(glm::distance(field->sample(x, hint).value, formula.velocity(x)), 1e-13);
+  Mat3 jacobian;
+  ASSERT_EQ(field->jacobian(x, hint, jacobian), SampleStatus::kOk);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_LT(glm::distance(jacobian[axis], formula.jacobian(x)[axis]), 1e-12);
+  const VorticityField vorticity(field);
+  const Mat3 j = formula.jacobian(x);
+  const Vec3 curl{j[1][2] - j[2][1], j[2][0] - j[0][2], j[0][1] - j[1][0]};
+  EXPECT_LT(glm::distance(vorticity.sample(x, hint).value, curl), 1e-12);
 }
 
 TEST(VectorFieldSymmetry, LocalUnitsAreNearOne) {

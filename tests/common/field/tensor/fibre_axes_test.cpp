@@ -22,12 +22,25 @@ Vec3 fibre(const Vec3& x) {
 
 enum class Signs { kAsTheyAre, kAtRandom };
 
-/// A box of tetrahedra (its axes are sheared), `n` points a side, with a fibre at each point.
+Mat3 axes_of(int n) {
+  return Mat3{Vec3{1.0, 0.0, 0.0}, Vec3{0.1, 1.0, 0.0}, Vec3{0.0, 0.05, 1.0}} / double(n - 1);
+}
+
+/// A sheared box of tetrahedra, `n` points a side, with a fibre at each point.
 DataSet wall(int n, Signs signs, Association association = Association::kPoint) {
   DataSet image;
-  const Mat3 axes = Mat3{Vec3{1.0, 0.0, 0.0}, Vec3{0.1, 1.0, 0.0}, Vec3{0.0, 0.05, 1.0}} / double(n - 1);
-  const UniformTopology topology{Index3{n}, Vec3{0.0}, axes};
-  image.topology = topology;
+  const Mat3 axes = axes_of(n);
+  std::vector<double> positions;
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const Vec3 x = axes * Vec3(i, j, k);
+        positions.insert(positions.end(), {x.x, x.y, x.z});
+      }
+    }
+  }
+  image.topology = StructuredTopology{
+      Index3{n}, make_array("points", Association::kPoint, 3, std::span<const double>(positions))};
   std::mt19937_64 random(7);
   std::vector<double> values;
   const int count = association == Association::kPoint ? n : n - 1;
@@ -120,9 +133,8 @@ TEST(FibreAxes, AMissingDirectionIsNoDirection) {
     for (int c = 0; c < 3; ++c) values.push_back(p == 62 ? 0.0 : image.arrays[0].at(p, c));
   image.arrays[0] = make_array("fibre", Association::kPoint, 3, std::span<const double>(values));
   const auto field = field_of(image);
-  const auto& topology = std::get<UniformTopology>(image.topology);
   CellHint hint;
-  EXPECT_EQ(field->sample(topology.axes * Vec3{2.0}, hint).status, SampleStatus::kBadData);
+  EXPECT_EQ(field->sample(axes_of(5) * Vec3{2.0}, hint).status, SampleStatus::kBadData);
   EXPECT_EQ(field->notes().bad_values, 1U);
 }
 

@@ -19,6 +19,7 @@
 namespace palpate {
 namespace {
 
+using test::on_lattice;
 using test::on_rectilinear;
 using test::on_tets;
 using test::on_uniform;
@@ -91,6 +92,7 @@ TEST(IsosurfaceMesh, IsClosedOnEveryKindOfGrid) {
   constexpr double kLevel = 1.0;
   for (const auto& field :
        {on_uniform(sphere_scalar(), {20, 23, 26}), on_rectilinear(sphere_scalar(), {22, 20, 24}),
+        on_lattice(sphere_scalar(), {38, 38, 32}, test::sheared_steps(0.1)),
         on_tets(sphere_scalar(), {14, 15, 16}), make_scalar_field(sphere_scalar())}) {
     const IsosurfaceMesh mesh = make_isosurface_mesh(*field, kLevel, kPlenty);
     expect_closed(mesh);
@@ -112,21 +114,25 @@ TEST(IsosurfaceMesh, OfATorusHasItsHole) {
 
 TEST(IsosurfaceMesh, AreaAndVolumeOfASphereConvergeAtOrderTwo) {
   const double radius = 1.1, area = 4.0 * std::numbers::pi * radius * radius, volume = area * radius / 3.0;
-  double area_before = 0.0, volume_before = 0.0;
-  for (const int n : {11, 21, 41}) {
-    const auto field = on_uniform(sphere_scalar(), Index3{n});
-    const IsosurfaceMesh mesh = make_isosurface_mesh(*field, radius * radius, kPlenty);
-    const double area_error = std::abs(area_of(mesh) - area),
-                 volume_error = std::abs(volume_of(mesh) - volume);
-    if (n > 11) {
-      // Halving the spacing: four times less, but for lower orders.
-      EXPECT_NEAR(area_before / area_error, 4.0, 0.6);
-      EXPECT_NEAR(volume_before / volume_error, 4.0, 0.6);
+  for (const bool sheared : {false, true}) {
+    double area_before = 0.0, volume_before = 0.0;
+    for (const int n : {11, 21, 41}) {
+      const auto field =
+          sheared ? on_lattice(sphere_scalar(), {2 * n, 2 * n, 2 * n}, test::sheared_steps(2.5 / (n - 1)))
+                  : on_uniform(sphere_scalar(), Index3{n});
+      const IsosurfaceMesh mesh = make_isosurface_mesh(*field, radius * radius, kPlenty);
+      const double area_error = std::abs(area_of(mesh) - area),
+                   volume_error = std::abs(volume_of(mesh) - volume);
+      if (n > 11) {
+        // Halving the spacing: four times less, but for lower orders.
+        EXPECT_NEAR(area_before / area_error, 4.0, 0.6);
+        EXPECT_NEAR(volume_before / volume_error, 4.0, 0.6);
+      }
+      area_before = area_error;
+      volume_before = volume_error;
     }
-    area_before = area_error;
-    volume_before = volume_error;
+    EXPECT_LT(area_before / area, 0.003);
   }
-  EXPECT_LT(area_before / area, 0.003);
 }
 
 TEST(IsosurfaceMesh, CoarserMeshesStillLieOnTheSurface) {
@@ -138,6 +144,14 @@ TEST(IsosurfaceMesh, CoarserMeshesStillLieOnTheSurface) {
   EXPECT_LE(coarse.triangles.size(), whole.triangles.size() / 3);
   expect_closed(coarse);
   expect_on_surface(coarse, *field);
+  const auto sheared = on_lattice(sphere_scalar(), {38, 38, 32}, test::sheared_steps(0.1));
+  const IsosurfaceMesh thinned =
+      make_isosurface_mesh(*sheared, 1.0, make_isosurface_mesh(*sheared, 1.0, kPlenty).triangles.size() / 3);
+  EXPECT_EQ(thinned.stride, 2);
+  expect_closed(thinned);
+  expect_on_surface(thinned, *sheared);
+  for (std::size_t i = 0; i < thinned.points.size(); ++i)
+    EXPECT_GT(glm::dot(Vec3(thinned.normals[i]), thinned.points[i]), 0.9);
   EXPECT_TRUE(make_isosurface_mesh(*field, 1.0, 1).triangles.empty()) << "one triangle is no surface";
   const auto tets = on_tets(sphere_scalar(), {14, 15, 16});
   EXPECT_THROW((void)make_isosurface_mesh(*tets, 1.0, 100), Error);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,27 @@ Field boxes() { return made(test::sample_uniform(*example("abc"), Index3{17}, te
 Field stretched() {
   return made(test::sample_rectilinear(*example("abc"), Index3{17}, 3.0, test::SampledType::kFloat64));
 }
+/// A left-handed lattice whose axes are off right angles by some 17 degrees.
+Field sheared() {
+  const auto flow = example("abc");
+  const Index3 points{17};
+  const Mat3 axes = Mat3{Vec3{-1.0, 0.1, 0.0}, Vec3{0.3, 1.0, 0.0}, Vec3{-0.2, 0.1, 1.0}} *
+                    (flow->bounds().size().x / 16.0);
+  const Vec3 origin = flow->bounds().center() - axes * (0.5 * Vec3(points - 1));
+  std::vector<double> values;
+  for (int k = 0; k < points.z; ++k) {
+    for (int j = 0; j < points.y; ++j) {
+      for (int i = 0; i < points.x; ++i) {
+        const Vec3 v = flow->velocity(origin + axes * Vec3(i, j, k));
+        values.insert(values.end(), {v.x, v.y, v.z});
+      }
+    }
+  }
+  DataSet block;
+  block.topology = UniformTopology{points, origin, axes};
+  block.arrays = {make_array("velocity", Association::kPoint, 3, std::span<const double>(values))};
+  return made(block);
+}
 Field tets() {
   return made(test::sample_tetrahedra(*example("abc"), Index3{9}, 0.2, 3, test::SampledType::kFloat64));
 }
@@ -46,7 +68,11 @@ struct Subject {
 };
 
 std::vector<Subject> subjects() {
-  return {{"formula", formula()}, {"uniform", boxes()}, {"rectilinear", stretched()}, {"tetrahedra", tets()}};
+  return {{"formula", formula()},
+          {"uniform", boxes()},
+          {"rectilinear", stretched()},
+          {"sheared", sheared()},
+          {"tetrahedra", tets()}};
 }
 
 std::vector<Vec3> seeds_of(const VectorField& field, int count) {
