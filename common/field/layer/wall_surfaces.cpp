@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -288,6 +289,30 @@ class BorderReading {
   std::vector<Cavity> cavities_;
 };
 
+/// Roles of triangles by the tags of their points.
+std::vector<BorderRole> tagged_roles(const WallBorder& border, const std::vector<WallSurface>& of_point) {
+  std::vector<BorderRole> roles(border.triangles.size(), BorderRole::kLeft);
+  const auto all = [&](std::size_t t, WallSurface surface) {
+    return std::all_of(border.triangles[t].begin(), border.triangles[t].end(),
+                       [&](std::uint32_t p) { return of_point[p] == surface; });
+  };
+  Vec3 opening{0.0};
+  double outer = 0.0;
+  for (std::size_t t = 0; t < roles.size(); ++t) {
+    if (all(t, WallSurface::kInner)) roles[t] = BorderRole::kInner;
+    if (!all(t, WallSurface::kOuter)) continue;
+    roles[t] = BorderRole::kOuter;
+    opening -= border.areas[t];
+    outer += glm::length(border.areas[t]);
+  }
+  if (!(glm::length(opening) > kHasOpening * outer)) return roles;
+  // Where an inner surface meets an outer one, as at the rim of a septum, triangles have points of both, too.
+  for (std::size_t t = 0; t < roles.size(); ++t)
+    if (roles[t] == BorderRole::kLeft && glm::dot(border.normal(t), glm::normalize(opening)) > kFacesUp)
+      roles[t] = BorderRole::kBase;
+  return roles;
+}
+
 /// Areas, pieces and confidence of the roles.
 void measure(const FieldGrid& grid, const WallBorder& border, WallSurfaces& surfaces) {
   const double scale = grid.frame.length_scale();
@@ -365,15 +390,18 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
                        std::string("name them in a point array '") + kSurfaceArray + "': 1 inner, 2 outer"});
   };
   if (!grid.tets) refuse("is an image, whose border has no inner surface");
+  const WallBorder border = border_of(*grid.tets);
   WallSurfaces surfaces;
+  surfaces.triangles = border.triangles;
   if (const DataArray* array = mesh.find(kSurfaceArray, Association::kPoint)) {
     surfaces.of_point = tagged(grid, *array);
     surfaces.note = std::string("inner and outer surface from the array '") + kSurfaceArray + "'";
     if (!both(surfaces.of_point)) refuse(std::string("has not both in its array '") + kSurfaceArray + "'");
+    surfaces.roles = tagged_roles(border, surfaces.of_point);
+    measure(grid, border, surfaces);
     return surfaces;
   }
 
-  const WallBorder border = border_of(*grid.tets);
   std::optional<BorderReading> reading;
   double crease = 0.0;
   for (const double each : kCreases) {
@@ -389,7 +417,6 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   if (!reading->has(BorderRole::kOuter) || !reading->has(BorderRole::kInner))
     refuse("has a border of " + counted(reading->part_count(), "smooth part") +
            ", none of them an inner surface");
-  surfaces.triangles = border.triangles;
   surfaces.roles = reading->roles(surfaces.doubts);
   measure(grid, border, surfaces);
   surfaces.of_point.assign(grid.point_count(), WallSurface::kNone);
@@ -421,6 +448,22 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   surfaces.note = "found by the creases of the border: " + list_of(surfaces) + "; confidence " +
                   short_number(std::round(100.0 * surfaces.confidence)) + " %";
   return surfaces;
+}
+
+std::vector<double> depths_on(const WallSurfaces& surfaces) {
+  std::vector<double> depths(surfaces.of_point.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t p = 0; p < depths.size(); ++p) {
+    if (surfaces.of_point[p] == WallSurface::kInner) depths[p] = 0.0;
+    if (surfaces.of_point[p] == WallSurface::kOuter) depths[p] = 1.0;
+  }
+  return depths;
+}
+
+void give_on(const WallSurfaces& surfaces, BorderRole role, double value, std::vector<double>& given) {
+  for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
+    if (surfaces.roles[t] != role) continue;
+    for (const std::uint32_t p : surfaces.triangles[t]) given[p] = value;
+  }
 }
 
 std::vector<std::string> notes_of(const WallSurfaces& surfaces) {

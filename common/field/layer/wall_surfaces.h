@@ -30,21 +30,24 @@ inline constexpr int kBorderRoleCount = 6;
 [[nodiscard]] const char* name_of(BorderRole role) noexcept;
 
 struct WallSurfaces {
-  std::vector<WallSurface> of_point;  ///< of the grid's points
-  std::string note;                   ///< how they were found, for the user
-  /// @name Where they were found by the border's shape; else empty
-  /// @{
+  std::vector<WallSurface> of_point;                    ///< of the grid's points
+  std::string note;                                     ///< how they were found, for the user
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of the border: points of the grid, outwards
   std::vector<BorderRole> roles;                        ///< of each triangle
   std::array<double, kBorderRoleCount> areas{};         ///< in the data's unit of length, squared
   std::array<std::size_t, kBorderRoleCount> pieces{};   ///< that hang together, of 1 % of the border at least
   double confidence = 1.0;                              ///< the part of the border's area that has a role
   std::vector<std::string> doubts;                      ///< what the user should look at
-  /// @}
+
+  /// Whether some triangle has the role.
+  [[nodiscard]] bool has(BorderRole role) const noexcept {
+    return areas[static_cast<std::size_t>(role)] > 0.0;
+  }
 };
 
-/// Takes them from the array kSurfaceArray where `mesh` has it, else from the shape of the border, which is
-/// parted where it bends by more than 40 degrees (30 or 20, where that tells no surfaces or no base, which is
+/// Takes them from the array kSurfaceArray where `mesh` has it: triangles whose points are all inner or all outer
+/// are so (every cavity counts as the left one's), others are base where they face the way in which the outer
+/// surface opens. Else from the shape of the border, which is parted where it bends by more than 40 degrees (30 or 20, where that tells no surfaces or no base, which is
 /// a doubt). Parts below 1 % of its area have no role. Of the others
 /// - the one with the largest extent that is not flat is the outer surface, and so are those beside it that
 ///   bulge outwards (BorderPart::bulge);
@@ -58,6 +61,12 @@ struct WallSurfaces {
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".
 [[nodiscard]] WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh,
                                               const std::string& file);
+
+/// The depth that is given at the points of the surfaces: 0 and 1; NaN elsewhere.
+[[nodiscard]] std::vector<double> depths_on(const WallSurfaces& surfaces);
+
+/// Gives `value` to the points of the triangles that have a role. @param given of the grid's points.
+void give_on(const WallSurfaces& surfaces, BorderRole role, double value, std::vector<double>& given);
 
 /// What the user is told of them: how they were found, and a WARNING for each doubt.
 [[nodiscard]] std::vector<std::string> notes_of(const WallSurfaces& surfaces);

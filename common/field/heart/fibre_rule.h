@@ -1,0 +1,69 @@
+/// Directions of fibres and sheets by a rule, for walls that have none: Bayer et al., Ann Biomed Eng 40 (2012) 2243,
+/// from four solutions of Laplace's equation.
+///
+///   psi      0 at the apex, 1 at the base (layer/wall_coordinates.h)
+///   phi_e    1 on the epicardium, 0 on the endocardia (and the septum's sides)
+///   phi_l    1 on the left endocardium, 0 on the others;   phi_r likewise
+///   r = phi_r / (phi_l + phi_r),   d = phi_e
+///
+///   axis(u, v) = [e_c, e_l, e_t],   e_l = u / |u|,   e_t = v made orthogonal to e_l,   e_c = e_l x e_t       (1)
+///   Q_l = axis(grad psi, -grad phi_l),  Q_r = axis(grad psi, grad phi_r),  Q_e = axis(grad psi, grad phi_e)  (2)
+///   alpha_s = alpha_endo (1 - 2 r),     alpha_w = alpha_endo (1 - d) + alpha_epi d;  beta likewise            (3)
+///   orient(Q, alpha, beta) = Q R_z(alpha) R_x(-beta)                                                          (4)
+///
+/// The fibre is the first column of (4), the sheet the third: "T" there, "sheet" in openCARP's files and in
+/// fibre_angles.h, whose angles (bayer) these are.
+///
+///   kBayerPrinted  bislerp(bislerp(orient(Q_l, alpha_s), orient(Q_r, alpha_s), r), orient(Q_e, alpha_w), d), as the
+///                  supplement's algorithm has it. In a free wall the helix angle is then alpha_endo + (alpha_epi -
+///                  alpha_endo) d^2, and where both differ by more than 90 degrees the nearer of two axes is the wrong
+///                  one for some d: the angle jumps within the wall.
+///   kBayer         the same frames are mixed before they are turned, and turned once, by alpha_w in free walls and
+///                  alpha_s in the septum: linear in d, as in the adaptation of S. Schuler (KIT-IBT/LDRB_Fibers, 2021).
+///
+/// Gradients are taken at the points, as the mean of their directions in the cells around, and a cell has the mean of
+/// its points'. All frames share e_l, so that mixing unturned ones turns e_t about it, the shorter way round as an
+/// axis has no sign.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/index.h"
+#include "common/field/field_grid.h"
+#include "common/field/layer/wall_surfaces.h"
+
+namespace palpate {
+
+enum class FibreRule : std::uint8_t { kBayer, kBayerPrinted };
+inline constexpr int kFibreRuleCount = 2;
+[[nodiscard]] constexpr std::string_view name_of(FibreRule rule) noexcept {
+  constexpr std::array<std::string_view, kFibreRuleCount> kNames{"bayer", "bayer-printed"};
+  return kNames[as_size(rule)];
+}
+
+/// [rad], each within a right angle.
+struct RuleAngles {
+  double endo = 0.0, epi = 0.0;              ///< alpha: of the fibre, from e_c towards the base
+  double sheet_endo = 0.0, sheet_epi = 0.0;  ///< beta: of the sheet about the fibre, from e_t
+};
+
+/// Of the cells of grid.tets, in their order there.
+struct RuleFibres {
+  std::vector<Vec3> fibres;  ///< unit; zero where nothing is known
+  std::vector<Vec3> sheets;  ///< unit, across the fibre
+  std::size_t undefined =
+      0;  ///< cells where (1) is not defined, as about the apex: they have the mean of their
+          ///< neighbours' outer products
+  std::size_t without = 0;  ///< cells of which no neighbour knows one either: zero
+  double farthest = 0.0;    ///< of an undefined cell from the apex, data units
+};
+
+/// @throws Error as find_wall_axis() and solve_laplace(). @pre grid.tets.
+[[nodiscard]] RuleFibres make_rule_fibres(const FieldGrid& grid, const WallSurfaces& surfaces, FibreRule rule,
+                                          const RuleAngles& angles, const std::string& file, int threads = 0);
+
+}  // namespace palpate

@@ -1,0 +1,67 @@
+#include "common/field/layer/wall_measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+#include "common/base/index.h"
+#include "common/field/layer/way_lengths.h"
+
+namespace palpate {
+namespace {
+
+/// Whether the steepest ways over edges lead from each point to `end`.
+/// @param sign 1: up, -1: down.
+std::vector<bool> leads_to(const TetMesh& mesh, std::span<const double> depth,
+                           const std::vector<WallSurface>& surface, WallSurface end, double sign) {
+  std::vector<std::uint32_t> next(depth.size()), order(depth.size());
+  std::iota(next.begin(), next.end(), 0U);
+  order = next;
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    if (mesh.zero_volume(static_cast<CellIndex>(c))) continue;
+    for (const std::uint32_t p : mesh.cells()[c])
+      for (const std::uint32_t q : mesh.cells()[c])
+        if (sign * depth[q] > sign * depth[next[p]]) next[p] = q;
+  }
+  std::erase_if(order, [&](std::uint32_t p) { return std::isnan(depth[p]); });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return depth[a] == depth[b] ? a < b : sign * depth[a] > sign * depth[b];
+  });
+  std::vector<bool> leads(depth.size());
+  for (const std::uint32_t p : order) leads[p] = surface[p] == end || (next[p] != p && leads[next[p]]);
+  return leads;
+}
+
+}  // namespace
+
+WallMeasures measure_wall(const FieldGrid& grid, const WallSurfaces& surfaces,
+                          std::span<const double> depth) {
+  const TetMesh& mesh = *grid.tets;
+  WallMeasures measures;
+  const std::vector<bool> up = leads_to(mesh, depth, surfaces.of_point, WallSurface::kOuter, 1.0);
+  const std::vector<bool> down = leads_to(mesh, depth, surfaces.of_point, WallSurface::kInner, -1.0);
+  std::size_t both_ways = 0;
+  for (std::size_t p = 0; p < depth.size(); ++p) both_ways += up[p] && down[p] ? 1 : 0;
+  measures.monotone =
+      static_cast<double>(both_ways) / static_cast<double>(std::max<std::size_t>(1, depth.size()));
+
+  const std::vector<double> inwards = way_lengths(mesh, depth, WayAlong::kFalling);
+  const std::vector<double> outwards = way_lengths(mesh, depth, WayAlong::kRising);
+  const double scale = grid.frame.length_scale();
+  std::vector<double> of_inner;
+  for (std::size_t p = 0; p < depth.size(); ++p) {
+    measures.thickness.push_back(scale * (inwards[p] + outwards[p]));
+    if (surfaces.of_point[p] == WallSurface::kInner && std::isfinite(measures.thickness[p]))
+      of_inner.push_back(measures.thickness[p]);
+  }
+  if (of_inner.empty()) return measures;
+  std::sort(of_inner.begin(), of_inner.end());
+  measures.thinnest = of_inner.front();
+  measures.median = of_inner[of_inner.size() / 2];
+  measures.thickest = of_inner.back();
+  return measures;
+}
+
+}  // namespace palpate

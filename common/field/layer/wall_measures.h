@@ -1,0 +1,30 @@
+/// What can be measured on the surfaces of a wall, to see whether they were found rightly.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "common/field/field_grid.h"
+#include "common/field/layer/wall_surfaces.h"
+
+namespace palpate {
+
+struct WallMeasures {
+  /// The share of points from which the depth rises, edge by edge, to the outer surface and falls to an inner one.
+  double monotone = 0.0;
+  std::vector<double>
+      thickness;  ///< of the wall through each point of the grid, along the gradient of the depth;
+                  ///< NaN where there is no depth; data units
+  /// @name Over the points of the inner surfaces; data units
+  /// @{
+  double thinnest = 0.0;
+  double median = 0.0;
+  double thickest = 0.0;
+  /// @}
+};
+
+/// @param depth of the grid's points, as solve_laplace() finds it between `surfaces`. @pre grid.tets.
+[[nodiscard]] WallMeasures measure_wall(const FieldGrid& grid, const WallSurfaces& surfaces,
+                                        std::span<const double> depth);
+
+}  // namespace palpate
