@@ -11,6 +11,7 @@ namespace palpate {
 [[nodiscard]] Verb trace_fibres_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb series_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb convert_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb fibers_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb mesh_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);

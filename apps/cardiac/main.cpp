@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
                     "fibres of one layer, for ParaView"},
                    {"cardiac map heart.exelem.gz --angle helix --out helix.vtu",
                     "how fibres turn through the wall"},
+                   {"cardiac fibers mesh.pts --endo 60 --epi -60 --out with_fibres.pts",
+                    "fibres by a rule, for a mesh that has none"},
                    {"cardiac mesh heart.exelem.gz --out heart.vtu", "tetrahedra, and how good they are"},
                    {"cardiac probe heart.exelem.gz --path path.csv --out log.csv",
                     "feel along a recorded path"},
@@ -26,6 +28,8 @@ int main(int argc, char** argv) {
       .verbs =
           {
               info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
+                         {"cardiac info mesh.pts --surfaces surfaces.vtp",
+                          "and the surfaces of the wall that were found, with areas and thickness"},
                          {"cardiac info mesh.pts --explain", "and what each verb would load"}}),
               trace_fibres_verb(
                   {{"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
@@ -48,7 +52,9 @@ int main(int argc, char** argv) {
                     "isochrones.vtp",
                     "isochrones, 5 ms apart; --contours 10,20,30 names them"},
                    {"cardiac map heart.exelem.gz --angle gap --json",
-                    "where fibres are undefined, in numbers"}}),
+                    "where fibres are undefined, in numbers"},
+                   {"cardiac map mesh.pts --coordinates --out coordinates.vtu",
+                    "where in the wall each point lies: transmural, apicobasal, rotational"}}),
               series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
                             "a potential over time at a place; --at again for another one"},
                            {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
@@ -56,6 +62,14 @@ int main(int argc, char** argv) {
                   {{"cardiac convert --example wave --out wave.pts",
                     "for openCARP: mesh, fibres, potential.igb, activation.dat"},
                    {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
+              fibers_verb(
+                  {{"cardiac fibers mesh.pts --rule bayer --endo 60 --epi -60 --out with_fibres.pts",
+                    "for openCARP: mesh.pts needs no .lon"},
+                   {"cardiac fibers wall.vtu --endo 70 --epi -50 --sheet-endo -65 --sheet-epi 25 --out "
+                    "fibres.vtu",
+                    "other angles, for ParaView"},
+                   {"cardiac fibers --example ventricle --out ruled.vtu --json",
+                    "on a built-in heart, in place of its own; what was done as JSON"}}),
               mesh_verb({{"cardiac mesh heart.exelem.gz --refine 8 --out heart.vtu --picture heart.png",
                           "eight cells along each axis of an element"},
                          {"cardiac mesh heart.exelem.gz --mesher tetgen --json",

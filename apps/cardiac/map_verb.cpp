@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/cardiac/cardiac_verbs.h"
+#include "apps/cardiac/coordinates_map.h"
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -202,6 +203,7 @@ std::string summary_text(const MapSummary& summary) {
 ExitCode run_map(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.heart.coordinates) return map_coordinates(options, context);
   if (options.output.file.empty() && !options.common.json)
     throw usage_error("map needs an output: try --out helix.vtu (or --json to get the means alone)");
   const bool as_lines = wants_contours(options.heart);
@@ -265,9 +267,9 @@ Verb map_angles_verb(std::vector<UsageExample> examples) {
   return {.name = "map",
           .summary =
               "write angles of fibres and sheets as a mesh, or lines of equal value on a layer, and say how "
-              "they turn "
-              "through the wall",
-          .groups = {Group::kInput, Group::kLayer, Group::kAngle, Group::kContours, Group::kOut},
+              "they turn through the wall; or the coordinates of the wall",
+          .groups = {Group::kInput, Group::kLayer, Group::kAngle, Group::kContours, Group::kCoordinates,
+                     Group::kOut},
           .examples = std::move(examples),
           .run = run_map};
 }

@@ -83,8 +83,24 @@ struct LinesSummary {
   TractogramLengths lengths;
 };
 
+/// The surfaces of a wall; lengths and areas in data units.
+struct WallSurfacesSummary {
+  struct Part {
+    std::string name;
+    double area = 0.0;
+    std::size_t pieces = 0;  ///< that hang together, of 1 % of the border at least
+  };
+  std::string output;
+  std::vector<Part> parts;
+  double confidence = 0.0;  ///< the part of the border's area that has a role
+  double monotone = 0.0;    ///< the share of points from which the depth rises and falls to the surfaces
+  double thinnest = 0.0, median = 0.0, thickest = 0.0;  ///< wall from its inner surfaces
+  std::vector<std::string> notes;                       ///< how they were found, and what is doubtful
+};
+
 struct InfoSummary {
   const Input* input = nullptr;
+  std::optional<WallSurfacesSummary> surfaces;  ///< of a wall, where they were asked for
   std::vector<ArraySummary> arrays;
   std::vector<std::string> orientation;       ///< a sentence a block
   std::string field;                          ///< empty: none can be made
@@ -232,6 +248,39 @@ struct ConvertSummary {
   std::string input;
   std::vector<std::string> files;
   std::size_t times = 0;  ///< steps; 0: it has no times
+  double seconds = 0.0;
+};
+
+/// Fibres that were made by a rule.
+struct FibreRuleSummary {
+  std::string input;
+  std::vector<std::string> files;
+  std::string rule;
+  double endo = 0.0, epi = 0.0, sheet_endo = 0.0, sheet_epi = 0.0;  ///< [degrees]
+  std::size_t elements = 0;
+  std::size_t undefined = 0;  ///< of them where the rule is not: they have the mean of their neighbours
+  std::size_t without = 0;    ///< of these without a neighbour that has a direction
+  double farthest = 0.0;      ///< of an undefined one from the apex, data units
+  bool two = false;           ///< ventricles
+  std::vector<std::string> notes;
+  double seconds = 0.0;
+};
+
+/// Coordinates of the points of a wall.
+struct CoordinatesSummary {
+  struct Column {
+    std::string name;
+    double lower = 0.0, upper = 0.0;
+    std::size_t undefined = 0;  ///< points
+  };
+  std::string input;
+  std::string output;  ///< empty: none
+  Vec3 axis{0.0};      ///< unit, from apex to base
+  Vec3 middle{0.0};    ///< a place on it
+  Vec3 apex_inner{0.0}, apex_outer{0.0};
+  std::size_t points = 0;
+  std::vector<Column> columns;
+  std::vector<std::string> notes;
   double seconds = 0.0;
 };
 

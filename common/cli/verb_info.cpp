@@ -7,9 +7,11 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
+#include "common/cli/wall_surfaces_report.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/load/read_tractogram.h"
+#include "common/load/write/write_surface.h"
 #include "common/scene/plan.h"
 
 namespace palpate {
@@ -216,6 +218,7 @@ std::string summary_text(const InfoSummary& summary) {
     text += (others.empty() ? "" : "; others: " + others + " (--field)") + "\n";
   }
   if (!summary.no_layers.empty()) text += "  layers     none to feel: " + summary.no_layers + "\n";
+  if (summary.surfaces) text += surfaces_text(*summary.surfaces);
   text += "  memory     " + bytes_text(summary.memory_bytes) + " of arrays\n";
   for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
   return text;
@@ -249,6 +252,7 @@ void add_heart(Input& input, const Document& options, Progress& progress, InfoSu
 
 ExitCode run_info(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
+  if (!options.heart.surfaces.empty()) check_surface_output(options.heart.surfaces, options.common.force);
   Input input = Input::open(options.input, &context.progress);
   InfoSummary summary;
   summary.input = &input;
@@ -300,6 +304,13 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
     add_field(input, *field, options.common.explain, summary);
     summary.max_speed = field->max_speed();
   }
+  if (!options.heart.surfaces.empty()) {
+    summary.surfaces = report_wall_surfaces(input, options, context.progress);
+    context.interrupt.keep(options.heart.surfaces);
+    for (const std::string& note : summary.surfaces->notes)
+      if (std::find(summary.notes.begin(), summary.notes.end(), note) == summary.notes.end())
+        summary.notes.push_back(note);
+  }
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   context.console.print(summary_text(summary));
   if (!summary.measured.empty()) context.console.print(measured_text(summary.measured));
@@ -312,7 +323,7 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
 Verb info_verb(std::vector<UsageExample> examples) {
   return {.name = "info",
           .summary = "say what a file holds: grids, fields, ranges, orientation, memory",
-          .groups = {Group::kInput},
+          .groups = {Group::kInput, Group::kSurfaces},
           .examples = std::move(examples),
           .run = run_info};
 }

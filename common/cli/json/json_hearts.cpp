@@ -60,6 +60,44 @@ std::string convert_json(const ConvertSummary& summary) {
                     {"version", version()}});
 }
 
+std::string fibre_rule_json(const FibreRuleSummary& summary) {
+  return json_text({{"input", summary.input},
+                    {"files", summary.files},
+                    {"rule", summary.rule},
+                    {"endo", summary.endo},
+                    {"epi", summary.epi},
+                    {"sheet_endo", summary.sheet_endo},
+                    {"sheet_epi", summary.sheet_epi},
+                    {"ventricles", summary.two ? 2 : 1},
+                    {"elements", summary.elements},
+                    {"undefined", summary.undefined},
+                    {"undefined_reach", summary.farthest},
+                    {"without", summary.without},
+                    {"notes", summary.notes},
+                    {"seconds", summary.seconds},
+                    {"version", version()}});
+}
+
+std::string coordinates_json(const CoordinatesSummary& summary) {
+  Json columns = Json::array();
+  for (const CoordinatesSummary::Column& column : summary.columns)
+    columns.push_back({{"name", column.name},
+                       {"min", column.lower},
+                       {"max", column.upper},
+                       {"undefined", column.undefined}});
+  return json_text(
+      {{"input", summary.input},
+       {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
+       {"points", summary.points},
+       {"axis", vec_json(summary.axis)},
+       {"middle", vec_json(summary.middle)},
+       {"apex", {{"inner", vec_json(summary.apex_inner)}, {"outer", vec_json(summary.apex_outer)}}},
+       {"coordinates", std::move(columns)},
+       {"notes", summary.notes},
+       {"seconds", summary.seconds},
+       {"version", version()}});
+}
+
 std::string mesh_json(const MeshSummary& summary) {
   const MeshQuality& quality = summary.quality;
   const bool curved = summary.exact_volume > 0.0;

@@ -71,6 +71,19 @@ std::string info_json(const InfoSummary& summary) {
   }
   if (input.spec().kind == FieldKind::kFibre)
     json["no_layers"] = summary.no_layers.empty() ? Json(nullptr) : Json(summary.no_layers);
+  if (const auto& surfaces = summary.surfaces) {
+    Json parts = Json::array();
+    for (const WallSurfacesSummary::Part& part : surfaces->parts)
+      parts.push_back({{"name", part.name}, {"area", part.area}, {"pieces", part.pieces}});
+    json["surfaces"] = {{"out", surfaces->output},
+                        {"parts", std::move(parts)},
+                        {"confidence", surfaces->confidence},
+                        {"monotone", surfaces->monotone},
+                        {"thickness_min", surfaces->thinnest},
+                        {"thickness_median", surfaces->median},
+                        {"thickness_max", surfaces->thickest},
+                        {"notes", surfaces->notes}};
+  }
   if (summary.tracts) json["tracts"] = lines_json(*summary.tracts);
   json["bounds"] = box_json(summary.bounds);
   json["diagonal"] = summary.bounds.diagonal();

@@ -28,6 +28,8 @@ namespace palpate {
 [[nodiscard]] std::string series_json(const SeriesSummary& summary);
 [[nodiscard]] std::string convert_json(const ConvertSummary& summary);
 [[nodiscard]] std::string mesh_json(const MeshSummary& summary);
+[[nodiscard]] std::string fibre_rule_json(const FibreRuleSummary& summary);
+[[nodiscard]] std::string coordinates_json(const CoordinatesSummary& summary);
 [[nodiscard]] std::string annotation_json(const AnnotationSummary& summary);
 [[nodiscard]] std::string probe_json(const ProbeSummary& summary);
 [[nodiscard]] std::string open_json(const WindowOutcome& outcome);

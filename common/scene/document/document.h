@@ -160,7 +160,12 @@ struct HeartOptions {
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
   double least_gap = 0.05;
-  std::filesystem::path mesh_picture;  ///< of a made mesh; empty: none
+  std::filesystem::path mesh_picture;           ///< of a made mesh; empty: none
+  std::filesystem::path surfaces;               ///< of the wall, as they were found; empty: not written
+  bool coordinates = false;                     ///< of the wall are written in place of angles
+  std::string rule = "bayer";                   ///< name_of(FibreRule)
+  double endo = 60.0, epi = -60.0;              ///< helix angle on the inner and the outer surface [degrees]
+  double sheet_endo = -65.0, sheet_epi = 25.0;  ///< of the sheet, as Bayer et al. have them [degrees]
 };
 
 /// What is looked at over time.

@@ -33,6 +33,9 @@ enum class Group : std::uint8_t {
   kLayer,        ///< which layer of a heart
   kAngle,        ///< which angle of its fibres
   kContours,     ///< lines of equal value on a layer, which are written
+  kSurfaces,     ///< the surfaces of a wall, which are written
+  kCoordinates,  ///< the coordinates of a wall, which are written
+  kRule,         ///< a rule by which fibres are made
   kMeshPicture,  ///< a picture of a made mesh
   kSeries,       ///< which scalar over time, and where
   kPlot,         ///< which scalar is plotted at the probe

@@ -81,8 +81,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tract_appearance", a, b, c);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k] = document.heart;
-    expect("heart", a, b, c, d, e, f, g, h, i, j, k);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = document.heart;
+    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
   {
     const auto& [a, b, c, d] = document.series;

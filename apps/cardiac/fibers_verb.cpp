@@ -1,0 +1,185 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/cardiac/cardiac_verbs.h"
+#include "common/base/clock.h"
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/cli/json/json_output.h"
+#include "common/cli/summaries.h"
+#include "common/cli/verbs.h"
+#include "common/field/heart/fibre_rule.h"
+#include "common/load/write/write_carp.h"
+#include "common/load/write/write_mesh.h"
+#include "common/scene/wall/open_wall.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180.0;
+constexpr double kMicrometre = 1000.0;  // of a millimetre
+
+FibreRule rule_of(const HeartOptions& options) {
+  return options.rule == name_of(FibreRule::kBayerPrinted) ? FibreRule::kBayerPrinted : FibreRule::kBayer;
+}
+
+/// The mesh with its directions, in the order of the input's cells.
+struct RuledMesh {
+  std::vector<Vec3> points;  ///< data coordinates
+  std::vector<TetMesh::Tet> cells;
+  std::vector<Vec3> fibres, sheets;
+  std::vector<MeshColumn> scalars;  ///< of the input
+};
+
+RuledMesh ruled_mesh(const OpenWall& wall, const RuleFibres& made) {
+  const FieldGrid& grid = *wall.grid;
+  const TetMesh& tets = *grid.tets;
+  RuledMesh mesh;
+  for (const Vec3& x : tets.points()) mesh.points.push_back(grid.frame.data_from_local(x));
+  mesh.cells.resize(tets.cells().size());
+  mesh.fibres.resize(mesh.cells.size());
+  mesh.sheets.resize(mesh.cells.size());
+  std::vector<std::size_t> source(mesh.cells.size());
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const std::size_t at = tets.cell_order()[c];
+    mesh.cells[at] = tets.cells()[c];
+    mesh.fibres[at] = made.fibres[c];
+    mesh.sheets[at] = made.sheets[c];
+    source[at] = grid.source_cell[c];
+  }
+  std::vector<std::size_t> input_of(mesh.points.size());
+  for (std::size_t i = wall.mesh.point_count(); i-- > 0;) {
+    const std::size_t p = grid.point_of_input.empty() ? i : grid.point_of_input[i];
+    if (p < input_of.size()) input_of[p] = i;
+  }
+  for (const DataArray& array : wall.mesh.arrays) {
+    const bool of_cells = array.association == Association::kCell;
+    MeshColumn column{.name = array.name, .values = {}, .of_cells = of_cells};
+    for (const std::size_t from : of_cells ? source : input_of) column.values.push_back(array.at(from));
+    mesh.scalars.push_back(std::move(column));
+  }
+  return mesh;
+}
+
+std::vector<std::filesystem::path> write_carp_mesh(const RuledMesh& mesh, const Document& options) {
+  CarpOutput out(options.output.file, options.common.force);
+  std::vector<int> regions;
+  for (const MeshColumn& scalar : mesh.scalars)
+    if (scalar.name == "region" && scalar.of_cells)
+      for (const double value : scalar.values) regions.push_back(static_cast<int>(std::lround(value)));
+  out.write_mesh(mesh.points, kMicrometre, mesh.cells, regions);
+  out.write_directions(mesh.fibres, mesh.sheets);
+  out.finish();
+  return out.files();
+}
+
+std::vector<std::filesystem::path> write_vtu_mesh(RuledMesh mesh, const Document& options,
+                                                  const std::optional<Vec3>& long_axis) {
+  const auto add = [&](const std::string& name, const std::vector<Vec3>& directions) {
+    MeshColumn column{.name = name, .values = {}, .components = 3, .of_cells = true};
+    for (const Vec3& d : directions) column.values.insert(column.values.end(), {d.x, d.y, d.z});
+    mesh.scalars.push_back(std::move(column));
+  };
+  add("fibre", mesh.fibres);
+  add("sheet", mesh.sheets);
+  write_mesh(options.output.file, mesh.points, mesh.cells, mesh.scalars, options.common.force, long_axis);
+  return {options.output.file};
+}
+
+std::string degrees(double angle) { return short_number(angle) + " degrees"; }
+
+std::string rule_text(const FibreRuleSummary& summary, const std::string& program) {
+  std::string text = summary.input + ": fibres by the rule " + summary.rule + " -> " +
+                     counted(summary.files.size(), "file") + "\n";
+  text += "  fibres     from " + degrees(summary.endo) + " on the inner to " + degrees(summary.epi) +
+          " on the outer surface, sheets from " + degrees(summary.sheet_endo) + " to " +
+          degrees(summary.sheet_epi) + "\n";
+  text += "  elements   " + counted(summary.elements - summary.undefined, "element") + " by the rule";
+  if (summary.undefined > 0)
+    text += "; it is not defined in " + std::to_string(summary.undefined) + " more, up to " +
+            short_number(summary.farthest) + " from the apex: they have the mean axis of their neighbours";
+  if (summary.without > 0) text += ", but for " + std::to_string(summary.without) + " without any: zero";
+  text += "\n";
+  for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
+  return text + "  open it    " + program + " " + summary.files.front() + "\n";
+}
+
+ExitCode run_fibers(const Document& options, const VerbContext& context) {
+  if (list_examples(options, context)) return ExitCode::kDone;
+  const std::string ending = options.output.file.extension().string();
+  if (ending != ".pts" && ending != ".vtu")
+    throw usage_error(options.output.file.empty()
+                          ? "fibers needs an output: try --out heart.pts or --out heart.vtu"
+                          : options.output.file.string() +
+                                ": fibres are written as .pts (openCARP) or .vtu (VTK)");
+  if (ending == ".vtu") check_mesh_output(options.output.file, options.common.force);
+  Input input = open_input(options, context);
+  const Stopwatch watch;
+  std::vector<std::string> scalars;
+  std::string left_out;
+  for (const ArrayInfo& array : input.arrays()) {
+    if (array.components == 1) scalars.push_back(array.name);
+    if (array.components == 3) left_out += (left_out.empty() ? "" : ", ") + array.name;
+  }
+  const OpenWall wall = open_wall(input, std::move(scalars), options.common.threads, &context.progress);
+  const HeartOptions& heart = options.heart;
+  context.progress.begin("making fibres", 0);
+  const RuleFibres made = make_rule_fibres(*wall.grid, wall.surfaces, rule_of(heart),
+                                           {.endo = kRadian * heart.endo,
+                                            .epi = kRadian * heart.epi,
+                                            .sheet_endo = kRadian * heart.sheet_endo,
+                                            .sheet_epi = kRadian * heart.sheet_epi},
+                                           input.title(), options.common.threads);
+  FibreRuleSummary summary{.input = input.title(),
+                           .files = {},
+                           .rule = heart.rule,
+                           .endo = heart.endo,
+                           .epi = heart.epi,
+                           .sheet_endo = heart.sheet_endo,
+                           .sheet_epi = heart.sheet_epi,
+                           .elements = made.fibres.size(),
+                           .undefined = made.undefined,
+                           .without = made.without,
+                           .farthest = made.farthest,
+                           .two = wall.surfaces.has(BorderRole::kRight),
+                           .notes = notes_of(wall.surfaces)};
+  if (!left_out.empty())
+    summary.notes.push_back("arrays of vectors are left out, the rule's directions stand in their place: " +
+                            left_out);
+  if (input.times().size() > 1)
+    summary.notes.push_back("one of " + std::to_string(input.times().size()) +
+                            " time steps is written; 'convert' writes series");
+  if (ending == ".pts" && input.file()->units.find("mm") == std::string::npos)
+    summary.notes.emplace_back("the file states no unit: its coordinates are written as millimetres");
+  RuledMesh mesh = ruled_mesh(wall, made);
+  for (const auto& file : ending == ".pts"
+                              ? write_carp_mesh(mesh, options)
+                              : write_vtu_mesh(std::move(mesh), options, input.file()->long_axis)) {
+    summary.files.push_back(file.string());
+    context.interrupt.keep(file);
+  }
+  summary.seconds = watch.seconds();
+  context.console.print(rule_text(summary, context.explorer.name));
+  context.console.print_json(fibre_rule_json(summary));
+  return ExitCode::kDone;
+}
+
+}  // namespace
+
+Verb fibers_verb(std::vector<UsageExample> examples) {
+  return {
+      .name = "fibers",
+      .summary = "make fibres and sheets by a rule, for a mesh that has none",
+      .details =
+          "The rule is that of Bayer et al., Ann Biomed Eng 40 (2012) 2243: directions along and through the "
+          "wall come from Laplace's equation between the surfaces that 'info --surfaces' shows, and the "
+          "fibre turns from one angle on the inner surface to another one on the outer.",
+      .groups = {Group::kInput, Group::kRule, Group::kOut},
+      .examples = std::move(examples),
+      .run = run_fibers};
+}
+
+}  // namespace palpate
