@@ -19,8 +19,10 @@ namespace {
 
 /// Axes of an image may be off a right angle by what six digits in a header lose, no more.
 constexpr double kRightAngle = 0x1p-20;
-/// Volume that unit vectors along an image's axes must span.
-constexpr double kFlattest = 1e-6;
+/// Volume that unit vectors along the axes of a lattice span at least. Flatter ones are split into tetrahedra: too few
+/// digits are left along the axes.
+constexpr double kFlattest = 0.05;
+constexpr double kNoVolume = 1e-6;
 constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
 /// Cells thinner than this part of the grid, or than the rounding of its coordinates, cannot be told apart.
 constexpr double kLeastWidth = 0x1p-500;
@@ -92,6 +94,7 @@ void note_blanking(FieldGrid& grid, const DataSet& block) {
                              ": cells around them count as bad data");
 }
 
+/// Null where the axes are all but in one plane.
 std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string& file) {
   const auto& topology = std::get<UniformTopology>(block.topology);
   const Index3& n = topology.points;
@@ -141,8 +144,10 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
       reverse(0);
       direction[0] = -direction[0];
     }
-    if (sheared && !(glm::determinant(direction) > kFlattest))
+    const double volume = glm::determinant(direction);
+    if (sheared && !(volume > kNoVolume))
       refuse_data(file, "axes of the grid that lie in one plane", "three directions");
+    if (sheared && volume <= kFlattest) return nullptr;
     const Mat3 own = direction;
     // A signed permutation is orthonormal as it is; other axes are made so, the first kept.
     if (skew > 0.0) {

@@ -95,7 +95,7 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
     claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
     claims.skips = true;
-    if (field.starts_with("byte")) claims.from_end = value == "-1";
+    if (field.starts_with("byte")) claims.from_end = value.starts_with("-");
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
     const std::vector<std::string_view> parts = words(value);

@@ -101,6 +101,22 @@ double BoxGrid::coordinate(int axis, int i) const noexcept {
   return coordinates_[as_size(axis)][as_size(i)];
 }
 
+Vec3 BoxGrid::sheared_along_axes(const Vec3& x) const noexcept {
+  constexpr double kRounding = 0x1p-49;  // of B y, of the frame that x has come through, and of B^-1 x
+  Vec3 y = inverse_ * x;
+  const double size =
+      std::abs(x.x) + std::abs(x.y) + std::abs(x.z) + std::abs(y.x) + std::abs(y.y) + std::abs(y.z);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double norm =
+        std::abs(inverse_[0][axis]) + std::abs(inverse_[1][axis]) + std::abs(inverse_[2][axis]);
+    const double lower = coordinate(axis, 0), upper = coordinate(axis, points_[axis] - 1);
+    const double slack = kRounding * norm * size;
+    if (y[axis] < lower && y[axis] >= lower - slack) y[axis] = lower;
+    if (y[axis] > upper && y[axis] <= upper + slack) y[axis] = upper;
+  }
+  return y;
+}
+
 bool BoxGrid::locate(const Vec3& y, Index3& cell) const noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const int last = points_[axis] - 2;

@@ -73,7 +73,8 @@ class BoxGrid {
   /// @{
   [[nodiscard]] bool sheared() const noexcept { return sheared_; }
   [[nodiscard]] const Mat3& directions() const noexcept { return directions_; }  ///< B
-  [[nodiscard]] Vec3 along_axes(const Vec3& x) const noexcept { return sheared_ ? inverse_ * x : x; }
+  /// B^-1 x; what it puts beyond the border by no more than rounding is on the border.
+  [[nodiscard]] Vec3 along_axes(const Vec3& x) const noexcept { return sheared_ ? sheared_along_axes(x) : x; }
   [[nodiscard]] Vec3 in_frame(const Vec3& y) const noexcept { return sheared_ ? directions_ * y : y; }
   [[nodiscard]] Mat3 gradients() const noexcept {
     return glm::transpose(inverse_);
@@ -96,6 +97,8 @@ class BoxGrid {
   void load(const Index3& cell, const PointVectors& values, BoxCell& out) const noexcept;
 
  private:
+  [[nodiscard]] Vec3 sheared_along_axes(const Vec3& x) const noexcept;
+
   Index3 points_{0};
   Vec3 origin_{0.0};
   Vec3 spacing_{1.0};

@@ -1,8 +1,7 @@
 /// A field of symmetric tensors: a grid and six numbers at each of its points; immutable and shared.
 ///
 /// Tensors are in the axes of the data frame X, to which loaders turn them from those of their measurement,
-/// and in the data's units. Boxes interpolate trilinearly, tetrahedra (sheared images are
-/// split into them) linearly: the components, or the logarithm (Arsigny et al. 2006), which keeps every
+/// and in the data's units. Boxes interpolate trilinearly, tetrahedra linearly: the components, or the logarithm (Arsigny et al. 2006), which keeps every
 /// eigenvalue above zero and determinants between those of the points. Where some corners of a cell have no
 /// tensor (masked images), the others are taken as long as they have more than half of the weight: a field
 /// reaches half way into the voxels around its mask.

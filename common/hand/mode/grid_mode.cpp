@@ -106,7 +106,11 @@ bool leans(const BoxGrid& box) {
   constexpr double kPart = 0.1;  // of a step
   const Box along = box.bounds();
   const Vec3 step = along.size() / Vec3(box.points() - 1);
-  const double off = glm::distance(box.in_frame(along.size()), along.size());
+  double off = 0.0;
+  for (unsigned corner = 1; corner < 8; ++corner) {
+    const Vec3 place = along.size() * Vec3(corner & 1U, corner >> 1U & 1U, corner >> 2U);
+    off = std::max(off, glm::distance(box.in_frame(place), place));
+  }
   return off > kPart * std::min({step.x, step.y, step.z});
 }
 

@@ -131,6 +131,16 @@ TEST(ScalarField, LatticesOfAnyAxesAreInterpolatedWithoutTetrahedra) {
                            frame.rotation * unit_of_hessian;
       for (int axis = 0; axis < 3; ++axis) EXPECT_LT(glm::distance(jet.hessian[axis], hessian[axis]), 1e-8);
     }
+    // Its own points are in it, those of the border, too, whatever rounding does to their places.
+    for (int k = 0; k < points.z; ++k) {
+      for (int j = 0; j < points.y; ++j) {
+        for (int i = 0; i < points.x; ++i) {
+          const ScalarSample sample = field->sample(origin + axes * Vec3(i, j, k), hint);
+          ASSERT_EQ(sample.status, SampleStatus::kOk) << lattice << ": " << i << " " << j << " " << k;
+          EXPECT_NEAR(sample.value, glm::dot(c, Vec3(i, j, k)) + q * i * j * k, 1e-10);
+        }
+      }
+    }
     // What lies beside the lattice, but in its bounding box, is outside.
     const Vec3 beside = origin + axes * (Vec3(points - 1) * Vec3{0.5, 1.02, 0.5});
     EXPECT_EQ(field->sample(beside, hint).status, SampleStatus::kOutside);
@@ -142,6 +152,15 @@ TEST(ScalarField, LatticesOfAnyAxesAreInterpolatedWithoutTetrahedra) {
     }
   }
   EXPECT_GT(mirrored, 10);
+}
+
+TEST(ScalarField, AxesAllButInOnePlaneAreSplitIntoTetrahedra) {
+  DataSet block;
+  block.topology =
+      UniformTopology{Index3{2}, Vec3{0.0}, Mat3{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 0.01}}};
+  const std::vector<float> values(8, 1.0F);
+  block.arrays = {make_array("t", Association::kPoint, 1, std::span<const float>(values))};
+  EXPECT_EQ(make_scalar_field({block}, {"t"}, "test")->box_grid(), nullptr);
 }
 
 TEST(ScalarField, AxesInOnePlaneAreRefused) {

@@ -173,7 +173,9 @@ TEST_P(OnGrids, SettlesAtLocalMinimaOfTheDistance) {
     EXPECT_FALSE(has_nearer_point(*scalar, point, x, 1e-6 * diagonal, random)) << i;
     const SurfacePoint before = point;
     work = {kPlenty};
-    (void)search->settle(x, point, work);
+    const SurfaceFit again = search->settle(x, point, work);
+    EXPECT_EQ(again.end, SurfaceEnd::kClosest) << i;
+    EXPECT_GT(glm::length(again.gradient), 0.0) << i;
     // On sheared axes places are turned to and fro.
     EXPECT_LE(glm::distance(point.position, before.position), GetParam() == 5 ? 1e-12 * diagonal : 0.0) << i;
     EXPECT_EQ(point.cell, before.cell);
