@@ -11,6 +11,7 @@
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/tet_seams.h"
+#include "common/field/thin_walls.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 
@@ -263,8 +264,7 @@ void note_split(const SplitMesh& split, std::size_t points, std::size_t cells, F
 }
 
 /// The mesh of a split, and its scale.
-std::shared_ptr<const TetMesh> make_mesh(SplitMesh& split, double scale, const std::string& file,
-                                         int threads) {
+std::shared_ptr<TetMesh> make_mesh(SplitMesh& split, double scale, const std::string& file, int threads) {
   for (Vec3& x : split.points) x *= scale;
   try {
     return std::make_shared<TetMesh>(std::move(split.points), split.tets, threads);
@@ -335,13 +335,43 @@ void return_to_data(CurvedSplit& curved, FieldGrid& grid, SplitMesh& split) {
   grid.made = std::move(made);
 }
 
+/// For each cell of the mesh the one of the split blocks that it is of.
+std::vector<std::uint32_t> sources_of(const TetMesh& mesh, const SplitMesh& split) {
+  const auto order = mesh.cell_order();
+  std::vector<std::uint32_t> out(order.size());
+  for (std::size_t t = 0; t < order.size(); ++t) out[t] = split.source_cell[order[t]];
+  return out;
+}
+
+ThinWalls find_walls(const TetMesh& mesh, const SplitMesh& split, std::span<const DataSet> blocks,
+                     const CoincidentPoints& points, const GridValue& value, int threads) {
+  const std::vector<std::uint32_t> source_cell = sources_of(mesh, split);
+  std::vector<std::uint32_t> first_cell;
+  std::uint32_t cells = 0;
+  for (const DataSet& block : blocks) {
+    first_cell.push_back(cells);
+    cells += static_cast<std::uint32_t>(block.cell_count());
+  }
+  const VelocityBeside velocity = [&](std::uint32_t cell, std::uint32_t point) {
+    if (value.association == Association::kPoint) return points.value_at(point);
+    const auto block = as_size(std::ranges::upper_bound(first_cell, cell) - first_cell.begin()) - 1;
+    return value.of(blocks[block], cell - first_cell[block]);
+  };
+  return {{.mesh = mesh, .source_cell = source_cell, .first_cell = first_cell, .place = points.place()},
+          velocity,
+          value.association,
+          threads};
+}
+
 std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, const std::string& file,
-                                           int threads, const PointValue* value) {
+                                           int threads, const GridValue* value) {
   std::optional<CurvedSplit> curved;
-  if (value != nullptr && *value) curved = split_curved(blocks, *value);
-  const PointValue value_in_curved = curved ? value_of(*curved, blocks, *value) : PointValue{};
+  const bool of_points = value != nullptr && value->association == Association::kPoint;
+  if (of_points) curved = split_curved(blocks, value->of);
+  const PointValue point_value =
+      curved ? value_of(*curved, blocks, value->of) : (of_points ? value->of : PointValue{});
   const std::span<const DataSet> used = curved ? std::span<const DataSet>(curved->blocks) : blocks;
-  CoincidentPoints coincident(used, curved ? &value_in_curved : value);
+  CoincidentPoints coincident(used, point_value);
   SplitMesh split = split_into_tetrahedra(used, file, {.agree = coincident.agree(), .first_of = {}});
   auto grid = std::make_shared<FieldGrid>();
   std::size_t cells = 0;
@@ -351,32 +381,36 @@ std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, cons
   for (const Vec3& x : split.points) bounds.include(x);
   grid->frame.length_exponent = length_exponent_of(bounds, file);
   const double scale = power_of_two(-grid->frame.length_exponent);
-  grid->tets = make_mesh(split, scale, file, threads);
-  Seams seams = find_seams(*grid->tets, threads);
+  std::shared_ptr<TetMesh> mesh = make_mesh(split, scale, file, threads);
+  Seams seams = find_seams(*mesh, threads);
+  ThinWalls walls;
   if (value != nullptr && seams.faces > 0) {
+    coincident.find(*mesh, split.point_of_input);
+    if (value->velocity) walls = find_walls(*mesh, split, used, coincident, *value, threads);
     SplitJoins joins;
-    joins.first_of = coincident.first_of(*grid->tets, split.point_of_input);
+    joins.first_of = coincident.first_of(*mesh, split.point_of_input, walls.points());
     if (!joins.first_of.empty()) {
       split = split_into_tetrahedra(used, file, joins);
-      grid->tets = make_mesh(split, scale, file, threads);
-      seams = find_seams(*grid->tets, threads);
+      mesh = make_mesh(split, scale, file, threads);
     }
+    walls.close_faces(*mesh, sources_of(*mesh, split));
+    seams = find_seams(*mesh, threads);
   }
+  grid->tets = mesh;
   if (curved) {
     note_curved(*curved, grid->notes);
     return_to_data(*curved, *grid, split);
   }
   note_split(split, grid->tets->points().size(), cells, grid->notes);
   coincident.note(grid->notes);
+  walls.note(grid->notes);
   note_seams(seams, grid->notes);
 
   bool same = grid->tets->points().size() == split.point_of_input.size();
   for (std::size_t p = 0; same && p < split.point_of_input.size(); ++p) same = split.point_of_input[p] == p;
   if (!same) grid->point_of_input = std::move(split.point_of_input);
 
-  const auto order = grid->tets->cell_order();
-  grid->source_cell.resize(order.size());
-  for (std::size_t t = 0; t < order.size(); ++t) grid->source_cell[t] = split.source_cell[order[t]];
+  grid->source_cell = sources_of(*grid->tets, split);
   grid->bounds = {grid->tets->bounds().lower / scale, grid->tets->bounds().upper / scale};
 
   grid->notes.zero_volume_cells = grid->tets->zero_volume_count();
@@ -415,7 +449,7 @@ std::size_t FieldGrid::point_count() const noexcept {
 namespace {
 
 std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, const std::string& file,
-                                           int threads, const PointValue* value) {
+                                           int threads, const GridValue* value) {
   std::shared_ptr<FieldGrid> grid;
   if (blocks.size() == 1) {
     const DataSet& block = blocks.front();
@@ -439,7 +473,7 @@ std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks
 }
 
 std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
-                                                 int threads, const PointValue& value) {
+                                                 int threads, const GridValue& value) {
   return make_grid(blocks, file, threads, &value);
 }
 

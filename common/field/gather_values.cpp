@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/field/boundary_values.h"
 #include "common/field/cell_values.h"
 #include "common/field/curved_split.h"
 #include "common/field/field_grid.h"
@@ -87,7 +89,7 @@ void gather_tets(const FieldGrid& grid, std::span<const DataSet> blocks, const T
 
 /// Cell values; blanked points of a box get none.
 CellDifference gather_cells(const FieldGrid& grid, std::span<const DataSet> blocks, const TupleReader& read,
-                            const Store& store, CellRule rule, int threads) {
+                            const GivenValues* given, const Store& store, CellRule rule, int threads) {
   const std::vector<std::uint8_t>& visible = blocks.front().visible;
   const bool blanked = grid.box && !visible.empty();
   const auto put = [&](std::size_t point, const double* value) {
@@ -98,7 +100,8 @@ CellDifference gather_cells(const FieldGrid& grid, std::span<const DataSet> bloc
                       static_cast<int>(point / (as_size(n.x) * as_size(n.y)))};
       if (visible[grid.data_index(n, at)] == 0) return;
     }
-    store.put(point, value);
+    const double* const here = given != nullptr ? given->at(point) : nullptr;
+    store.put(point, here != nullptr ? here : value);
   };
   const auto value_at = [&](std::size_t point, int component) {
     const std::size_t i = point * as_size(store.components) + as_size(component);
@@ -107,11 +110,9 @@ CellDifference gather_cells(const FieldGrid& grid, std::span<const DataSet> bloc
   return bring_to_points(grid, blocks, store.components, read, put, value_at, rule, threads);
 }
 
-}  // namespace
-
-GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
-                             int components, bool use_double, const TupleReader& read, CellRule rule,
-                             int threads) {
+GatheredValues gather(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
+                      int components, bool use_double, const TupleReader& read, CellRule rule, int threads,
+                      const GivenValues* given) {
   GatheredValues out;
   const std::size_t count = grid.point_count() * as_size(components);
   if (use_double) {
@@ -121,13 +122,62 @@ GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blo
   }
   const Store store{out, components, use_double};
   if (association == Association::kCell) {
-    out.cells = gather_cells(grid, blocks, read, store, rule, threads);
+    out.cells = gather_cells(grid, blocks, read, given, store, rule, threads);
   } else if (grid.box) {
     gather_box(grid, blocks.front(), read, store, threads);
   } else {
     gather_tets(grid, blocks, read, store);
   }
   return out;
+}
+
+}  // namespace
+
+GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
+                             int components, bool use_double, const TupleReader& read, CellRule rule,
+                             int threads) {
+  return gather(grid, blocks, association, components, use_double, read, rule, threads, nullptr);
+}
+
+GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks, Association association,
+                             int components, bool use_double, const TupleReader& read, CellRule rule,
+                             int threads, const GivenValues& given) {
+  return gather(grid, blocks, association, components, use_double, read, rule, threads, &given);
+}
+
+std::string boundary_array_of(const std::string& name) { return name + " at the boundary"; }
+
+GivenValues::GivenValues(const FieldGrid& grid, std::span<const DataSet> blocks, int components,
+                         const TupleReader& read)
+    : components_(as_size(components)) {
+  if (!read || !grid.tets) return;
+  std::vector<double> value(components_);
+  std::size_t input = 0;
+  for (const DataSet& block : blocks) {
+    for (std::size_t i = 0; i < block.point_count(); ++i, ++input) {
+      const std::size_t point = grid.point_of_input.empty() ? input : as_size(grid.point_of_input[input]);
+      if (point == kNoPoint) continue;
+      read(block, i, value.data());
+      if (!std::ranges::all_of(value, [](double v) { return std::isfinite(v); })) continue;
+      if (counts_.empty()) {
+        counts_.assign(grid.point_count(), 0);
+        values_.assign(counts_.size() * components_, 0.0);
+      }
+      const double share = 1.0 / ++counts_[point];
+      for (std::size_t c = 0; c < components_; ++c) {
+        double& mean = values_[point * components_ + c];
+        mean += share * (value[c] - mean);
+      }
+    }
+  }
+}
+
+std::string GivenValues::note() const {
+  const auto count = counts_.size() - as_size(std::ranges::count(counts_, std::uint32_t{0}));
+  if (count == 0) return {};
+  return std::to_string(count) +
+         (count == 1 ? " boundary point has the value" : " boundary points have the values") +
+         " that the data gives there";
 }
 
 }  // namespace palpate

@@ -2,13 +2,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <limits>
 #include <type_traits>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/boundary_values.h"
 #include "common/field/cell_values.h"
+#include "common/field/coincident_points.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
@@ -74,6 +77,29 @@ bool share_values(const FieldGrid& grid, const std::vector<DataSet>& used, const
     default:
       return false;
   }
+}
+
+/// The grid, or one whose points are joined only where the scalar agrees, if the grid joins others.
+std::shared_ptr<const FieldGrid> keep_values(std::shared_ptr<const FieldGrid> grid,
+                                             const std::vector<DataSet>& used, const ScalarChoice& choice,
+                                             const std::string& file, int threads, FieldNotes& notes) {
+  if (choice.association != Association::kPoint) return grid;
+  const PointValue value = [&choice](const DataSet& block, std::size_t point) {
+    const DataArray* array = block.find(choice.array, Association::kPoint);
+    return Vec3(array == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                                 : number_of(*array, point, choice.component),
+                0.0, 0.0);
+  };
+  const LostValues lost = find_lost_values(*grid, used, value);
+  if (lost.points == 0) return grid;
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "%zu %s a value of '%.60s' of its own at a place of several, different by up to %.3g: each side "
+      "keeps its own",
+      lost.points, lost.points == 1 ? "point has" : "points have", choice.array.c_str(), lost.most);
+  notes.lines.emplace_back(text.data());
+  return make_field_grid(used, file, threads, {Association::kPoint, value, false});
 }
 
 /// The speed of a formula. Its Hessian, on which convergence rests but no result, is a central difference of
@@ -204,13 +230,23 @@ class ScalarFieldBuilder {
       const DataArray* array = block.find(choice.array, choice.association);
       use_double = use_double || (array != nullptr && wants_double(array->type));
     }
-    const TupleReader read = [&choice](const DataSet& block, std::size_t tuple, double* out) {
-      const DataArray* array = block.find(choice.array, choice.association);
-      *out = array == nullptr ? std::numeric_limits<double>::quiet_NaN()
-                              : number_of(*array, tuple, choice.component);
+    const auto reader_of = [&](const std::string& name, Association association) -> TupleReader {
+      const bool any = std::ranges::any_of(
+          used, [&](const DataSet& block) { return block.find(name, association) != nullptr; });
+      if (!any) return {};
+      return [&choice, name, association](const DataSet& block, std::size_t tuple, double* out) {
+        const DataArray* array = block.find(name, association);
+        const bool has = array != nullptr && choice.component < array->components;
+        *out = has ? number_of(*array, tuple, choice.component) : std::numeric_limits<double>::quiet_NaN();
+      };
     };
-    auto stored = std::make_shared<const GatheredValues>(gather_values(
-        *field.grid_, used, choice.association, 1, use_double, read, CellRule::kLeastSquares, threads));
+    TupleReader at_boundary;
+    if (choice.association == Association::kCell)
+      at_boundary = reader_of(boundary_array_of(choice.array), Association::kPoint);
+    const GivenValues given(*field.grid_, used, 1, at_boundary);
+    auto stored = std::make_shared<const GatheredValues>(
+        gather_values(*field.grid_, used, choice.association, 1, use_double,
+                      reader_of(choice.array, choice.association), CellRule::kLeastSquares, threads, given));
     if (use_double) {
       field.values_.values = std::span<const double>(stored->doubles);
     } else {
@@ -218,6 +254,7 @@ class ScalarFieldBuilder {
     }
     if (choice.association == Association::kCell)
       field.notes_.lines.push_back(cell_values_note(stored->cells));
+    if (const std::string note = given.note(); !note.empty()) field.notes_.lines.push_back(note);
     field.values_.owner = std::move(stored);
   }
 
@@ -280,7 +317,7 @@ std::shared_ptr<const ScalarField> make_scalar_field(const std::vector<DataSet>&
     used.push_back(block);
   }
   if (used.empty()) refuse_missing(choice, file);
-  auto grid = make_field_grid(used, file, threads);
+  auto grid = keep_values(make_field_grid(used, file, threads), used, choice, file, threads, notes);
   notes.zero_volume_cells = grid->notes.zero_volume_cells;
   notes.inverted_cells = grid->notes.inverted_cells;
   notes.lines.insert(notes.lines.end(), grid->notes.lines.begin(), grid->notes.lines.end());
@@ -318,7 +355,9 @@ std::shared_ptr<const ScalarField> make_scalar_field(const VectorField& like,
                 std::to_string(like.grid()->input_points) + " and " +
                     std::to_string(like.grid()->input_cells) + ", as in the vector field");
   }
-  return ScalarFieldBuilder::from_data(like.grid(), used, choice, {}, threads);
+  FieldNotes notes;
+  auto grid = keep_values(like.grid(), used, choice, file, threads, notes);
+  return ScalarFieldBuilder::from_data(std::move(grid), used, choice, std::move(notes), threads);
 }
 
 std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const FieldGrid> grid,

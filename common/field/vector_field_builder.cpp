@@ -3,10 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/boundary_values.h"
 #include "common/field/cell_values.h"
 #include "common/field/coincident_points.h"
 #include "common/field/data_set_check.h"
@@ -48,6 +50,18 @@ ChosenArrays find_arrays(const DataSet& block, const VectorChoice& choice) {
     const DataArray* array = block.find(name, choice.association);
     if (array == nullptr) return {{}, name};
     out.arrays.push_back(array);
+  }
+  return out;
+}
+
+/// The arrays that say what those of cells are at the boundary; empty where one is missing.
+std::vector<const DataArray*> find_boundary(const DataSet& block, const VectorChoice& choice,
+                                            const std::vector<const DataArray*>& cells) {
+  std::vector<const DataArray*> out;
+  for (std::size_t a = 0; a < choice.arrays.size(); ++a) {
+    const DataArray* array = block.find(boundary_array_of(choice.arrays[a]), Association::kPoint);
+    if (array == nullptr || array->components != cells[a]->components) return {};
+    out.push_back(array);
   }
   return out;
 }
@@ -123,8 +137,7 @@ class VectorFieldBuilder {
     auto field = std::make_shared<VectorField>();
     field->name_ = choice.label;
     const std::vector<DataSet> used = usable_blocks(blocks, choice, file, *field);
-    const PointValue value = point_value(used, choice);
-    field->grid_ = make_field_grid(used, file, threads, value);
+    field->grid_ = make_field_grid(used, file, threads, {choice.association, value_of(used, choice)});
     const FieldGrid& grid = *field->grid_;
     field->frame_ = grid.frame;
     field->bounds_ = grid.bounds;
@@ -211,9 +224,7 @@ class VectorFieldBuilder {
     return used;
   }
 
-  /// Empty for values of cells: they are brought to the points.
-  static PointValue point_value(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
-    if (choice.association == Association::kCell) return {};
+  static PointValue value_of(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
     std::vector<std::vector<const DataArray*>> arrays;
     for (const DataSet& block : blocks) arrays.push_back(find_arrays(block, choice).arrays);
     return [&blocks, &choice, arrays = std::move(arrays)](const DataSet& block, std::size_t point) {
@@ -245,21 +256,35 @@ class VectorFieldBuilder {
                      int threads, VectorField& field) {
     PointVectors& values = field.values_;
     bool use_double = false;
-    std::vector<std::vector<const DataArray*>> arrays;
+    std::vector<std::vector<const DataArray*>> arrays, at_boundary;
     for (const DataSet& block : blocks) {
       arrays.push_back(find_arrays(block, choice).arrays);
+      at_boundary.push_back(find_boundary(block, choice, arrays.back()));
       for (const DataArray* array : arrays.back()) use_double = use_double || is_double(array->type);
     }
     const Mat3 rotation = grid.frame.rotation;
     const bool rotated = grid.frame.rotated;
-    const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
-      const auto b = as_size(&block - blocks.data());
-      Vec3 v = vector_of(choice, arrays[b], tuple);
+    const auto read_from = [&](const std::vector<std::vector<const DataArray*>>& from, const DataSet& block,
+                               std::size_t tuple, double* out) {
+      const auto& of_block = from[as_size(&block - blocks.data())];
+      Vec3 v(std::numeric_limits<double>::quiet_NaN());
+      if (!of_block.empty()) v = vector_of(choice, of_block, tuple);
       if (rotated) v = v * rotation;  // R^T v
       for (int i = 0; i < 3; ++i) out[i] = v[i];
     };
+    const TupleReader read = [&](const DataSet& block, std::size_t tuple, double* out) {
+      read_from(arrays, block, tuple, out);
+    };
+    TupleReader read_boundary;
+    if (choice.association == Association::kCell &&
+        std::ranges::any_of(at_boundary, [](const auto& of_block) { return !of_block.empty(); })) {
+      read_boundary = [&](const DataSet& block, std::size_t tuple, double* out) {
+        read_from(at_boundary, block, tuple, out);
+      };
+    }
+    const GivenValues given(grid, blocks, 3, read_boundary);
     auto stored = std::make_shared<const GatheredValues>(gather_values(
-        grid, blocks, choice.association, 3, use_double, read, CellRule::kLeastSquares, threads));
+        grid, blocks, choice.association, 3, use_double, read, CellRule::kLeastSquares, threads, given));
     if (use_double) {
       values.values = std::span<const double>(stored->doubles);
     } else {
@@ -267,6 +292,7 @@ class VectorFieldBuilder {
     }
     if (choice.association == Association::kCell)
       field.notes_.lines.push_back(cell_values_note(stored->cells));
+    if (const std::string note = given.note(); !note.empty()) field.notes_.lines.push_back(note);
     values.owner = std::move(stored);
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
+#include <utility>
 
 #include "common/base/index.h"
 #include "common/field/data_set_check.h"
@@ -121,8 +122,20 @@ class Joiner {
       }
     }
     out_.place_of = merge_points(out_.points, candidates, kMergeDistance);
-    out_.first_of = agree_ ? merge_points(out_.points, candidates, kMergeDistance, agree_) : out_.place_of;
+    out_.first_of = agree_ || doubled(candidates)
+                        ? merge_points(out_.points, candidates, kMergeDistance, agree_, false)
+                        : out_.place_of;
     for (std::size_t p = 0; p < out_.first_of.size(); ++p) out_.merged += out_.first_of[p] != p ? 1 : 0;
+  }
+
+  /// Whether points of one block that may not be joined lie at the same place, as those beside a thin wall do.
+  [[nodiscard]] bool doubled(const std::vector<MergeCandidate>& candidates) const {
+    constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+    std::vector<std::uint32_t> block_at(out_.points.size(), kNone);  // that came to the place last
+    return std::ranges::any_of(candidates, [&](const MergeCandidate& p) {
+      std::uint32_t& last = block_at[out_.place_of[p.point]];
+      return std::exchange(last, p.block) == p.block && !p.within_block;
+    });
   }
 
   void include_edge(double& spacing, std::size_t p, std::size_t q) const {
@@ -201,7 +214,7 @@ class Joiner {
 
 std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
                                         std::span<const MergeCandidate> candidates, double distance,
-                                        const PointsAgree& agree) {
+                                        const PointsAgree& agree, bool through_others) {
   std::vector<std::uint32_t> first(positions.size());
   std::iota(first.begin(), first.end(), 0U);
 
@@ -209,6 +222,24 @@ std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
   heads.reserve(candidates.size());
   std::vector<std::uint32_t> next(candidates.size(), kEnd);
   std::vector<int> levels;  // in use
+  // The other candidates that each first one stands for, the last first: those that their block parts, few, and
+  // those that it does not.
+  std::array<std::vector<std::uint32_t>, 2> joined;
+  std::vector<std::uint32_t> joined_before(through_others ? 0 : candidates.size(), kEnd);
+  joined.fill(joined_before);
+  const auto parted = [](const MergeCandidate& p, const MergeCandidate& q) {
+    return q.block == p.block && !(p.within_block && q.within_block);
+  };
+  const auto parted_from_joined = [&](const MergeCandidate& p, std::uint32_t first_one) {
+    if (through_others) return false;
+    for (std::size_t within = 0; within < (p.within_block ? 1 : 2); ++within) {
+      int looked_at = 0;
+      for (std::uint32_t j = joined[within][first_one]; j != kEnd; j = joined_before[j]) {
+        if (parted(p, candidates[j]) || ++looked_at > kMostInCell) return true;
+      }
+    }
+    return false;
+  };
 
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const MergeCandidate& p = candidates[i];
@@ -234,10 +265,11 @@ std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
         int looked_at = 0;
         for (std::uint32_t j = head->second; j != kEnd && ++looked_at <= kMostInCell; j = next[j]) {
           const MergeCandidate& q = candidates[j];
-          if (q.block == p.block && !(p.within_block && q.within_block)) continue;
+          if (parted(p, q)) continue;
           const Vec3 d = (x - positions[q.point]) * inverse;
           const double limit = distance * std::min(p.spacing, q.spacing) * inverse;
-          if (glm::dot(d, d) <= limit * limit && (!agree || agree(p.point, q.point))) {
+          if (glm::dot(d, d) <= limit * limit && (!agree || agree(p.point, q.point)) &&
+              !parted_from_joined(p, j)) {
             found = j;
             break;
           }
@@ -247,6 +279,10 @@ std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
     }
     if (found != kEnd) {
       first[p.point] = candidates[found].point;
+      if (!through_others) {
+        std::uint32_t& last = joined[p.within_block ? 1 : 0][found];
+        joined_before[i] = std::exchange(last, static_cast<std::uint32_t>(i));
+      }
       continue;
     }
     const int level = binary_exponent(p.spacing);

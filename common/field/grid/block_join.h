@@ -52,10 +52,11 @@ struct MergeCandidate {
 /// For every position the first one that it is joined with (itself where there is none): candidates p, q
 /// closer than `distance` times the smaller of their spacings, in the order given. Each is compared with
 /// first ones alone, so that chains of close points do not creep. Where `agree` is given, points that it parts
-/// stay apart.
+/// stay apart. Two points that may not be joined are joined with the same third one only where `through_others`.
 /// @pre positions of candidates are finite; distance <= 2^-2.
 [[nodiscard]] std::vector<std::uint32_t> merge_points(std::span<const Vec3> positions,
                                                       std::span<const MergeCandidate> candidates,
-                                                      double distance, const PointsAgree& agree = {});
+                                                      double distance, const PointsAgree& agree = {},
+                                                      bool through_others = true);
 
 }  // namespace palpate

@@ -198,6 +198,13 @@ void TetMesh::find_neighbors(int threads) {
   non_manifold_face_count_ = non_manifold;
 }
 
+void TetMesh::close(CellIndex cell, int face) {
+  if (walls_.empty()) walls_.assign(cells_.size(), 0);
+  const auto c = as_size(cell);
+  walls_[c] = static_cast<std::uint8_t>(walls_[c] | (1U << static_cast<unsigned>(face)));
+  neighbors_[c][as_size(face)] = kNoCell;
+}
+
 Vec4 TetMesh::barycentric(CellIndex cell, const Vec3& x) const noexcept {
   PALPATE_ASSERT(!zero_volume(cell));
   const Tet& v = cells_[as_size(cell)];

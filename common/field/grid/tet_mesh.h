@@ -47,6 +47,11 @@ class TetMesh {
   [[nodiscard]] std::size_t zero_volume_count() const noexcept { return zero_volume_count_; }
   [[nodiscard]] std::size_t inverted_count() const noexcept { return inverted_count_; }
   [[nodiscard]] std::size_t non_manifold_face_count() const noexcept { return non_manifold_face_count_; }
+  /// Makes a wall of a face: nothing is behind it, though cells may lie there. Location does not heed walls.
+  void close(CellIndex cell, int face);
+  [[nodiscard]] bool closed(CellIndex cell, int face) const noexcept {
+    return !walls_.empty() && ((walls_[as_size(cell)] >> static_cast<unsigned>(face)) & 1U) != 0;
+  }
   /// The place that each cell had among the cells given to the constructor.
   [[nodiscard]] std::span<const std::uint32_t> cell_order() const noexcept { return cell_order_; }
   /// Bounds of the cells.
@@ -100,6 +105,7 @@ class TetMesh {
   Box bounds_;
   double slack_ = 0.0;  ///< distance that rounding moves a point [frame L]
   CellTree tree_;
+  std::vector<std::uint8_t> walls_;  ///< a bit for each face that is closed; empty where none is
 };
 
 }  // namespace palpate

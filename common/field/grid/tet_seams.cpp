@@ -34,6 +34,7 @@ FaceNormal face_normal(const TetMesh& mesh, CellIndex cell, int face) noexcept {
 }
 
 CellBehind cell_behind(const TetMesh& mesh, CellIndex cell, int face, const Vec3& x) noexcept {
+  if (mesh.closed(cell, face)) return {};
   const FaceNormal normal = face_normal(mesh, cell, face);
   const double rounding = kBeyondRounding * std::max(std::abs(x.x), std::max(std::abs(x.y), std::abs(x.z)));
   for (const double part : kSteps) {

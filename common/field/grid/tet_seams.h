@@ -20,7 +20,8 @@ struct CellBehind {
 };
 
 /// What lies behind border face `face` of `cell` at x, a point of that face: the cell that location finds a small
-/// step behind it, 2^-20 of the face, then 2^-10 and 2^-6, for gaps. kNoCell where the domain ends. @rt Safe.
+/// step behind it, 2^-20 of the face, then 2^-10 and 2^-6, for gaps. kNoCell where the domain ends,
+/// and at closed faces. @rt Safe.
 [[nodiscard]] CellBehind cell_behind(const TetMesh& mesh, CellIndex cell, int face, const Vec3& x) noexcept;
 
 struct Seams {

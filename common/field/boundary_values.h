@@ -1,0 +1,45 @@
+/// Values of cells at the boundary, where the data gives them: a solver's walls and inlets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/field/field_grid.h"
+
+namespace palpate {
+
+/// The name of the point array that says what the cell array `name` is at points of the boundary: NaN at points
+/// where it says nothing. Loaders hand it over with the cell array; it is none to choose.
+[[nodiscard]] std::string boundary_array_of(const std::string& name);
+
+/// Values given at points of a grid of tetrahedra; the mean where several points of the data are joined.
+class GivenValues {
+ public:
+  /// @param read of points of the blocks, NaN where nothing is given; empty where nothing is given at all.
+  GivenValues(const FieldGrid& grid, std::span<const DataSet> blocks, int components,
+              const TupleReader& read);
+
+  /// Null where none is given.
+  [[nodiscard]] const double* at(std::size_t point) const noexcept {
+    return counts_.empty() || counts_[point] == 0 ? nullptr : values_.data() + point * components_;
+  }
+  /// Points that have one, in words; empty where none has.
+  [[nodiscard]] std::string note() const;
+
+ private:
+  std::size_t components_;
+  std::vector<std::uint32_t> counts_;  ///< of values at each point; empty where there are none
+  std::vector<double> values_;
+};
+
+/// As gather_values(); points whose values are given have these, whatever the cells say.
+[[nodiscard]] GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blocks,
+                                           Association association, int components, bool use_double,
+                                           const TupleReader& read, CellRule rule, int threads,
+                                           const GivenValues& given);
+
+}  // namespace palpate
