@@ -18,6 +18,7 @@
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/foam_case.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -46,6 +47,7 @@ class EnsightCase {
   }
 
   static void choose_parts(Reader&) {}
+  static std::vector<std::string> add_boundary(std::vector<DataSet>&, double) { return {}; }
 
   /// VTK's readers take what is there of a truncated file: its size has to account for the values. Those of
   /// the nodes stand once in EnSight 6, which gives every part all nodes.
@@ -99,13 +101,11 @@ class OpenFoamCase {
   /// A field of one time may hold what VTK cannot read (#calc, #codeStream, #include of a file elsewhere).
   static constexpr bool kChecksFields = true;
 
-  static void set_up(Reader& reader, const std::string& file, std::vector<std::string>& notes) {
+  void set_up(Reader& reader, const std::string& file, std::vector<std::string>&) {
     // The reader wants a file in the case's folder; it need not be there.
     const bool is_folder = std::filesystem::is_directory(file);
-    const std::filesystem::path folder =
-        is_folder ? std::filesystem::path(file) : std::filesystem::path(file).parent_path();
-    reader.SetFileName(is_folder ? (folder / "case.foam").c_str() : file.c_str());
-    refuse_decomposed(folder.empty() ? std::filesystem::path(".") : folder, file, notes);
+    reader.SetFileName(is_folder ? (std::filesystem::path(file) / "case.foam").c_str() : file.c_str());
+    boundary_ = FoamBoundaryReader(foam_folder(file));
     // Cell values stay cell values and polyhedra polyhedra: how they become tetrahedra is the field's matter.
     reader.CreateCellToPointOff();
     reader.DecomposePolyhedraOff();
@@ -124,29 +124,12 @@ class OpenFoamCase {
   }
 
   static void check_values(const std::string&, const std::vector<DataArray>&, std::size_t, std::size_t) {}
+  std::vector<std::string> add_boundary(std::vector<DataSet>& blocks, double time) {
+    return boundary_.add(blocks, time);
+  }
 
  private:
-  /// A case whose values stand in the folders of processors alone would open without any.
-  static void refuse_decomposed(const std::filesystem::path& folder, const std::string& file,
-                                std::vector<std::string>& notes) {
-    bool times = false;
-    bool processors = false;
-    std::error_code error;
-    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
-         it.increment(error)) {
-      std::error_code ignored;
-      if (!it->is_directory(ignored)) continue;
-      const std::string name = it->path().filename().string();
-      if (number(name).has_value()) times = times || !std::filesystem::is_empty(it->path(), ignored);
-      processors = processors || name.compare(0, 9, "processor") == 0;
-    }
-    if (!processors) return;
-    if (!times) {
-      throw input_error({file, "", "has values in processor folders alone, which are not read",
-                         "folders of times", "run reconstructPar"});
-    }
-    notes.emplace_back("the case's own times are read, not those of its processor folders");
-  }
+  FoamBoundaryReader boundary_;
 };
 
 template <class Case>
@@ -185,6 +168,7 @@ class CaseReader : public Loader {
     update(times_.empty() ? 0 : times_.size() - 1);
     for (const VtkBlock& block : usable(&info.notes))
       info.blocks.push_back(describe_block(block.data, block.name));
+    note_boundary(info.notes);
     return info;
   }
 
@@ -201,6 +185,7 @@ class CaseReader : public Loader {
     }
     for (const auto& [key, found] : parts)
       case_.check_values(file_, found, step, std::max<std::size_t>(1, times_.size()));
+    if (!times_.empty()) (void)case_.add_boundary(blocks, times_[step]);
     return blocks;
   }
 
@@ -248,6 +233,20 @@ class CaseReader : public Loader {
     }
   }
 
+  /// What of the boundary cannot be read, at the time that was read last.
+  void note_boundary(std::vector<std::string>& notes) {
+    if (!Case::kChecksFields || times_.empty()) return;
+    std::vector<DataSet> blocks;
+    for (const VtkBlock& block : usable(nullptr))
+      blocks.push_back(convert_block(block.data, block.name, arrays(), file_));
+    constexpr std::size_t kMost = 5;
+    const std::vector<std::string> problems = case_.add_boundary(blocks, times_.back());
+    notes.insert(notes.end(), problems.begin(),
+                 problems.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, problems.size())));
+    if (problems.size() > kMost)
+      notes.push_back(std::to_string(problems.size() - kMost) + " more of the boundary");
+  }
+
   /// Reads; what VTK says against it, or empty.
   std::string reads(const std::set<std::string>* wanted, std::size_t step) {
     select(wanted);
@@ -281,13 +280,39 @@ class CaseReader : public Loader {
   std::set<std::string> broken_;  ///< fields that cannot be read
 };
 
+/// An OpenFOAM case, whole or in the folders of processors.
+class OpenFoamReader : public Loader {
+ public:
+  FileInfo open(const LoadRequest& request, Format format) override {
+    const auto make_case = [] { return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam); };
+    const std::string file = request.files.front().string();
+    std::vector<std::string> notes;
+    auto processors = foam_processors(foam_folder(file), file, notes);
+    if (processors.empty() || request.files.size() > 1) {
+      reader_ = make_case();
+    } else {
+      reader_ = make_decomposed_reader(std::move(processors), make_case);
+    }
+    reader_->on_progress = on_progress;
+    FileInfo info = reader_->open(request, format);
+    info.notes.insert(info.notes.begin(), notes.begin(), notes.end());
+    return info;
+  }
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    if (!reader_) throw work_error("nothing was opened");
+    return reader_->read(names, step);
+  }
+
+ private:
+  std::unique_ptr<Loader> reader_;
+};
+
 }  // namespace
 
 std::unique_ptr<Loader> make_ensight_reader() {
   return std::make_unique<CaseReader<EnsightCase>>(Format::kEnsight);
 }
-std::unique_ptr<Loader> make_openfoam_reader() {
-  return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam);
-}
+std::unique_ptr<Loader> make_openfoam_reader() { return std::make_unique<OpenFoamReader>(); }
 
 }  // namespace palpate

@@ -2,25 +2,56 @@
 // corpus serves all.
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "common/base/error.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/foam_boundary.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/xml_scan.h"
 
 using namespace palpate;
 
+namespace {
+
+/// Each of OpenFOAM's files that are read here, and what comes of them together.
+void read_foam(std::string_view text) {
+  std::vector<FoamPatch> patches{{"lid", {"wall"}, 2, 1}, {"floor", {}, 1, 3}};
+  try {
+    patches = read_foam_patches(text, "boundary");
+  } catch (const Error&) {
+  }
+  FoamFaces faces{{0, 3, 6, 9}, {0, 1, 2, 1, 2, 3, 0, 2, 3}};
+  try {
+    faces = read_foam_faces(text, 1, "faces");
+    if (faces.begin.back() > faces.points.size()) __builtin_trap();
+  } catch (const Error&) {
+  }
+  const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const int components : {1, 3}) {
+    std::vector<std::string> problems;
+    const auto values = read_foam_boundary(text, components, patches, problems);
+    const auto points = foam_point_values(patches, faces, 1, values, components, positions);
+    if (!points.empty() && points.size() != positions.size() * static_cast<std::size_t>(components))
+      __builtin_trap();
+  }
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   const auto bytes = std::as_bytes(std::span(text));
   const auto tail = bytes.last(std::min(bytes.size(), kPlot3dTailBytes));
-  switch (data[0] % 9) {
+  switch (data[0] % 10) {
     case 0:
       (void)sniff({bytes, tail, bytes.size(), ".ex2"});
       break;
@@ -60,6 +91,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       (void)meta_size_problem(header, text.size() - header.header_bytes);
       break;
     }
+    case 9:
+      read_foam(text);
+      break;
     default: {
       XmlTags tags(text);
       XmlTag tag;

@@ -1,0 +1,80 @@
+/// What OpenFOAM's fields are on the patches of the boundary, which VTK's reader does not tell from what it copies
+/// from the cells.
+///
+/// A face has the values listed for its patch: those of patches of fixed value (fixedValue and its kin, noSlip,
+/// movingWallVelocity), and those listed face by face for any other type but zeroGradient, slip and the
+/// constraints (empty, symmetry, wedge, cyclic, processor). OpenFOAM User Guide, "Boundaries" and "Mesh description".
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/mapped_file.h"
+#include "common/math/vec.h"
+
+namespace palpate {
+
+/// A patch of a mesh, from polyMesh/boundary.
+struct FoamPatch {
+  std::string name;
+  std::vector<std::string> groups;
+  std::size_t faces = 0;
+  std::size_t first_face = 0;
+};
+
+/// The numbers of a patch: one tuple, or one a face.
+struct FoamPatchValues {
+  std::vector<double> numbers;
+  bool uniform = false;
+};
+
+/// The patches of a file polyMesh/boundary. @throws Error (bad input) with `file`.
+[[nodiscard]] std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::string& file);
+
+/// The points of the faces from `first` on, from a file polyMesh/faces (text or binary): those of face first + i stand
+/// from begin[i] to begin[i + 1].
+struct FoamFaces {
+  std::vector<std::size_t> begin{0};
+  std::vector<std::int64_t> points;
+};
+/// @throws Error (bad input) with `file`.
+[[nodiscard]] FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::string& file);
+
+/// The values given for patches in the boundaryField of a field of `components` numbers, by patch. An entry of a
+/// patch's own name goes before those of its groups, and these before patterns; of several the last counts.
+/// @param problems in words: what could not be read, whose patches have no values.
+[[nodiscard]] std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text, int components,
+                                                                        const std::vector<FoamPatch>& patches,
+                                                                        std::vector<std::string>& problems);
+
+/// The values of a field at the points of the boundary, `components` a point, NaN where none is given: the mean of
+/// those of the faces around that have one, weighted by the inverse distance of their middles (as OpenFOAM's
+/// volPointInterpolation does), whatever their patches.
+/// @returns nothing where no point has one. @param positions of all points of the mesh.
+[[nodiscard]] std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches,
+                                                    const FoamFaces& faces, std::size_t first_face,
+                                                    const std::map<std::string, FoamPatchValues>& values,
+                                                    int components, const std::vector<Vec3>& positions);
+
+/// The number of things in a file of the mesh, which stands before them. @throws Error (bad input) with `file`.
+[[nodiscard]] std::size_t read_foam_count(std::string_view text, const std::string& file);
+
+/// The text of a file, or, where there is none of that name, of one with the ending .gz.
+class FoamText {
+ public:
+  /// @throws Error (bad input).
+  explicit FoamText(const std::filesystem::path& file);
+  [[nodiscard]] std::string_view text() const noexcept { return mapped_ ? mapped_->text() : unpacked_; }
+
+ private:
+  std::unique_ptr<MappedFile> mapped_;
+  std::string unpacked_;
+};
+
+}  // namespace palpate

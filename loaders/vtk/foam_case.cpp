@@ -1,0 +1,290 @@
+#include "loaders/vtk/foam_case.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/boundary_values.h"
+
+namespace palpate {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored) || fs::exists(file.string() + ".gz", ignored);
+}
+
+/// The folders of times of a case, rising.
+std::vector<std::pair<double, fs::path>> times_in(const fs::path& folder) {
+  std::vector<std::pair<double, fs::path>> out;
+  std::error_code error, ignored;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const auto time = number(it->path().filename().string());
+    if (time && it->is_directory(ignored)) out.emplace_back(*time, it->path());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// The last time that has values; none where no time has.
+std::optional<double> last_time(const fs::path& folder) {
+  std::optional<double> out;
+  std::error_code ignored;
+  for (const auto& [time, path] : times_in(folder)) {
+    if (!fs::is_empty(path, ignored)) out = time;
+  }
+  return out;
+}
+
+std::vector<Vec3> positions_of(const UnstructuredTopology& mesh) {
+  std::vector<Vec3> out(mesh.positions.tuples);
+  for (std::size_t p = 0; p < out.size(); ++p)
+    out[p] = {mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)};
+  return out;
+}
+
+/// The cases of processors as one.
+class DecomposedReader : public Loader {
+ public:
+  DecomposedReader(std::vector<fs::path> folders, std::function<std::unique_ptr<Loader>()> make_case)
+      : folders_(std::move(folders)), make_case_(std::move(make_case)) {}
+
+  FileInfo open(const LoadRequest& request, Format format) override {
+    FileInfo info;
+    std::set<std::string> notes;
+    std::vector<std::vector<double>> times;
+    std::size_t empty = 0;
+    for (const fs::path& folder : folders_) {
+      auto reader = make_case_();
+      LoadRequest part = request;
+      part.files = {folder};
+      FileInfo of_part;
+      try {
+        of_part = reader->open(part, format);
+      } catch (const Error&) {
+        // A processor may have no cells.
+        if (!has_no_cells(folder)) throw;
+        ++empty;
+        continue;
+      }
+      for (BlockInfo& block : of_part.blocks) {
+        block.name = name_of(folder, block.name);
+        info.blocks.push_back(std::move(block));
+      }
+      for (std::string& note : of_part.notes) notes.insert(folder.filename().string() + ": " + note);
+      times.push_back(std::move(of_part.times));
+      parts_.push_back({folder, std::move(reader)});
+    }
+    if (parts_.empty())
+      throw input_error({request.files.front().string(), "", "has processor folders without cells", "", ""});
+    take_common(times, info);
+    info.notes.push_back(std::to_string(folders_.size()) + " processor folders read as one case" +
+                         (empty > 0 ? ", " + std::to_string(empty) + " of them without cells" : ""));
+    info.notes.insert(info.notes.end(), notes.begin(), notes.end());
+    return info;
+  }
+
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    std::vector<DataSet> out;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      for (DataSet& block : parts_[p].reader->read(names, steps_.empty() ? step : steps_[p][step])) {
+        block.name = name_of(parts_[p].folder, block.name);
+        out.push_back(std::move(block));
+      }
+      if (on_progress) on_progress(static_cast<double>(p + 1) / static_cast<double>(parts_.size()));
+    }
+    return out;
+  }
+
+ private:
+  struct Part {
+    fs::path folder;
+    std::unique_ptr<Loader> reader;
+  };
+
+  static std::string name_of(const fs::path& folder, const std::string& block) {
+    return folder.filename().string() + (block.empty() ? "" : "/" + block);
+  }
+  static bool has_no_cells(const fs::path& folder) {
+    try {
+      const FoamText owner(folder / "constant/polyMesh/owner");
+      return read_foam_count(owner.text(), folder.string()) == 0;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  /// Times that all parts have, and what number each has in each part.
+  void take_common(const std::vector<std::vector<double>>& times, FileInfo& info) {
+    std::set<double> all;
+    for (const auto& of_part : times) all.insert(of_part.begin(), of_part.end());
+    std::vector<double> common;
+    for (const double time : all) {
+      if (std::all_of(times.begin(), times.end(), [&](const auto& part) {
+            return std::find(part.begin(), part.end(), time) != part.end();
+          }))
+        common.push_back(time);
+    }
+    if (all.empty()) return;
+    if (common.empty()) {
+      throw input_error({folders_.front().parent_path().string(), "",
+                         "has processor folders of different times", "a time that all have",
+                         "run reconstructPar"});
+    }
+    if (common.size() < all.size())
+      info.notes.push_back(counted(all.size() - common.size(), "time") +
+                           " left out: not all processor folders have them");
+    for (const auto& of_part : times) {
+      std::vector<std::size_t> steps;
+      for (const double time : common)
+        steps.push_back(
+            static_cast<std::size_t>(std::find(of_part.begin(), of_part.end(), time) - of_part.begin()));
+      steps_.push_back(std::move(steps));
+    }
+    if (common.size() > 1) info.times = std::move(common);
+  }
+
+  std::vector<fs::path> folders_;
+  std::function<std::unique_ptr<Loader>()> make_case_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<std::size_t>>
+      steps_;  ///< of each part, at each common time; empty for single states
+};
+
+}  // namespace
+
+fs::path foam_folder(const std::string& file) {
+  std::error_code ignored;
+  const fs::path path(file);
+  fs::path folder = fs::is_directory(path, ignored) ? path : path.parent_path();
+  if (path.filename() == "controlDict") folder = folder.parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+fs::path FoamBoundaryReader::region_of(const std::string& block) const {
+  const std::size_t end = block.find("/internalMesh");
+  if (end != std::string::npos)
+    return block.substr(0, end) == "defaultRegion" ? fs::path() : fs::path(block.substr(0, end));
+  if (there(folder_ / "constant/polyMesh/boundary")) return {};
+  // A case of one region alone.
+  std::error_code error;
+  for (fs::directory_iterator it(folder_ / "constant", error), last; !error && it != last;
+       it.increment(error)) {
+    if (there(it->path() / "polyMesh/boundary")) return it->path().filename();
+  }
+  return {};
+}
+
+/// The last at or before the time that has a mesh of its own: it may move.
+fs::path FoamBoundaryReader::mesh_folder(const fs::path& region, double time) const {
+  fs::path out = folder_ / "constant" / region / "polyMesh";
+  for (const auto& [at, folder] : times_in(folder_)) {
+    if (at <= time && there(folder / region / "polyMesh/faces")) out = folder / region / "polyMesh";
+  }
+  return out;
+}
+
+const FoamBoundaryReader::Mesh& FoamBoundaryReader::mesh_in(const fs::path& folder) {
+  const auto known = meshes_.find(folder);
+  if (known != meshes_.end()) return known->second;
+  Mesh mesh;
+  mesh.patches = read_foam_patches(FoamText(folder / "boundary").text(), (folder / "boundary").string());
+  mesh.first_face = std::numeric_limits<std::size_t>::max();
+  for (const FoamPatch& patch : mesh.patches) mesh.first_face = std::min(mesh.first_face, patch.first_face);
+  mesh.faces =
+      read_foam_faces(FoamText(folder / "faces").text(), mesh.first_face, (folder / "faces").string());
+  mesh.points = read_foam_count(FoamText(folder / "points").text(), (folder / "points").string());
+  return meshes_[folder] = std::move(mesh);
+}
+
+std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, double time) {
+  std::set<std::string> problems;
+  for (DataSet& block : blocks) {
+    const auto* mesh_of_block = std::get_if<UnstructuredTopology>(&block.topology);
+    if (mesh_of_block == nullptr) continue;
+    const fs::path region = region_of(block.name);
+    fs::path at;
+    for (const auto& [when, folder] : times_in(folder_)) {
+      if (when == time) at = folder / region;
+    }
+    const std::vector<DataArray> arrays = block.arrays;
+    std::vector<Vec3> positions;
+    for (const DataArray& array : arrays) {
+      if (array.association != Association::kCell || !there(at / array.name)) continue;
+      const auto problem = [&](const std::string& what) {
+        problems.insert("boundary of '" + array.name + "', " + what + ": interpolated from the cells");
+      };
+      try {
+        const Mesh& mesh = mesh_in(mesh_folder(region, time));
+        std::vector<std::string> found;
+        const FoamText field(at / array.name);
+        const auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found);
+        for (const std::string& what : found) problem(what);
+        if (values.empty()) continue;
+        if (mesh.points != mesh_of_block->positions.tuples) {
+          problem(std::to_string(mesh.points) + " points where the mesh has " +
+                  std::to_string(mesh_of_block->positions.tuples));
+          continue;
+        }
+        if (positions.empty()) positions = positions_of(*mesh_of_block);
+        const std::vector<double> numbers =
+            foam_point_values(mesh.patches, mesh.faces, mesh.first_face, values, array.components, positions);
+        if (numbers.empty()) continue;
+        block.arrays.push_back(make_array(boundary_array_of(array.name), Association::kPoint,
+                                          array.components, std::span<const double>(numbers)));
+      } catch (const Error& error) {
+        problem(error.what());
+      }
+    }
+  }
+  return {problems.begin(), problems.end()};
+}
+
+std::vector<fs::path> foam_processors(const fs::path& folder, const std::string& file,
+                                      std::vector<std::string>& notes) {
+  std::vector<std::pair<double, fs::path>> single;
+  bool collated = false;
+  std::error_code error, ignored;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    constexpr std::string_view kName = "processor";
+    if (name.compare(0, kName.size(), kName) != 0 || !it->is_directory(ignored)) continue;
+    const auto rank = parsed<int>(std::string_view(name).substr(kName.size()));
+    if (rank && *rank >= 0) single.emplace_back(*rank, it->path());
+    collated = collated || name.compare(0, kName.size() + 1, "processors") == 0;
+  }
+  if (single.empty() && !collated) return {};
+  std::sort(single.begin(), single.end());
+  const std::optional<double> own = last_time(folder);
+  const std::optional<double> parts = single.empty() ? std::nullopt : last_time(single.front().second);
+  if (own && !(parts && *parts > *own)) {
+    notes.push_back("the case's own times are read, not those of its " +
+                    std::string(single.empty() ? "collated " : "") + "processor folders");
+    return {};
+  }
+  if (single.empty()) {
+    throw input_error({file, "", "has values in collated processor folders alone, which are not read",
+                       "folders of times, or processor0, processor1, …", "run reconstructPar"});
+  }
+  if (own) {
+    notes.push_back("the processor folders are read: they go on after time " + short_number(*own) +
+                    ", the last of the case's own");
+  }
+  std::vector<fs::path> out;
+  for (auto& [rank, path] : single) out.push_back(std::move(path));
+  return out;
+}
+
+std::unique_ptr<Loader> make_decomposed_reader(std::vector<fs::path> folders,
+                                               std::function<std::unique_ptr<Loader>()> make_case) {
+  return std::make_unique<DecomposedReader>(std::move(folders), std::move(make_case));
+}
+
+}  // namespace palpate

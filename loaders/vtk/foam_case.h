@@ -1,0 +1,55 @@
+/// The files of an OpenFOAM case beside VTK's reader of them: values at the boundary, and folders of processors.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/load/helper/serve.h"
+#include "loaders/vtk/foam_boundary.h"
+
+namespace palpate {
+
+/// The folder of the case that `file` (a marker, system/controlDict, or the folder) belongs to.
+[[nodiscard]] std::filesystem::path foam_folder(const std::string& file);
+
+/// Adds what fields are at the boundary to blocks of a case.
+class FoamBoundaryReader {
+ public:
+  FoamBoundaryReader() = default;
+  explicit FoamBoundaryReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// For each array of cells of each block its point array (boundary_array_of()), where patches give values.
+  /// @returns in words what could not be read, and is interpolated from the cells therefore.
+  std::vector<std::string> add(std::vector<DataSet>& blocks, double time);
+
+ private:
+  struct Mesh {
+    std::vector<FoamPatch> patches;
+    FoamFaces faces;
+    std::size_t first_face = 0, points = 0;
+  };
+  [[nodiscard]] std::filesystem::path region_of(const std::string& block) const;
+  [[nodiscard]] std::filesystem::path mesh_folder(const std::filesystem::path& region, double time) const;
+  const Mesh& mesh_in(const std::filesystem::path& folder);
+
+  std::filesystem::path folder_;
+  std::map<std::filesystem::path, Mesh> meshes_;  ///< by their folders polyMesh
+};
+
+/// The folders processor0, processor1, … of a case whose last values stand in them, by their numbers; none where the
+/// case's own times go as far. @throws Error (bad input) with `file` where only collated ones (processors4) have values.
+/// @param notes what of the case is not read.
+[[nodiscard]] std::vector<std::filesystem::path> foam_processors(const std::filesystem::path& folder,
+                                                                 const std::string& file,
+                                                                 std::vector<std::string>& notes);
+
+/// Reads each of `folders` as a case by a loader of its own; their blocks, at the times that all of them have.
+[[nodiscard]] std::unique_ptr<Loader> make_decomposed_reader(
+    std::vector<std::filesystem::path> folders, std::function<std::unique_ptr<Loader>()> make_case);
+
+}  // namespace palpate

@@ -1,0 +1,263 @@
+// OpenFOAM cases: what fields are at the boundary, and cases in the folders of processors.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/field/boundary_values.h"
+#include "common/field/scalar_field.h"
+#include "common/field/vector_field.h"
+#include "common/load/load.h"
+#include "common/trace/trace.h"
+#include "tests/loaders/foam_box.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate {
+namespace {
+
+using test::FoamBox;
+namespace fs = std::filesystem;
+
+Vec3 helix(const Vec3& x) { return {-x.y, x.x, 0.3}; }
+
+bool says(const std::vector<std::string>& notes, const std::string& words) {
+  return std::ranges::any_of(notes,
+                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+std::shared_ptr<const VectorField> field_of(const std::vector<DataSet>& blocks) {
+  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kCell, {"U"}, "U"};
+  return make_vector_field(blocks, choice, "foam");
+}
+
+// --- folders of processors --------------------------------------------------------------------------------
+
+constexpr const char* kFree = "border { type zeroGradient; }\n";
+
+std::string border(const Vec3&) { return "border"; }
+
+/// In 1, 2 or 4 parts.
+void write_parts(const fs::path& folder, int parts, bool binary, const std::set<std::string>& times) {
+  constexpr int kN = 6;
+  const auto rank_of = [parts](const Index3& cube) {
+    return parts == 1 ? 0 : (cube.x >= kN / 2 ? 1 : 0) + (parts == 4 && cube.y >= kN / 3 ? 2 : 0);
+  };
+  FoamBox::write_control(folder);
+  fs::create_directories(folder / "constant");
+  for (int rank = 0; rank < parts; ++rank) {
+    const FoamBox box(kN, border, rank_of, rank);
+    const fs::path part = parts == 1 ? folder : folder / ("processor" + std::to_string(rank));
+    box.write_mesh(part, binary);
+    for (const std::string& time : times) box.write_vectors(part / time / "U", binary, helix, kFree);
+  }
+}
+
+/// Lines follow the helix to the border of the box.
+void expect_helices(const std::vector<DataSet>& blocks) {
+  const auto field = field_of(blocks);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> side(-0.7, 0.7), up(0.05, 0.4);
+  std::vector<Vec3> from;
+  for (int i = 0; i < 40; ++i) {
+    const double x = side(random), y = side(random);
+    from.emplace_back(x, y, up(random));
+  }
+  TraceOptions options;
+  options.integrator = Integrator::kExact;
+  options.threads = 1;
+  for (const Line& line : trace_lines(*field, from, options).lines) {
+    const Vec3& x0 = from[line.seed];
+    const LinePoint& last = line.points.back();
+    EXPECT_EQ(line.end, End::kLeftDomain);
+    const double out =
+        std::max({std::abs(last.position.x), std::abs(last.position.y), last.position.z - 1.0});
+    EXPECT_NEAR(out, 1.0, 3e-6) << line.seed;
+    const double c = std::cos(last.time), s = std::sin(last.time);
+    EXPECT_LE(
+        glm::distance(last.position, {c * x0.x - s * x0.y, s * x0.x + c * x0.y, x0.z + 0.3 * last.time}),
+        1e-6);
+  }
+}
+
+TEST(FoamProcessors, AreOneCase) {
+  for (const bool binary : {false, true}) {
+    for (const int parts : {1, 2, 4}) {
+      SCOPED_TRACE(parts);
+      const test::TempFolder folder;
+      write_parts(folder.path(), parts, binary, {"0", "1"});
+      Source source = Source::open({{folder.path()}, {}});
+      EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 1.0}));
+      ASSERT_EQ(source.info().blocks.size(), static_cast<std::size_t>(parts));
+      EXPECT_EQ(says(source.info().notes, "processor folders read as one case"), parts > 1);
+      const auto blocks = source.read({"U"}, 1);
+      ASSERT_EQ(blocks.size(), static_cast<std::size_t>(parts));
+      if (parts > 1) {
+        EXPECT_EQ(blocks[1].name.substr(0, 10), "processor1");
+      }
+      expect_helices(blocks);
+    }
+  }
+}
+
+TEST(FoamProcessors, TimesThatNotAllHaveAreLeftOut) {
+  const test::TempFolder folder;
+  write_parts(folder.path(), 2, false, {"0", "1", "2"});
+  fs::remove_all(folder.path("processor1/1"));
+  Source source = Source::open({{folder.path()}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 2.0}));
+  EXPECT_TRUE(says(source.info().notes, "1 time left out: not all"));
+  EXPECT_EQ(source.read({"U"}, 1).size(), 2U);
+  fs::remove_all(folder.path("processor1/0"));
+  fs::remove_all(folder.path("processor0/2"));
+  EXPECT_THROW((void)Source::open({{folder.path()}, {}}), Error);
+}
+
+TEST(FoamProcessors, AreReadWhereTheCaseHasOnlyItsStart) {
+  const test::TempFolder folder;
+  write_parts(folder.path(), 1, false, {"0"});
+  write_parts(folder.path(), 2, false, {"0", "1"});
+  Source source = Source::open({{folder.path()}, {}});
+  EXPECT_TRUE(says(source.info().notes, "they go on after time 0"));
+  expect_helices(source.read({"U"}, 1));
+  write_parts(folder.path(), 1, false, {"1"});
+  Source own = Source::open({{folder.path()}, {}});
+  EXPECT_TRUE(says(own.info().notes, "the case's own times are read"));
+  EXPECT_EQ(own.read({"U"}, 1).size(), 1U);
+}
+
+TEST(FoamProcessors, CollatedOnesAreNamed) {
+  const test::TempFolder folder;
+  write_parts(folder.path(), 2, false, {"0"});
+  fs::rename(folder.path("processor0"), folder.path("processors2"));
+  fs::remove_all(folder.path("processor1"));
+  try {
+    (void)Source::open({{folder.path()}, {}});
+    FAIL() << "opened";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("collated"), std::string::npos) << error.what();
+  }
+}
+
+// --- the boundary -----------------------------------------------------------------------------------------
+
+constexpr int kN = 5;
+
+std::string patch_of(const Vec3& middle) {
+  if (middle.y > 0.99) return "lid";
+  if (middle.y < -0.99) return "floor";
+  if (middle.x < -0.99) return "inlet";
+  if (middle.x > 0.99) return "outlet";
+  return middle.z < 0.01 ? "front" : "back";
+}
+
+struct Checked {
+  Vec3 value{0.0};
+  std::size_t count = 0;
+};
+
+/// What U is at the points with this coordinate, away from other patches: all alike.
+Checked at_points(const DataSet& block, int axis, double coordinate) {
+  Checked out;
+  const DataArray* const values = block.find(boundary_array_of("U"), Association::kPoint);
+  const auto& positions = std::get<UnstructuredTopology>(block.topology).positions;
+  for (std::size_t p = 0; values != nullptr && p < positions.tuples; ++p) {
+    const Vec3 x{positions.at(p, 0), positions.at(p, 1), positions.at(p, 2) - 1.0};
+    bool alone = std::abs(x[axis] - coordinate) < 1e-9;
+    for (int other = 0; other < 3; ++other) alone = alone && (other == axis || std::abs(x[other]) < 0.99);
+    if (!alone) continue;
+    const Vec3 here{values->at(p, 0), values->at(p, 1), values->at(p, 2)};
+    if (out.count++ > 0 && is_finite(here)) {
+      EXPECT_EQ(here, out.value);
+    }
+    out.value = here;
+  }
+  return out;
+}
+
+class FoamBoundary : public ::testing::TestWithParam<bool> {};
+
+TEST_P(FoamBoundary, IsAsThePatchesSay) {
+  const bool binary = GetParam();
+  const test::TempFolder folder;
+  const FoamBox box(kN, patch_of);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), binary,
+                 {{"floor", " inGroups 1(still);\n"}, {"inlet", " inGroups List<word> 2(flow still);\n"}});
+  std::vector<Vec3> profile;
+  for (const Vec3& x : box.middles("inlet")) profile.emplace_back(1.0 - x.y * x.y, 0.0, 0.0);
+  box.write_vectors(folder.path("1/U"), binary, helix,
+                    "lid /* moves */ { type fixedValue; value uniform (1 0 0); }  // comment\n"
+                    "still { type noSlip; }\n"
+                    "inlet { type codedMixed; refValue uniform (9 9 9); nested { a (b); } value nonuniform " +
+                        FoamBox::vectors(profile, binary) +
+                        "; }\n"
+                        "outlet { type zeroGradient; value uniform (8 8 8); }\n"
+                        "\"(front|ba.*)\" { type movingWallVelocity; value uniform (0 0.5 0); }\n");
+  Source source = Source::open({{folder.path()}, {}});
+  const auto blocks = source.read({"U"}, 0);
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_FALSE(says(source.info().notes, "boundary of 'U'"));
+
+  const DataSet& block = blocks.front();
+  EXPECT_EQ(at_points(block, 1, 1.0).value, Vec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(at_points(block, 1, 1.0).count, std::size_t{(kN - 1) * (kN - 1)});
+  EXPECT_EQ(at_points(block, 1, -1.0).value, Vec3(0.0));
+  EXPECT_EQ(at_points(block, 2, -1.0).value, Vec3(0.0, 0.5, 0.0));
+  EXPECT_EQ(at_points(block, 2, 1.0).value, Vec3(0.0, 0.5, 0.0));
+  EXPECT_FALSE(is_finite(at_points(block, 0, 1.0).value));
+
+  const auto field = field_of(blocks);
+  EXPECT_TRUE(says(field->notes().lines, "boundary points have the values that the data gives there"));
+  CellHint hint;
+  EXPECT_NEAR(glm::distance(field->sample({0.13, 1.0, 1.07}, hint).value, Vec3(1, 0, 0)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::length(field->sample({0.13, -1.0, 1.07}, hint).value), 0.0, 1e-6);
+  // A corner of the inlet's faces has the mean of theirs: 1 - y^2 is lower by the square of half a face.
+  EXPECT_NEAR(field->sample({-1.0, 0.2, 1.2}, hint).value.x, 1.0 - 0.04 - 0.04, 1e-6);
+  // Where walls meet, the mean of both; where one meets an outlet, the wall.
+  EXPECT_NEAR(glm::distance(field->sample({0.2, 1.0, 0.0}, hint).value, Vec3(0.5, 0.25, 0.0)), 0.0, 1e-6);
+  EXPECT_NEAR(glm::distance(field->sample({1.0, 1.0, 0.8}, hint).value, Vec3(1, 0, 0)), 0.0, 1e-6);
+  // Inside, and at the outlet, what comes from the cells: the helix.
+  EXPECT_NEAR(glm::distance(field->sample({1.0, 0.2, 0.8}, hint).value, helix({1.0, 0.2, 0.8})), 0.0, 1e-6);
+  EXPECT_NEAR(glm::distance(field->sample({0.2, 0.2, 0.8}, hint).value, helix({0.2, 0.2, 0.8})), 0.0, 1e-6);
+}
+INSTANTIATE_TEST_SUITE_P(TextAndBinary, FoamBoundary, ::testing::Bool());
+
+TEST(FoamBoundaryText, WhatCannotBeReadIsInterpolatedAndSaid) {
+  const test::TempFolder folder;
+  const FoamBox box(kN, patch_of);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), false);
+  box.write_vectors(folder.path("1/U"), false, helix,
+                    "lid { type uniformFixedValue; uniformValue constant (1 0 0); }\n"
+                    "floor { type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 0); }\n"
+                    "\".*\" { type slip; }\n");
+  FoamBox::write(folder.path("1/p"),
+                 FoamBox::header("volScalarField", "p", false) +
+                     "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform 2;\nboundaryField\n{\n"
+                     "\".*\" { type zeroGradient; }\n"
+                     "outlet { type fixedValue; value uniform -3; }\n}\n");
+  Source source = Source::open({{folder.path()}, {}});
+  EXPECT_TRUE(
+      says(source.info().notes,
+           "patch 'lid': type uniformFixedValue without values of its own: interpolated from the cells"));
+  const auto blocks = source.read({"U", "p"}, 0);
+  EXPECT_EQ(blocks.front().find(boundary_array_of("U"), Association::kPoint), nullptr);
+  const auto field = field_of(blocks);
+  const auto pressure = make_scalar_field(*field, blocks, {"p", Association::kCell, 0}, "foam");
+  CellHint hint;
+  EXPECT_NEAR(pressure->sample({1.0, 0.1, 0.8}, hint).value, -3.0, 1e-6);
+  EXPECT_NEAR(pressure->sample({-1.0, 0.1, 0.8}, hint).value, 2.0, 1e-6);
+  EXPECT_NEAR(glm::distance(field->sample({0.2, 1.0, 0.8}, hint).value, helix({0.2, 1.0, 0.8})), 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace palpate
