@@ -28,6 +28,8 @@ constexpr double kLittle = 1e-3;
 /// And where they are no more than alike.
 constexpr double kAlike = 0.5;
 constexpr double kThrough = 0.1;
+/// Of what goes through, by how much both sides may differ in it.
+constexpr double kLeaks = 0.25;
 
 class Groups {
  public:
@@ -81,6 +83,7 @@ struct DoubledFace {
 /// What flows at faces that belong together.
 struct Flow {
   double speed = 0.0, through = 0.0, apart = 0.0;  ///< integrals over the faces
+  double leaks = 0.0;                              ///< of what leaves one side, less what enters the other
   bool rim = false;
   bool exact = true;  ///< points of both sides have the very same coordinates
 };
@@ -137,6 +140,7 @@ class WallSearch {
     const double out = glm::dot(here, face.outward), on = glm::dot(there, face.outward);
     flow.speed += face.area * std::max(glm::length(here), glm::length(there));
     flow.apart += face.area * glm::distance(here, there);
+    flow.leaks += face.area * std::abs(out - on);
     if (out * on > 0.0) flow.through += face.area * std::min(std::abs(out), std::abs(on));
   }
 
@@ -245,7 +249,10 @@ bool flows(const Flow& flow, Association of) {
   if (!(flow.speed > 0.0)) return false;
   const double least = of == Association::kCell ? kLittle * flow.speed : 0.0;
   if (flow.apart <= kSame * flow.speed && flow.through >= least) return true;
-  return flow.through >= kThrough * flow.speed && flow.apart <= kAlike * flow.speed;
+  if (flow.apart > kAlike * flow.speed) return false;
+  // Or little of it, but what leaves one side comes in on the other one.
+  return flow.through >= kThrough * flow.speed ||
+         (flow.through >= kLittle * flow.speed && flow.leaks <= kLeaks * flow.through);
 }
 
 }  // namespace

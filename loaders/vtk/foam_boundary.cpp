@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -272,7 +273,8 @@ bool follows_cells(std::string_view type) {
 
 /// Types whose one value for all faces is no first guess.
 bool is_fixed(std::string_view type) {
-  return contains(type, "ixedValue") || contains(type, "WallVelocity") || contains(type, "InletVelocity");
+  return type == "fixedValue" || type == "movingWallVelocity" || type == "rotatingWallVelocity" ||
+         type == "translatingWallVelocity";
 }
 
 /// What an entry of the boundaryField says.
@@ -293,6 +295,11 @@ PatchEntry entry_in(Tokens& tokens, std::size_t components) {
   std::optional<FoamPatchValues> values;
   while (!tokens.done() && tokens.peek() != "}") {
     const std::string_view key = tokens.next();
+    if (key == ";") continue;
+    if (key.substr(0, 1) == "#") {  // with an argument, without an end
+      out.problem = std::string(key.substr(0, 40)) + " " + std::string(tokens.next().substr(0, 60));
+      continue;
+    }
     if (key == "type") type = tokens.peek();
     if (key != "value") {
       tokens.skip_entry();
@@ -323,8 +330,10 @@ PatchEntry entry_in(Tokens& tokens, std::size_t components) {
   } else if (values && (!values->uniform || is_fixed(type))) {
     out.given = true;
     out.values = std::move(*values);
-  } else if (!values && out.problem.empty()) {
-    out.problem = type.empty() ? "no type" : "type " + type.substr(0, 60) + " without values of its own";
+  } else if (out.problem.empty()) {
+    out.problem = type.empty() ? "no type" : "type " + type.substr(0, 60);
+    out.problem +=
+        values ? " with one value for all faces, which may be a first guess" : " without values of its own";
   }
   return out;
 }
@@ -374,6 +383,7 @@ std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::strin
   try {
     Tokens tokens = body_of(text);
     std::vector<FoamPatch> out;
+    std::set<std::string> names;
     if (tokens.peek() != "(") (void)tokens.count();
     tokens.expect("(");
     while (!tokens.done() && tokens.peek() != ")") {
@@ -394,6 +404,8 @@ std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::strin
         tokens.skip_entry();
       }
       tokens.expect("}");
+      if (!names.insert(patch.name).second)
+        throw Malformed{"two patches with the name '" + patch.name.substr(0, 40) + "'"};
       out.push_back(std::move(patch));
     }
     tokens.expect(")");
@@ -430,7 +442,7 @@ FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::s
     const std::size_t points = tokens.count();
     tokens.expect("(");
     const std::string_view all = tokens.bytes(points, storage.label);
-    for (std::size_t face = first; face + 1 < count; ++face) {
+    for (std::size_t face = first; face < count && count - face > 1; ++face) {
       const std::int64_t from = label_in(begins, face, storage), to = label_in(begins, face + 1, storage);
       if (from < 0 || to < from || static_cast<std::size_t>(to) > points)
         throw Malformed{"a face from " + std::to_string(from) + " to " + std::to_string(to)};
@@ -455,6 +467,8 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
     return out;
   }
   std::vector<PatchEntry> entries;
+  constexpr int kMostPatterns = 100;
+  int patterns = 0;
   try {
     Tokens tokens(text.substr(at + kName.size()), storage_of(text));
     tokens.expect("{");
@@ -467,7 +481,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
         continue;
       }
       PatchEntry entry = entry_in(tokens, static_cast<std::size_t>(components));
-      if (entry.pattern && !is_simple(entry.key)) {
+      if (entry.pattern && (!is_simple(entry.key) || ++patterns > kMostPatterns)) {
         problems.push_back("pattern \"" + entry.key.substr(0, 60) + "\"");
       } else {
         entries.push_back(std::move(entry));
@@ -504,6 +518,8 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
   for (const FoamPatch& patch : patches) {
     const auto found = values.find(patch.name);
     if (found == values.end() || patch.first_face < first_face) continue;
+    const FoamPatchValues& given = found->second;
+    if (given.numbers.size() / n < (given.uniform ? 1 : patch.faces)) continue;
     for (std::size_t i = 0; i < patch.faces; ++i) {
       const std::size_t face = patch.first_face - first_face + i;
       if (face + 1 >= faces.begin.size()) break;
@@ -520,7 +536,7 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
         out.assign(positions.size() * n, 0.0);
         weights.assign(positions.size(), 0.0);
       }
-      const double* const value = found->second.numbers.data() + (found->second.uniform ? 0 : i * n);
+      const double* const value = given.numbers.data() + (given.uniform ? 0 : i * n);
       for (std::size_t p = begin; p < end; ++p) {
         const auto point = static_cast<std::size_t>(faces.points[p]);
         const double way = glm::distance(positions[point], middle);

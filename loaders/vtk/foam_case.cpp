@@ -79,6 +79,10 @@ class DecomposedReader : public Loader {
         info.blocks.push_back(std::move(block));
       }
       for (std::string& note : of_part.notes) notes.insert(folder.filename().string() + ": " + note);
+      // A single time is not listed.
+      if (of_part.times.empty()) {
+        if (const std::optional<double> only = last_time(folder)) of_part.times = {*only};
+      }
       times.push_back(std::move(of_part.times));
       parts_.push_back({folder, std::move(reader)});
     }
@@ -158,6 +162,15 @@ class DecomposedReader : public Loader {
       steps_;  ///< of each part, at each common time; empty for single states
 };
 
+// VTK's reader gives XX YY ZZ XY YZ XZ of a symmTensor, files XX XY XZ YY YZ ZZ.
+void order_as_vtk(FoamPatchValues& values) {
+  constexpr std::size_t kSymmetric = 6;
+  for (std::size_t i = 0; i + kSymmetric <= values.numbers.size(); i += kSymmetric) {
+    std::swap(values.numbers[i + 1], values.numbers[i + 3]);
+    std::swap(values.numbers[i + 2], values.numbers[i + 5]);
+  }
+}
+
 }  // namespace
 
 fs::path foam_folder(const std::string& file) {
@@ -200,6 +213,14 @@ const FoamBoundaryReader::Mesh& FoamBoundaryReader::mesh_in(const fs::path& fold
   for (const FoamPatch& patch : mesh.patches) mesh.first_face = std::min(mesh.first_face, patch.first_face);
   mesh.faces =
       read_foam_faces(FoamText(folder / "faces").text(), mesh.first_face, (folder / "faces").string());
+  std::size_t faces = 0;
+  for (const FoamPatch& patch : mesh.patches) {
+    faces += std::min(patch.faces, std::numeric_limits<std::size_t>::max() - faces);
+  }
+  if (faces > mesh.faces.begin.size()) {
+    throw input_error({(folder / "boundary").string(), "", "has patches of more faces than there are",
+                       "each face in one patch", "the file may be damaged"});
+  }
   mesh.points = read_foam_count(FoamText(folder / "points").text(), (folder / "points").string());
   return meshes_[folder] = std::move(mesh);
 }
@@ -214,6 +235,7 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
     for (const auto& [when, folder] : times_in(folder_)) {
       if (when == time) at = folder / region;
     }
+    if (at.empty()) continue;
     const std::vector<DataArray> arrays = block.arrays;
     std::vector<Vec3> positions;
     for (const DataArray& array : arrays) {
@@ -225,7 +247,10 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
         const Mesh& mesh = mesh_in(mesh_folder(region, time));
         std::vector<std::string> found;
         const FoamText field(at / array.name);
-        const auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found);
+        auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found);
+        if (array.components == 6) {
+          for (auto& [patch, of_patch] : values) order_as_vtk(of_patch);
+        }
         for (const std::string& what : found) problem(what);
         if (values.empty()) continue;
         if (mesh.points != mesh_of_block->positions.tuples) {
@@ -276,6 +301,10 @@ std::vector<fs::path> foam_processors(const fs::path& folder, const std::string&
   if (own) {
     notes.push_back("the processor folders are read: they go on after time " + short_number(*own) +
                     ", the last of the case's own");
+  }
+  if (single.back().first + 1.0 != static_cast<double>(single.size())) {
+    notes.push_back("processor folders are missing: " + std::to_string(single.size()) +
+                    " are there, the last is processor" + short_number(single.back().first));
   }
   std::vector<fs::path> out;
   for (auto& [rank, path] : single) out.push_back(std::move(path));

@@ -116,8 +116,15 @@ TEST(FoamProcessors, TimesThatNotAllHaveAreLeftOut) {
   EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 2.0}));
   EXPECT_TRUE(says(source.info().notes, "1 time left out: not all"));
   EXPECT_EQ(source.read({"U"}, 1).size(), 2U);
+  // One of them has a single time.
   fs::remove_all(folder.path("processor1/0"));
+  Source last = Source::open({{folder.path()}, {}});
+  EXPECT_TRUE(says(last.info().notes, "2 times left out: not all"));
+  expect_helices(last.read({"U"}, 0));
   fs::remove_all(folder.path("processor0/2"));
+  EXPECT_THROW((void)Source::open({{folder.path()}, {}}), Error);
+  // Both have.
+  fs::remove_all(folder.path("processor0/0"));
   EXPECT_THROW((void)Source::open({{folder.path()}, {}}), Error);
 }
 
@@ -230,6 +237,44 @@ TEST_P(FoamBoundary, IsAsThePatchesSay) {
   EXPECT_NEAR(glm::distance(field->sample({0.2, 0.2, 0.8}, hint).value, helix({0.2, 0.2, 0.8})), 0.0, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(TextAndBinary, FoamBoundary, ::testing::Bool());
+
+// The components of cells and of the boundary are the same ones.
+TEST(FoamBoundaryText, SymmetricTensorsHaveTheOrderOfTheCells) {
+  const test::TempFolder folder;
+  const FoamBox box(kN, patch_of);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), false);
+  FoamBox::write(folder.path("1/R"),
+                 FoamBox::header("volSymmTensorField", "R", false) +
+                     "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform (1 2 3 4 5 6);\nboundaryField\n{\n"
+                     "\".*\" { type fixedValue; value uniform (1 2 3 4 5 6); }\n}\n");
+  Source source = Source::open({{folder.path()}, {}});
+  const auto blocks = source.read({"R"}, 0);
+  ASSERT_EQ(blocks.size(), 1U);
+  const DataArray* cells = blocks.front().find("R", Association::kCell);
+  const DataArray* border = blocks.front().find(boundary_array_of("R"), Association::kPoint);
+  ASSERT_NE(cells, nullptr);
+  ASSERT_NE(border, nullptr);
+  for (int c = 0; c < 6; ++c) EXPECT_EQ(number_of(*border, 0, c), number_of(*cells, 0, c)) << c;
+}
+
+TEST(FoamBoundaryText, PatchesWithOneNameAreRefused) {
+  const test::TempFolder folder;
+  const FoamBox box(kN, patch_of);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), false);
+  box.write_vectors(folder.path("1/U"), false, helix, "\".*\" { type noSlip; }\n");
+  FoamBox::write(
+      folder.path("constant/polyMesh/boundary"),
+      FoamBox::header("polyBoundaryMesh", "boundary", false) +
+          "2\n(\nlid { type wall; nFaces 1; startFace 1; }\nlid { type wall; nFaces 9; startFace 2; }\n)\n");
+  try {
+    Source source = Source::open({{folder.path()}, {}});
+    EXPECT_TRUE(says(source.info().notes, "two patches with the name 'lid'"));
+  } catch (const Error&) {
+    SUCCEED();  // VTK's reader refuses it first
+  }
+}
 
 TEST(FoamBoundaryText, WhatCannotBeReadIsInterpolatedAndSaid) {
   const test::TempFolder folder;

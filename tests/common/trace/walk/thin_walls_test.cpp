@@ -295,6 +295,18 @@ TEST(ThinWalls, SeamsThatFlowGoesThroughAreNone) {
   }
 }
 
+// Little flow goes through, most along, and faster on one side: what leaves one side comes in on the other.
+TEST(ThinWalls, SeamsAlongTheFlowAreNone) {
+  const auto beside = [](const Vec3&, Side side) { return Vec3(0.02, side == Side::kLow ? 1.0 : 1.2, 0.0); };
+  for (const std::uint8_t type : kTypes) {
+    SCOPED_TRACE(int{type});
+    const Field field =
+        field_of({WalledBox(type, all_over).take(Association::kCell, beside)}, Association::kCell);
+    EXPECT_TRUE(noted(field->notes(), "seams, not thin walls"));
+    EXPECT_FALSE(noted(field->notes(), "baffles"));
+  }
+}
+
 /// A ring of hexahedra about the z axis that closes on itself with two sets of points.
 DataSet ring(double off, Association association) {
   constexpr int kAround = 24, kOut = 3, kUp = 2;
