@@ -21,9 +21,9 @@ struct NrrdClaims {
   bool detached = false;
   std::vector<std::string> data_files;  ///< as the header names them
   bool skips = false;                   ///< lines or bytes before the values are left out
-  bool from_end = false;                ///< the values are found from the end of the file, whatever stands before them
-  std::uint64_t header_bytes = 0;       ///< where attached data begins
-  std::string problem;                  ///< what is wrong, or empty
+  bool from_end = false;  ///< the values are found from the end of the file, whatever stands before them
+  std::uint64_t header_bytes = 0;  ///< where attached data begins
+  std::string problem;             ///< what is wrong, or empty
 };
 
 /// Reads the claims from the start of a NRRD file. Unknown fields are Teem's business.

@@ -162,7 +162,17 @@ class DecomposedReader : public Loader {
       steps_;  ///< of each part, at each common time; empty for single states
 };
 
-// VTK's reader gives XX YY ZZ XY YZ XZ of a symmTensor, files XX XY XZ YY YZ ZZ.
+/// Whether the cells have one value: "internalField uniform …".
+bool is_uniform(std::string_view text) {
+  constexpr std::string_view kField = "internalField", kUniform = "uniform";
+  const std::size_t field = text.find(kField);
+  if (field == std::string_view::npos) return false;
+  const std::size_t how = text.find_first_not_of(" \t\r\n", field + kField.size());
+  return how != std::string_view::npos && text.substr(how, kUniform.size()) == kUniform;
+}
+
+// VTK's reader gives XX YY ZZ XY YZ XZ of a list of symmTensors, files XX XY XZ YY YZ ZZ. It leaves one for all
+// cells as it is.
 void order_as_vtk(FoamPatchValues& values) {
   constexpr std::size_t kSymmetric = 6;
   for (std::size_t i = 0; i + kSymmetric <= values.numbers.size(); i += kSymmetric) {
@@ -248,7 +258,7 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
         std::vector<std::string> found;
         const FoamText field(at / array.name);
         auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found);
-        if (array.components == 6) {
+        if (array.components == 6 && !is_uniform(field.text())) {
           for (auto& [patch, of_patch] : values) order_as_vtk(of_patch);
         }
         for (const std::string& what : found) problem(what);

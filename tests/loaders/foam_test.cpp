@@ -14,6 +14,7 @@
 
 #include "common/base/error.h"
 #include "common/field/boundary_values.h"
+#include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
@@ -240,22 +241,32 @@ INSTANTIATE_TEST_SUITE_P(TextAndBinary, FoamBoundary, ::testing::Bool());
 
 // The components of cells and of the boundary are the same ones.
 TEST(FoamBoundaryText, SymmetricTensorsHaveTheOrderOfTheCells) {
-  const test::TempFolder folder;
-  const FoamBox box(kN, patch_of);
-  FoamBox::write_control(folder.path());
-  box.write_mesh(folder.path(), false);
-  FoamBox::write(folder.path("1/R"),
-                 FoamBox::header("volSymmTensorField", "R", false) +
-                     "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform (1 2 3 4 5 6);\nboundaryField\n{\n"
-                     "\".*\" { type fixedValue; value uniform (1 2 3 4 5 6); }\n}\n");
-  Source source = Source::open({{folder.path()}, {}});
-  const auto blocks = source.read({"R"}, 0);
-  ASSERT_EQ(blocks.size(), 1U);
-  const DataArray* cells = blocks.front().find("R", Association::kCell);
-  const DataArray* border = blocks.front().find(boundary_array_of("R"), Association::kPoint);
-  ASSERT_NE(cells, nullptr);
-  ASSERT_NE(border, nullptr);
-  for (int c = 0; c < 6; ++c) EXPECT_EQ(number_of(*border, 0, c), number_of(*cells, 0, c)) << c;
+  for (const bool listed : {false, true}) {
+    const test::TempFolder folder;
+    const FoamBox box(kN, patch_of);
+    FoamBox::write_control(folder.path());
+    box.write_mesh(folder.path(), false);
+    std::string inside = "uniform (1 2 3 4 5 6)";
+    if (listed) {
+      inside = "nonuniform List<symmTensor> " + std::to_string(kN * kN * kN) + "(";
+      for (int c = 0; c < kN * kN * kN; ++c) inside += "(1 2 3 4 5 6)\n";
+      inside += ")";
+    }
+    FoamBox::write(folder.path("1/R"), FoamBox::header("volSymmTensorField", "R", false) +
+                                           "dimensions [0 2 -2 0 0 0 0];\ninternalField " + inside +
+                                           ";\nboundaryField\n{\n" +
+                                           "\".*\" { type fixedValue; value uniform (1 2 3 4 5 6); }\n}\n");
+    Source source = Source::open({{folder.path()}, {}});
+    const auto blocks = source.read({"R"}, 0);
+    ASSERT_EQ(blocks.size(), 1U);
+    const DataArray* cells = blocks.front().find("R", Association::kCell);
+    const DataArray* border = blocks.front().find(boundary_array_of("R"), Association::kPoint);
+    ASSERT_NE(cells, nullptr);
+    ASSERT_NE(border, nullptr);
+    for (int c = 0; c < 6; ++c) {
+      EXPECT_EQ(number_of(*border, 0, c), number_of(*cells, 0, c)) << c << (listed ? " listed" : "");
+    }
+  }
 }
 
 TEST(FoamBoundaryText, PatchesWithOneNameAreRefused) {
