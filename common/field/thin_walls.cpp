@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 
+#include "common/base/disjoint_sets.h"
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/tet_seams.h"
@@ -30,23 +30,6 @@ constexpr double kAlike = 0.5;
 constexpr double kThrough = 0.1;
 /// Of what goes through, by how much both sides may differ in it.
 constexpr double kLeaks = 0.25;
-
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t of(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = of(a);
-    b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
   return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
@@ -125,7 +108,7 @@ class WallSearch {
     const std::size_t pieces = piece_count_[block], count = cell_count_[block];
     return pieces == count || (pieces >= kManyPieces && count <= kSmallPiece * pieces);
   }
-  [[nodiscard]] std::uint32_t piece(std::uint32_t cell) { return pieces_.of(cell); }
+  [[nodiscard]] std::uint32_t piece(std::uint32_t cell) { return pieces_.find(cell); }
 
   void add(Flow& flow, const DoubledFace& face) const {
     Vec3 here{0.0}, there{0.0};
@@ -185,7 +168,7 @@ class WallSearch {
       }
     }
     for (std::uint32_t cell = 0; cell < cells; ++cell) {
-      if (!tets_of(cell).empty() && pieces_.of(cell) == cell) ++piece_count_[block_of(cell)];
+      if (!tets_of(cell).empty() && pieces_.find(cell) == cell) ++piece_count_[block_of(cell)];
     }
   }
 
@@ -238,7 +221,7 @@ class WallSearch {
   const SplitCells& cells_;
   const TetMesh& mesh_;
   const VelocityBeside& velocity_;
-  Groups pieces_;
+  DisjointSets pieces_;
   std::vector<std::size_t> begin_;   ///< of each source cell in tets_
   std::vector<std::uint32_t> tets_;  ///< of the mesh, by source cell
   std::vector<std::size_t> piece_count_, cell_count_;
@@ -263,7 +246,7 @@ ThinWalls::ThinWalls(const SplitCells& cells, const VelocityBeside& velocity, As
   if (faces.empty()) return;
 
   // Faces within a piece belong together where they meet, those of two pieces all do.
-  Groups meeting(cells.place.size());
+  DisjointSets meeting(cells.place.size());
   for (const DoubledFace& face : faces) {
     if (search.piece(face.cell) != search.piece(face.behind)) continue;
     for (std::size_t i = 1; i < 3; ++i)
@@ -271,7 +254,7 @@ ThinWalls::ThinWalls(const SplitCells& cells, const VelocityBeside& velocity, As
   }
   const auto key_of = [&](const DoubledFace& face) {
     const std::uint32_t a = search.piece(face.cell), b = search.piece(face.behind);
-    return std::pair(pair_of(a, b), a == b ? meeting.of(cells.place[face.corners[0]]) : 0U);
+    return std::pair(pair_of(a, b), a == b ? meeting.find(cells.place[face.corners[0]]) : 0U);
   };
   std::map<std::pair<std::uint64_t, std::uint32_t>, Flow> flow;
   const auto loose = [&](const DoubledFace& face) {

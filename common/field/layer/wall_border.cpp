@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <span>
 
+#include "common/base/disjoint_sets.h"
 #include "common/base/index.h"
 
 namespace palpate {
@@ -14,24 +14,6 @@ namespace {
 
 /// The corners opposite each vertex of a positively oriented tetrahedron, their normal outwards.
 constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
-/// Sets that are merged two by two.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void merge(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 struct Edge {
   std::uint32_t low, high, triangle;
@@ -114,13 +96,13 @@ WallBorder border_of(const TetMesh& mesh) {
 
 std::vector<BorderPart> border_parts(const TetMesh& mesh, const WallBorder& border, double crease) {
   const std::span<const Vec3> points = mesh.points();
-  Groups groups(border.triangles.size());
+  DisjointSets groups(border.triangles.size());
   const double least_cosine = std::cos(crease);
   for (const auto& [a, b] : border.joints) {
     // A triangle without area has no normal and goes with its neighbours.
     const Vec3 m = border.normal(a), n = border.normal(b);
     const bool flat = m == Vec3{0.0} || n == Vec3{0.0};
-    if (flat || glm::dot(m, n) > least_cosine) groups.merge(a, b);
+    if (flat || glm::dot(m, n) > least_cosine) groups.unite(a, b);
   }
   std::vector<BorderPart> parts;
   std::vector<std::int64_t> part_of_root(border.triangles.size(), -1);
