@@ -102,7 +102,8 @@ std::string rule_text(const FibreRuleSummary& summary, const std::string& progra
     text += "; it is not defined in " + std::to_string(summary.undefined) + " more, up to " +
             short_number(summary.farthest) + " from the apex: they have the mean axis of their neighbours";
   if (summary.without > 0) text += ", but for " + std::to_string(summary.without) + " without any: zero";
-  text += "\n";
+  text += "\n  steps      the rule turns by " + degrees(summary.median_turn) +
+          " within half of the elements, by less than " + degrees(summary.most_turn) + " in 95 % of them\n";
   for (const std::string& note : summary.notes) text += "  note       " + note + "\n";
   return text + "  open it    " + program + " " + summary.files.front() + "\n";
 }
@@ -144,8 +145,16 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                            .undefined = made.undefined,
                            .without = made.without,
                            .farthest = made.farthest,
+                           .median_turn = made.median_turn / kRadian,
+                           .most_turn = made.most_turn / kRadian,
                            .two = wall.surfaces.has(BorderRole::kRight),
                            .notes = notes_of(wall.surfaces)};
+  constexpr double kCoarse = 20.0;  // degrees
+  if (summary.most_turn > kCoarse)
+    summary.notes.push_back(
+        "WARNING: the wall has few elements from surface to surface. An element has one fibre, the "
+        "mean of what the rule asks for within it: angles on the surfaces are missed by up to " +
+        degrees(0.5 * summary.most_turn) + "; a mesh with finer elements shows the rule");
   if (!left_out.empty())
     summary.notes.push_back("arrays of vectors are left out, the rule's directions stand in their place: " +
                             left_out);

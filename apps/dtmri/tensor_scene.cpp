@@ -12,6 +12,7 @@
 #include "common/compose/domain_outline.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/volume_scene.h"
 #include "common/load/read_tractogram.h"
 
@@ -171,6 +172,7 @@ VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy, con
   volume.context.viewport = with.context_viewport;
   volume.context.level = with.context_level;
   volume.shading = with.shading;
+  volume.panes = slice_panes_of(options.panes, volume.image->bounds());
   const Lens model = direction_lens(with, *volume.image);
   VolumeParts parts = make_parts(with, model);
   const auto said = [](const std::string& one) { return !one.empty(); };

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
                  "with a transfer function of your own"}}),
            slice_verb(
                {{"grid slice head.nii.gz --plane coronal:-20 --out slice.png", "right stays on the right"},
+                {"grid slice head.nii.gz --layout 4 --cross 0,-20,15 --out slices.png",
+                 "three slices through a place, and the volume"},
                 {"grid slice ct.nii.gz --plane axial:40 --window 400 --level 40 --out soft.png",
                  "Hounsfield units from -160 to 240"},
                 {"grid slice tooth.nhdr --plane 1,1,1,150 --spacing 0.5 --out oblique.vti",

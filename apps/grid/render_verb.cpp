@@ -7,6 +7,7 @@
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/volume_fields.h"
 #include "common/compose/volume_scene.h"
 #include "common/hand/haptic_surface_view.h"
@@ -68,14 +69,15 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
 Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the volume, with or without a display",
-          .groups = {Group::kInput, Group::kView, Group::kTouch, Group::kPath, Group::kNotes, Group::kOut,
-                     Group::kPicture},
+          .groups = {Group::kInput, Group::kView, Group::kPanes, Group::kTouch, Group::kPath, Group::kNotes,
+                     Group::kOut, Group::kPicture},
           .examples = std::move(examples),
           .run = [modes = std::move(modes)](const Document& options, const VerbContext& context) {
             const PictureMaker maker{
                 .check =
                     [&modes](const Document& given) {
                       check_volume_options(given.volume);
+                      (void)slice_panes_of(given.panes, Box());
                       if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
                       (void)find_mode(modes, given.touch.mode);
                       (void)touch_settings(given.touch);

@@ -22,6 +22,7 @@
 #include "common/field/grid/image_contours.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/value_histogram.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/load/write/write_image.h"
 #include "common/load/write/write_lines.h"
 #include "common/render/png.h"
@@ -53,12 +54,10 @@ void check_request(const Document& options) {
 
 /// What the file states of black and white, where the options name neither.
 SliceOptions with_window_of(const Input& input, SliceOptions slice) {
-  const FileInfo* const file = input.file();
-  if (file == nullptr || !file->window || slice.window || slice.level) return slice;
-  const std::array<double, 2>& stated = *file->window;
-  if (!(stated[0] < stated[1])) return slice;
-  slice.window = stated[1] - stated[0];
-  slice.level = 0.5 * (stated[0] + stated[1]);
+  const auto stated = stated_window(input);
+  if (!stated || slice.window || slice.level) return slice;
+  slice.window = stated->width;
+  slice.level = stated->level;
   return slice;
 }
 
@@ -177,8 +176,23 @@ Box bounds_of(const UniformTopology& grid) {
   return box;
 }
 
+/// Slices side by side, and the volume with them: what a window shows in panes.
+ExitCode draw_panes(const Document& options, const VerbContext& context) {
+  if (options.output.file.empty()) throw usage_error("slice needs an output: try --out slices.png");
+  for (const std::string& name : options.given) {
+    if (name == "plane" || name == "spacing" || name == "contours")
+      throw usage_error("--" + name + " is for one slice: --layout " + options.panes.layout +
+                        " shows those through --cross, in pixels of the picture");
+  }
+  Document drawn = options;
+  drawn.volume.window = options.slice.window;
+  drawn.volume.level = options.slice.level;
+  return volume_render_verb(modes_of(FieldKind::kScalar), {}).run(drawn, context);
+}
+
 ExitCode run_slice(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
+  if (options.panes.layout != PanesOptions{}.layout) return draw_panes(options, context);
   check_request(options);
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
@@ -247,8 +261,8 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
 
 Verb slice_verb(std::vector<UsageExample> examples) {
   return {.name = "slice",
-          .summary = "write a slice through the volume as a picture or an image",
-          .groups = {Group::kInput, Group::kOut, Group::kSlice},
+          .summary = "write a slice through the volume as a picture or an image, or several side by side",
+          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes},
           .examples = std::move(examples),
           .run = run_slice};
 }

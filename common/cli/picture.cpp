@@ -17,7 +17,7 @@
 #include "common/hand/technique/scene_pick.h"
 #include "common/hand/workbench/head_view.h"
 #include "common/render/png.h"
-#include "common/render/render_image.h"
+#include "common/render/render_panes.h"
 #include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
@@ -195,7 +195,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     const int repeat =
         options.output.repeat > 0 ? options.output.repeat : (console.json() ? kFramesForJson : 0);
     const RenderedImage rendered =
-        render_image(drawn.view, across, up, repeat, options.view.frame_budget, console.json());
+        render_panes(drawn.view, across, up, repeat, options.view.frame_budget, console.json());
     summary.output = output_of(options.output.file, picture, pictures.size() > 1).string();
     summary.width = rendered.image.width;
     summary.height = rendered.image.height;

@@ -302,6 +302,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     if (file) run.log_to(*file, haptics.chain->size(), logged);
     planes = haptics.planes;
     summary.landmarks = haptics.landmarks;
+    if (!haptics.note.empty()) console.note(haptics.note);
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (immersive) {
       ImmersiveTechnique technique(workbench, felt.bounds.center(), workspace.scale());

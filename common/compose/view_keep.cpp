@@ -10,6 +10,7 @@
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
 #include "common/compose/plane_image_text.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/math/vec_text.h"
 #include "common/scene/session_of.h"
 
@@ -70,6 +71,7 @@ void keep_volume(const VolumeView& volume, Document& document) {
     kept.level = planes.window->level;
   }
   kept.contours = contours_text(planes.contours);
+  keep_panes(volume.panes, volume.image->bounds(), document.panes);
 }
 
 }  // namespace palpate

@@ -16,7 +16,7 @@ void keep_camera(const SceneView& view, Document& document);
 /// the program's.
 void keep_appearance(const SceneView& view, Document& document);
 
-/// The lenses and cuts of a volume, how its rays are cast, and what is drawn on its planes.
+/// The lenses and cuts of a volume, how its rays are cast, what is drawn on its planes, and slices beside it.
 void keep_volume(const VolumeView& volume, Document& document);
 
 }  // namespace palpate

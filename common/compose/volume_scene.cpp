@@ -18,6 +18,7 @@
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
 #include "common/compose/plane_image_text.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/volume_fields.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/transfer/color_transfer.h"
@@ -209,6 +210,14 @@ ImageSpace space_of(const Input& input) {
   return file != nullptr && file->anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
 }
 
+std::optional<ValueWindow> stated_window(const Input& input) {
+  const FileInfo* const file = input.file();
+  if (file == nullptr || !file->window) return std::nullopt;
+  const auto& [black, white] = *file->window;
+  if (!(black < white)) return std::nullopt;
+  return ValueWindow{white - black, 0.5 * (black + white)};
+}
+
 Projection projection_of(const VolumeOptions& options) {
   return options.projection == "orthographic" ? Projection::kOrthographic : Projection::kPerspective;
 }
@@ -238,7 +247,9 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
     for (Lens& lens : volume.lenses) lens.colored = volume.colored && !lens.cut && lens.field == 0;
   }
   volume.planes = plane_images_of(options.volume);
-  const bool asked = volume.planes.shown || options.volume.window || options.volume.level;
+  volume.panes = slice_panes_of(options.panes, image->bounds());
+  const bool asked =
+      volume.planes.shown || options.volume.window || options.volume.level || volume.panes.layout > 1;
   if (asked && !volume.planes.window && image->lowest <= image->highest)
     complete_window(volume.planes, options.volume,
                     histogram_of(*image, image->lowest, options.common.threads));
@@ -260,7 +271,12 @@ SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, con
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
   apply_appearance(options, view);
-  view.volume = make_volume_view(shown, options);
+  Document stated = options;
+  if (const auto window = stated_window(input); window && !options.volume.window && !options.volume.level) {
+    stated.volume.window = window->width;
+    stated.volume.level = window->level;
+  }
+  view.volume = make_volume_view(shown, stated);
   return view;
 }
 

@@ -69,6 +69,9 @@ inline constexpr const char* kOwnColorsNote =
 /// What is known of the coordinates of `input`, for images that are made of it.
 [[nodiscard]] ImageSpace space_of(const Input& input);
 
+/// What the file states of black and white; nothing where it says nothing that can be.
+[[nodiscard]] std::optional<ValueWindow> stated_window(const Input& input);
+
 /// The same voxels to be drawn and to be felt, read once.
 struct TangibleVolume {
   std::shared_ptr<const VolumeImage> image;

@@ -25,6 +25,7 @@
 #include "common/render/overlay/overlay.h"
 #include "common/render/scene_parts.h"
 #include "common/render/scene_view.h"
+#include "common/render/slice/slice_pass.h"
 #include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
@@ -64,6 +65,7 @@ struct SceneRenderer::State {
   bool keeps_for_error = false;
   PictureEstimates estimates;  // of the last picture
   std::unique_ptr<SurfacePass> surfaces;
+  std::unique_ptr<VolumeSlicePass> slice;
   std::unique_ptr<TensorPass> tensors;
   std::unique_ptr<TractPass> tracts;
   std::unique_ptr<LabelPass> labels;
@@ -138,6 +140,10 @@ struct SceneRenderer::State {
     glClearDepth(1.0);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_background();
+    if (view.slice) {
+      if (!slice) slice = std::make_unique<VolumeSlicePass>();
+      slice->draw(*view.slice, view.camera, target.scene_width(), target.scene_height());
+    }
     if (view.show_outline) {
       line_program.use(color_map_of(view.style));
       LineDraw how = base;

@@ -17,8 +17,9 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
-         a.notes == b.notes && a.labels == b.labels && a.volume_label == b.volume_label &&
-         a.anatomical == b.anatomical && a.surfaces == b.surfaces && a.color_lens == b.color_lens;
+         a.slice == b.slice && a.notes == b.notes && a.labels == b.labels &&
+         a.volume_label == b.volume_label && a.anatomical == b.anatomical && a.surfaces == b.surfaces &&
+         a.color_lens == b.color_lens;
 }
 
 bool has_two_eyes(const SceneView& view) noexcept {

@@ -15,6 +15,7 @@
 #include "common/render/label/label_view.h"
 #include "common/render/line_style.h"
 #include "common/render/probe_view.h"
+#include "common/render/slice/slice_view.h"
 #include "common/render/stereo/stereo_view.h"
 #include "common/render/surface/surface_view.h"
 #include "common/render/tensor/tensor_view.h"
@@ -73,6 +74,7 @@ struct SceneView {
   std::vector<SurfaceView> surfaces;
   std::optional<ColorLens> color_lens;
   std::optional<VolumeView> volume;
+  std::optional<SliceView> slice;  ///< of an orthographic camera: what all else lies before
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;
   std::vector<NoteView> notes;

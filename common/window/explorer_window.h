@@ -27,6 +27,7 @@
 #include "common/window/immersive/screen_windows.h"
 #include "common/window/keys.h"
 #include "common/window/live_picture.h"
+#include "common/window/pane_pictures.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/probe_plot.h"
 #include "common/window/scene_jobs.h"
@@ -103,7 +104,9 @@ class ExplorerWindow {
   /// The view with the lines stepping back while a hand is on the probe, and where lines are kept or
   /// isosurfaces felt, which they would bury.
   [[nodiscard]] SceneView with_focus();
-  void draw_picture(SceneView picture, const WindowLayout& parts, int width, int height);
+  void draw_picture(SceneView picture, int width, int height);
+  /// How the picture is divided.
+  [[nodiscard]] std::vector<Pane> panes() const;
   /// A pointer is seen by both eyes where it is in both halves, at the same place.
   void draw_second_pointer() const;
   /// @}
@@ -146,9 +149,11 @@ class ExplorerWindow {
   GlfwWindow glfw_;  // first in, last out: the others need its context
   std::unique_ptr<Gui> gui_;
   std::unique_ptr<LivePicture> live_;
+  std::unique_ptr<PanePictures> slices_;  // beside it; none until they are asked for
 
-  SceneView view_;  // as the user wants it
-  PictureArea picture_;
+  SceneView view_;       // as the user wants it
+  PictureArea panes_;    // all of the picture
+  PictureArea picture_;  // the pane of the scene itself
   bool needs_camera_ = true;
   std::optional<Vec3> focal_point_;  ///< of the first camera
   std::optional<SceneState> scene_;

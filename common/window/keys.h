@@ -42,6 +42,7 @@ enum class Command : std::uint8_t {
   kLensLarger,
   kMenu,        ///< in space
   kVolume,      ///< shows or hides the volume
+  kLayout,      ///< slices beside it: none, one, three
   kSliceRight,  ///< the slice across x, one voxel
   kSliceLeft,
   kSliceFront,

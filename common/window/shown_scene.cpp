@@ -26,6 +26,7 @@ void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
   view.volume->lenses = before->lenses;
   view.volume->cuts = before->cuts;
   view.volume->planes = before->planes;
+  view.volume->panes = before->panes;
   if (scene.tensors) {  // edited in the view alone
     view.volume->transfer = before->transfer;
     view.volume->regions = before->regions;

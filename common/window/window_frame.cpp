@@ -23,7 +23,12 @@ void ExplorerWindow::draw_frame(double seconds) {
     return;
   }
   const WindowLayout parts = layout(width, height, gui_->text_height());
-  picture_ = parts.picture;
+  panes_ = picture_ = parts.picture;
+  for (const Pane& pane : panes()) {
+    if (!pane.plane)
+      picture_ = {panes_.left + pane.left, panes_.top + pane.top, static_cast<double>(pane.width),
+                  static_cast<double>(pane.height)};
+  }
   gui_->set_background(view_.background);
   const std::vector<InputEvent> events = take_events();
   gui_->begin_frame(events, width, height, seconds);
@@ -46,7 +51,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   if (!same_scene(state_.document, before)) jobs_.give_way();
   if (controls_.take_lens_moved()) live_->lens_moved(glfwGetTime());
   const SceneView picture = with_focus();
-  draw_picture(picture, parts, width, height);
+  draw_picture(picture, width, height);
   draw_second_pointer();
   gui_->end_frame();
   if (screens_) screens_->draw(picture, *workbench_, state_.picture.quality);
@@ -56,6 +61,7 @@ ControlledScene ExplorerWindow::controlled() {
   return {.scene = scene_ ? &*scene_ : nullptr,
           .view = view_,
           .picture = picture_,
+          .panes = panes_,
           .workbench = workbench_.get(),
           .beside_screens = screens_ != nullptr,
           .time = glfwGetTime()};
@@ -144,8 +150,14 @@ SceneView ExplorerWindow::with_focus() {
   return picture;
 }
 
-void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, int width, int height) {
-  const auto w = static_cast<int>(parts.picture.width), h = static_cast<int>(parts.picture.height);
+std::vector<Pane> ExplorerWindow::panes() const {
+  const SlicePanes alone;
+  return panes_of(view_.volume ? view_.volume->panes : alone, static_cast<int>(panes_.width),
+                  static_cast<int>(panes_.height));
+}
+
+void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
+  const auto w = static_cast<int>(picture_.width), h = static_cast<int>(picture_.height);
   if (glfw_.take_damage()) live_->damage();
   PictureMoment moment{
       .seconds = glfwGetTime(),
@@ -161,14 +173,26 @@ void ExplorerWindow::draw_picture(SceneView picture, const WindowLayout& parts, 
   if (workbench_ && !screens_) workbench_->show(picture);
   if (picture.stereo.mode == StereoMode::kRows || picture.stereo.mode == StereoMode::kColumns) {
     const auto [column, row] = pixel_on_monitor(glfw_.get());
-    picture.stereo.first = {column + static_cast<int>(parts.picture.left),
-                            row + static_cast<int>(parts.picture.top)};
+    picture.stereo.first = {column + static_cast<int>(picture_.left), row + static_cast<int>(picture_.top)};
   }
+  const std::vector<Pane> parts = panes();
+  if (parts.size() < 2) {
+    slices_.reset();
+  } else {
+    if (!slices_) slices_ = std::make_unique<PanePictures>();
+    const bool over_panel = ImGui::GetIO().WantCaptureMouse;
+    slices_->draw(picture, parts,
+                  over_panel ? std::string() : controls_.panes().words_under_mouse(panes_, parts, view_),
+                  over_panel ? nullptr : controls_.panes().pane_under_mouse(panes_, parts));
+  }
+  // The volume's own pane shows nothing of the others.
+  if (picture.volume) picture.volume->panes = {};
   live_->draw(std::move(picture), w, h, moment);
   state_.picture = live_->figures();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
-  live_->show(static_cast<int>(parts.picture.left), height - h);
+  live_->show(static_cast<int>(picture_.left), height - static_cast<int>(picture_.top) - h);
+  if (slices_) slices_->show(static_cast<int>(panes_.left), static_cast<int>(panes_.top), height);
 }
 
 }  // namespace palpate

@@ -15,6 +15,7 @@
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/keys.h"
+#include "common/window/panels/panes_panel.h"
 
 namespace palpate {
 
@@ -122,6 +123,13 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kVolume:
       if (view_.volume) view_.volume->shown = !view_.volume->shown;
+      break;
+    case Command::kLayout:
+      if (!scene_ || !view_.volume || !scene_->is_volume_alone()) {
+        state_.say("S shows slices beside a volume: there is none, or something else is shown in it");
+      } else {
+        next_layout(*view_.volume, state_.histogram.of(view_.volume->image));
+      }
       break;
     case Command::kLens:
       // What it shows is sampled before it is there.

@@ -8,11 +8,13 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
@@ -31,31 +33,67 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 50;
 /// How far bzip2 compresses at best (runs of one byte): some 45 000 : 1. For deflate see gzip_head.h.
 constexpr std::uint64_t kBzip2Ratio = 50'000;
 
-/// Bytes of one value of a NRRD type by any of its names, or 0.
-std::uint64_t bytes_of_type(const std::string& name) {
+/// A NRRD type by any of its names; none of others.
+std::optional<ScalarType> type_of(const std::string& name) {
   struct Type {
-    std::uint64_t bytes;
+    ScalarType type;
     std::array<std::string_view, 8> names;
   };
   static constexpr std::array<Type, 10> kTypes{{
-      {1, {"signed char", "int8", "int8_t"}},
-      {1, {"uchar", "unsigned char", "uint8", "uint8_t"}},
-      {2, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-      {2, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-      {4, {"int", "signed int", "int32", "int32_t"}},
-      {4, {"uint", "unsigned int", "uint32", "uint32_t"}},
-      {8,
+      {ScalarType::kInt8, {"signed char", "int8", "int8_t"}},
+      {ScalarType::kUint8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      {ScalarType::kInt16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      {ScalarType::kUint16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      {ScalarType::kInt32, {"int", "signed int", "int32", "int32_t"}},
+      {ScalarType::kUint32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      {ScalarType::kInt64,
        {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
         "int64_t"}},
-      {8, {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
-      {4, {"float"}},
-      {8, {"double"}},
+      {ScalarType::kUint64,
+       {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      {ScalarType::kFloat32, {"float"}},
+      {ScalarType::kFloat64, {"double"}},
   }};
   for (const Type& type : kTypes) {
     if (!name.empty() && std::find(type.names.begin(), type.names.end(), name) != type.names.end())
-      return type.bytes;
+      return type.type;
   }
-  return 0;
+  return std::nullopt;
+}
+
+template <typename T>
+bool holds(std::string_view word) {
+  if constexpr (std::is_integral_v<T>) {
+    if (word.starts_with('+')) word.remove_prefix(1);
+    T value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
+  } else {
+    return number(word).has_value();
+  }
+}
+
+bool holds(ScalarType type, std::string_view word) {
+  switch (type) {
+    case ScalarType::kInt8:
+      return holds<std::int8_t>(word);
+    case ScalarType::kUint8:
+      return holds<std::uint8_t>(word);
+    case ScalarType::kInt16:
+      return holds<std::int16_t>(word);
+    case ScalarType::kUint16:
+      return holds<std::uint16_t>(word);
+    case ScalarType::kInt32:
+      return holds<std::int32_t>(word);
+    case ScalarType::kUint32:
+      return holds<std::uint32_t>(word);
+    case ScalarType::kInt64:
+      return holds<std::int64_t>(word);
+    case ScalarType::kUint64:
+      return holds<std::uint64_t>(word);
+    default:
+      return holds<double>(word);
+  }
 }
 
 /// A count; the largest number where it is larger than that.
@@ -88,9 +126,9 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
     if (claims.sizes.empty() || claims.sizes.size() > kMaxAxes)
       claims.problem = "'sizes' names no axes, or too many";
   } else if (field == "type") {
-    claims.bytes_per_value = bytes_of_type(lowered(value));
-    if (claims.bytes_per_value == 0)
-      claims.problem = "has values of type '" + value.substr(0, 40) + "', expected numbers";
+    claims.type = type_of(lowered(value));
+    claims.bytes_per_value = claims.type ? byte_size(*claims.type) : 0;
+    if (!claims.type) claims.problem = "has values of type '" + value.substr(0, 40) + "', expected numbers";
   } else if (field == "encoding") {
     claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
@@ -173,6 +211,33 @@ std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available)
          " bytes of values, but there are " + std::to_string(available) + " bytes of " + encoded + " data";
 }
 
+std::optional<NrrdWord> wrong_word(std::string_view text, ScalarType type) {
+  constexpr std::string_view kBetween = " \t\r\n\v\f,";
+  std::size_t index = 0;
+  for (std::size_t at = text.find_first_not_of(kBetween); at != std::string_view::npos; ++index) {
+    const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    if (!holds(type, word)) return NrrdWord{std::string(word.substr(0, 40)), index};
+    at = text.find_first_not_of(kBetween, end);
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+/// @throws Error (bad input) where the text from byte `first` on has a word that Teem would take for another number.
+void check_words(const std::string& file, std::uint64_t first, ScalarType type) {
+  const MappedFile mapped(file);
+  const std::string_view text = mapped.text().substr(std::min<std::size_t>(mapped.text().size(), first));
+  const auto wrong = wrong_word(text, type);
+  if (!wrong) return;
+  throw input_error({file, "value " + std::to_string(wrong->index), "is '" + wrong->word + "'",
+                     "a number that the type of the header holds as it is written",
+                     "write whole numbers without points and exponents, or state type double"});
+}
+
+}  // namespace
+
 std::string check_nrrd(const std::string& file) {
   const HeadOfFile head = read_head(file, kHeadBytes);
   NrrdClaims claims = read_nrrd_claims(head.bytes);
@@ -196,10 +261,14 @@ std::string check_nrrd(const std::string& file) {
   if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
   const std::string& encoding = claims.encoding;
   const bool text = encoding == "txt" || encoding == "text" || encoding == "ascii";
-  if (text && claims.data_files.size() < 2) {
-    return text_end_note(
-        claims.detached ? (std::filesystem::path(file).parent_path() / claims.data_files.front()).string()
-                        : file);
+  if (text && !claims.skips) {
+    std::vector<std::string> names;
+    for (const std::string& name : claims.data_files)
+      names.push_back((std::filesystem::path(file).parent_path() / name).string());
+    if (!claims.detached) names = {file};
+    for (const std::string& name : names)
+      check_words(name, claims.detached ? 0 : claims.header_bytes, *claims.type);
+    if (names.size() == 1) return text_end_note(names.front());
   }
   std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()
   for (const std::uint64_t size : claims.sizes) wanted *= size;

@@ -7,9 +7,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "common/field/data_set.h"
 
 namespace palpate {
 
@@ -17,6 +20,7 @@ namespace palpate {
 struct NrrdClaims {
   std::vector<std::uint64_t> sizes;  ///< samples along every axis, the fastest first
   std::uint64_t bytes_per_value = 0;
+  std::optional<ScalarType> type;  ///< of the values; none: not read yet
   std::string encoding = "raw";
   bool detached = false;
   std::vector<std::string> data_files;  ///< as the header names them
@@ -31,6 +35,14 @@ struct NrrdClaims {
 
 /// Why data of `available` bytes cannot hold what `claims` says, or empty.
 [[nodiscard]] std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available);
+
+/// The first word of a text of numbers that the type does not hold as it stands, with its count: Teem takes such words for
+/// what they begin with. Words are parted by blanks and commas.
+struct NrrdWord {
+  std::string word;
+  std::size_t index = 0;
+};
+[[nodiscard]] std::optional<NrrdWord> wrong_word(std::string_view text, ScalarType type);
 
 /// @throws Error (bad input).
 /// @return what the user should know of data beyond what the header claims, or empty.

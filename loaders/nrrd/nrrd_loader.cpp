@@ -22,6 +22,10 @@
 namespace palpate {
 namespace {
 
+/// Said of vectors and tensors whose measurement frame is neither the header's space nor its axes mirrored.
+constexpr const char* kOwnFrame =
+    "the measurement frame is a turn of its own, which is applied first: --vectors, where it is given, names axes "
+    "behind it";
 constexpr const char* kUnturned = "values are left in the measurement frame of the file";
 
 using NrrdPtr = std::unique_ptr<Nrrd, Nrrd* (*)(Nrrd*)>;
@@ -220,6 +224,7 @@ class NrrdLoader : public Loader {
       for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
     }
     check_frame(notes);
+    if (turn_ != Mat3{1.0}) notes.emplace_back(kOwnFrame);
     for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
     array_.components = turned_size(kind_);
     turned_ = turn_ != Mat3{1.0} || array_.components != stored_components_;
@@ -251,13 +256,14 @@ class NrrdLoader : public Loader {
     for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
       for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
     }
-    if (frame == Mat3{1.0} && signs_ == Vec3{-1.0, -1.0, 1.0})
-      info.diffusion.gradient_frame = VectorFrame::kLps;
+    const bool own_frame = frame != Mat3{1.0};
+    if (!own_frame && signs_ == Vec3{-1.0, -1.0, 1.0}) info.diffusion.gradient_frame = VectorFrame::kLps;
     for (int c = 0; c < 3; ++c) frame[c] *= signs_;
     info.diffusion.gradients =
         read_nrrd_gradients(keys, static_cast<std::size_t>(stored_components_), frame, file_, info.notes);
     if (!info.diffusion.gradients) return;
     array_.name = kSignalArray;
+    if (own_frame) info.notes.emplace_back(kOwnFrame);
     std::erase(info.notes, kUnturned);  // signals have no directions; their gradients were turned
   }
 

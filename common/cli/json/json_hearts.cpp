@@ -73,6 +73,8 @@ std::string fibre_rule_json(const FibreRuleSummary& summary) {
                     {"undefined", summary.undefined},
                     {"undefined_reach", summary.farthest},
                     {"without", summary.without},
+                    {"turn_within_median", summary.median_turn},
+                    {"turn_within_95", summary.most_turn},
                     {"notes", summary.notes},
                     {"seconds", summary.seconds},
                     {"version", version()}});

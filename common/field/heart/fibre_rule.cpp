@@ -140,6 +140,36 @@ std::optional<Mat3> frame_of(const RuleCell& cell, FibreRule rule, const RuleAng
   return bislerp(endo, oriented(e_l, of_epi), d);
 }
 
+/// By how much alpha of (3) differs between the points of a cell; NaN where it is not known at one of them.
+double turn_within(const TetMesh::Tet& tet, const RulePotentials& potentials, const RuleAngles& angles) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const std::uint32_t p : tet) {
+    double endo = angles.endo;
+    if (!potentials.right.empty()) {
+      const double both = potentials.right[p] + potentials.left[p];
+      endo *= both > 0.0 ? 1.0 - 2.0 * potentials.right[p] / both : 0.0;
+    }
+    const double d = potentials.epi[p], alpha = endo * (1.0 - d) + angles.epi * d;
+    if (!std::isfinite(alpha)) return std::numeric_limits<double>::quiet_NaN();
+    low = std::min(low, alpha);
+    high = std::max(high, alpha);
+  }
+  return high - low;
+}
+
+void state_turns(const TetMesh& mesh, const RulePotentials& potentials, const RuleAngles& angles,
+                 RuleFibres& made) {
+  std::vector<double> turns;
+  for (const TetMesh::Tet& tet : mesh.cells()) {
+    const double turn = turn_within(tet, potentials, angles);
+    if (std::isfinite(turn)) turns.push_back(turn);
+  }
+  if (turns.empty()) return;
+  std::sort(turns.begin(), turns.end());
+  made.median_turn = turns[turns.size() / 2];
+  made.most_turn = turns[turns.size() * 95 / 100];
+}
+
 Vec3 mean_axis(const Mat3& products) { return symmetric_eigen(products).vectors[0]; }
 
 /// Gives undefined cells the mean of their neighbours, ring by ring.
@@ -219,6 +249,7 @@ RuleFibres make_rule_fibres(const FieldGrid& grid, const WallSurfaces& surfaces,
     made.farthest = std::max(made.farthest, nearest * grid.frame.length_scale());
   }
   fill(mesh, defined, made);
+  state_turns(mesh, potentials, angles, made);
   made.without = as_size(std::count(defined.begin(), defined.end(), false));
   return made;
 }

@@ -60,6 +60,9 @@ struct RuleFibres {
           ///< neighbours' outer products
   std::size_t without = 0;  ///< cells of which no neighbour knows one either: zero
   double farthest = 0.0;    ///< of an undefined cell from the apex, data units
+  /// By how much alpha of (3) differs between the points of a cell, half of the cells and 95 % of them by less [rad]:
+  /// a cell has one fibre, so that coarse walls show the rule in steps of this size.
+  double median_turn = 0.0, most_turn = 0.0;
 };
 
 /// @throws Error as find_wall_axis() and solve_laplace(). @pre grid.tets.

@@ -114,14 +114,15 @@ bool leans(const BoxGrid& box) {
   return off > kPart * std::min({step.x, step.y, step.z});
 }
 
-/// The points of the data; of a formula, a mesh or an image whose axes are at no right angles 64 nodes a diagonal from
+constexpr double kNodes = 64.0;  // a diagonal, where the data have no lattice at right angles
+
+/// The points of the data; of a formula, a mesh or an image whose axes are at no right angles kNodes a diagonal from
 /// the lower corner on.
 Lattice lattice_of_data(const HapticScene& scene) {
   const Workspace& workspace = scene.workspace;
   Lattice lattice{.axes = axes_of_data(workspace)};
   const BoxGrid* box = scene.scalar->box_grid();
   if (box == nullptr || leans(*box)) {
-    constexpr double kNodes = 64.0;
     lattice.origin = workspace.workspace_from_data(scene.scalar->bounds().lower);
     lattice.spacing = Vec3{workspace.scale() * scene.scalar->diagonal() / kNodes};
     return lattice;
@@ -226,6 +227,18 @@ std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local
   return marks;
 }
 
+std::string grid_note(const ScalarField& field, const GridAxisSettings& settings) {
+  const Vec3& asked = settings.spacing;
+  const bool spaced = asked.x > 0.0 && asked.y > 0.0 && asked.z > 0.0;
+  const BoxGrid* box = field.box_grid();
+  if (settings.frame.kind != GridFrame::Kind::kData || (box != nullptr && !leans(*box))) return {};
+  const std::string why =
+      box == nullptr ? "the data are no lattice" : "the axes of the data are at no right angles";
+  return why + ": nodes of the grid are no points of the data; they stand on axes at right angles, " +
+         (spaced ? "spaced as asked"
+                 : short_number(field.diagonal() / kNodes) + " apart (--grid-spacing chooses)");
+}
+
 std::vector<double> value_peaks(const ScalarField& field, const Mat3& axes, int axis, int count) {
   constexpr double kLeast = 0.02;
   const Profile profile = smoothed(smoothed(profile_along(field, axes, axis)));
@@ -257,6 +270,7 @@ HapticChain make_grid(const HapticScene& scene) {
   links.push_back(std::make_unique<GridAxis>(lattice.origin, lattice.axes, lattice.spacing, landmarks));
   HapticChain made;
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
+  made.note = grid_note(*scene.scalar, scene.settings.grid_axis);
   for (const GridAxis::Landmark& each : landmarks)
     made.landmarks.emplace_back(each.normal, each.offset / scene.workspace.scale());
   return made;

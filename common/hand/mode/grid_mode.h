@@ -33,6 +33,9 @@ namespace palpate {
 [[nodiscard]] std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local,
                                                const Vec3& x);
 
+/// What nodes of the grid are not points of the data, in words; empty where they are, or the user has asked for others.
+[[nodiscard]] std::string grid_note(const ScalarField& field, const GridAxisSettings& settings);
+
 /// Positions along `axes[axis]` (e . x, data units, from the origin of the coordinates) of the most prominent
 /// peaks of
 ///

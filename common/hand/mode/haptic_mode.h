@@ -30,6 +30,7 @@ struct HapticChain {
       nullptr;  ///< cutting planes that the hand moves; null where none
   std::shared_ptr<const ScalarField> noise = nullptr;  ///< that is felt as a texture; null where none is
   std::vector<Vec4> landmarks = {};  ///< of a grid: planes n, d with n.x = d in data coordinates
+  std::string note = {};             ///< what the user is to know of what is felt; empty: nothing
 };
 
 /// What a chain is built over.

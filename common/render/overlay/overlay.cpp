@@ -140,6 +140,20 @@ float free_top(std::vector<ImVec4>& taken, float left, float top, const ImVec2& 
   return top;
 }
 
+// Lines of other planes, thin, and outlines over a slice.
+void draw_traces(const OverlayPen& pen, const SceneView& view, int width, int height) {
+  const float thickness = std::max(1.0F, 0.09F * pen.text_height());
+  for (const SliceTrace& trace : view.slice->traces) {
+    const ImU32 color = packed(trace.color, 0.85F);
+    for (std::size_t i = 1; i < trace.points.size(); ++i) {
+      const Vec3 a = project(view.camera, trace.points[i - 1], width, height),
+                 b = project(view.camera, trace.points[i], width, height);
+      pen.list().AddLine({static_cast<float>(a.x), static_cast<float>(a.y)},
+                         {static_cast<float>(b.x), static_cast<float>(b.y)}, color, thickness);
+    }
+  }
+}
+
 // A bright line with a dark rim stands out from dark and light alike.
 void draw_notes(const OverlayPen& pen, const SceneView& view, int width, int height) {
   constexpr ImU32 kBright = IM_COL32(255, 214, 10, 255), kRim = IM_COL32(20, 16, 0, 230);
@@ -250,6 +264,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
   const OverlayPen pen(*ImGui::GetBackgroundDrawList(), text_height, view.background);
+  if (view.slice) draw_traces(pen, view, width, height);
   draw_title(pen, view);
   if (view.show_axes) draw_axes(pen, view, height);
   if (view.anatomical) draw_sides(pen, view, width, height);

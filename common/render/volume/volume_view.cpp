@@ -13,8 +13,8 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.regions == b.regions && a.fields == b.fields &&
          a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
          a.far_sampling == b.far_sampling && a.shading == b.shading && a.lenses == b.lenses &&
-         a.cuts == b.cuts && a.planes == b.planes && a.colored == b.colored && a.shown == b.shown &&
-         a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
+         a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.colored == b.colored &&
+         a.shown == b.shown && a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
          a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
          a.stop_where_opaque == b.stop_where_opaque && a.cache_slabs == b.cache_slabs &&
          a.context == b.context && a.storage == b.storage;

@@ -13,6 +13,7 @@
 #include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
 #include "common/render/lens/lens.h"
+#include "common/render/slice/slice_view.h"
 #include "common/render/volume/voxels/volume_image.h"
 
 namespace palpate {
@@ -110,6 +111,7 @@ struct VolumeView {
   std::vector<Lens> lenses;
   std::vector<CuttingPlane> cuts;  ///< at most kMostCuts
   PlaneImages planes;
+  SlicePanes panes;  ///< beside the picture of the volume itself, which shows nothing of them
 
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;

@@ -117,6 +117,20 @@ struct VolumeOptions {
   std::string projection = "perspective";
 };
 
+/// Slices that are seen beside a volume (render/slice/slice_view.h).
+struct PanesOptions {
+  std::string layout = "1";           ///< 1, 2, 4: SlicePanes::layout
+  std::string first = "axial";        ///< name of SlicePanes::first
+  std::string cross;                  ///< x,y,z; empty: the middle of the volume
+  std::string turn;                   ///< qw,qx,qy,qz of SlicePanes::turn; empty: none
+  std::string center;                 ///< x,y,z; empty: the middle of the volume
+  double zoom = 1.0;                  ///< SlicePanes::zoom
+  double slab = 0.0;                  ///< SlicePanes::slab
+  std::string rule = "mean";          ///< name of SlicePanes::rule
+  std::string side = "radiological";  ///< radiological, neurological
+  double blend = 0.0;                 ///< SlicePanes::blend
+};
+
 /// A slice that is written, or a part of a volume.
 struct SliceOptions {
   std::string plane = "axial";  ///< grammar of parse_plane()
@@ -250,6 +264,7 @@ struct Document {
   TractTracingOptions tracts;
   ViewOptions view;
   VolumeOptions volume;
+  PanesOptions panes;
   SliceOptions slice;
   TensorOptions tensors;
   TractAppearance tract_appearance;

@@ -51,6 +51,7 @@ enum class Group : std::uint8_t {
   kReport,       ///< the folder of a report, and how thorough it is
   kImage,        ///< order and axes of an image that is written
   kMeasure,      ///< which measure of tensors is written
+  kPanes,        ///< slices beside a volume
   kSlice,        ///< which slice is written
   kPart,         ///< a part of a volume
   kFocal,        ///< where a view that a hand moves turns about

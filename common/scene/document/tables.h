@@ -36,6 +36,8 @@ inline constexpr Place kViewAt = kAt<&Document::view, M...>;
 template <auto... M>
 inline constexpr Place kVolumeAt = kAt<&Document::volume, M...>;
 template <auto... M>
+inline constexpr Place kPanesAt = kAt<&Document::panes, M...>;
+template <auto... M>
 inline constexpr Place kSliceAt = kAt<&Document::slice, M...>;
 template <auto... M>
 inline constexpr Place kTensorLookAt = kAt<&Document::tensors, M...>;
@@ -59,6 +61,8 @@ inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 [[nodiscard]] std::span<const Setting> input_settings();
 /// Of pictures.
 [[nodiscard]] std::span<const Setting> view_settings();
+/// Of slices beside a volume.
+[[nodiscard]] std::span<const Setting> panes_settings();
 /// Of touch and of what the hand holds.
 [[nodiscard]] std::span<const Setting> hand_settings();
 /// Of what is written.

@@ -43,7 +43,9 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
   // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
   const bool leaves_lens = event.kind == InputKind::kPress && (lens_.followed() || color_lens_.followed());
   bool lens = false;
-  if (!of_panel && !menu_.handle(event, area, view.camera) && !handle_region(event, on) &&
+  if (view.volume) pane_control_.follow(event, on.panes, *view.volume);
+  const bool of_pane = !of_panel && view.volume && handle_pane(event, on);
+  if (!of_panel && !of_pane && !menu_.handle(event, area, view.camera) && !handle_region(event, on) &&
       !handle_plane_image(event, on) && !(leaves_lens && (lens = handle_lens(event, on))) &&
       !touch_control_.handle(event, area, view, on.time, over_panel) && !(lens = handle_lens(event, on)) &&
       !(view.tensors && slice_.handle(event, area, view.camera, *view.tensors))) {
@@ -54,6 +56,25 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
   }
   // Where it is left, what was said of moving it is over.
   return lens && event.kind == InputKind::kPress ? std::optional(std::string()) : std::nullopt;
+}
+
+/// What is marked, a region and a lens can be placed in slices as in the picture of the volume; else the event is for the
+/// slices themselves.
+bool SceneControls::handle_pane(const InputEvent& event, const ControlledScene& on) {
+  const std::optional<Sight> sight = pane_control_.sight(on.panes, on.view);
+  if (!sight) return false;
+  const bool presses = event.kind == InputKind::kPress && event.button == MouseButton::kLeft;
+  if (const auto place = pane_control_.place(on.panes, on.view);
+      presses && touch_control_.marking() && place) {
+    session_.notes().add(*place);
+    return true;
+  }
+  VolumeView& volume = *on.view.volume;
+  if (on.has_region() && region_.handle(event, sight->area, sight->camera, on.view.bounds)) return true;
+  lens_moved_ = lens_moved_ || lens_.followed();
+  if (lens_.followed() && lens_.handle(event, sight->area, sight->camera, on.view.bounds, volume))
+    return true;
+  return pane_control_.handle(event, on.panes, on.view, volume);
 }
 
 /// While the probe is grabbed the mouse is its own.
@@ -108,12 +129,14 @@ std::optional<std::string> SceneControls::run(Command command, const ControlledS
   const double aspect = eye_aspect(view.stereo.mode, on.picture.width, on.picture.height);
   if (ViewControl::look(command, view.bounds, aspect, view.camera)) return std::nullopt;
   if (view.tensors && SliceControl::run(command, *view.tensors)) return std::nullopt;
+  if (view.volume && PaneControl::run(command, *view.volume)) return std::nullopt;
   return touch_control_.run(command, pointer_.area(), view, on.time);
 }
 
 void SceneControls::let_go() {
   view_.let_go();
   slice_.let_go();
+  pane_control_.let_go();
   lens_.let_go();
   color_lens_.follow(false);
   plane_image_.let_go();
@@ -189,6 +212,7 @@ void SceneControls::decorate(const ControlledScene& on, SceneView& picture) {
   }
   if (on.has_region()) {
     if (region_.box()) {
+      picture.volume->panes.box = region_.box();
       for (auto& edge : box_edges(*region_.box())) handled.push_back(std::move(edge));
     }
     if (auto dots = region_.dots(); !dots.empty())

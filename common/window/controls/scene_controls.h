@@ -1,5 +1,5 @@
-/// What mouse, keys and hands do in the picture. Each event goes to the first control that takes it: the menu
-/// in space, the region of interest, pictures on planes, lenses, the probe, slices, and last the camera.
+/// What mouse, keys and hands do in the picture. Each event goes to the first control that takes it: panes of
+/// slices, the menu in space, the region of interest, pictures on planes, lenses, the probe, slices, and last the camera.
 #pragma once
 
 #include <optional>
@@ -10,6 +10,7 @@
 #include "common/hand/workbench/workbench_display.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/controls/lens_control.h"
+#include "common/window/controls/pane_control.h"
 #include "common/window/controls/plane_image_control.h"
 #include "common/window/controls/pointer.h"
 #include "common/window/controls/region_control.h"
@@ -25,7 +26,8 @@ namespace palpate {
 struct ControlledScene {
   const SceneState* scene = nullptr;  ///< null until the first one is there
   SceneView& view;
-  PictureArea picture;
+  PictureArea picture;  ///< the pane of the volume, where there are slices beside it
+  PictureArea panes;    ///< all of them
   /// Shows the data as a screen of a workbench does to the head before it; null: a desktop.
   const WorkbenchDisplay* workbench = nullptr;
   bool beside_screens = false;  ///< these are windows of their own, and this one is a desktop
@@ -79,19 +81,22 @@ class SceneControls {
   [[nodiscard]] std::optional<Vec2> second_pointer() const { return pointer_.twin(); }
 
   [[nodiscard]] TouchControl& touch() noexcept { return touch_control_; }
+  [[nodiscard]] const PaneControl& panes() const noexcept { return pane_control_; }
   [[nodiscard]] MenuControl& menu() noexcept { return menu_; }
   [[nodiscard]] RegionControl& region() noexcept { return region_; }
   /// The view or a slice follows a drag.
   [[nodiscard]] bool moves_view() const noexcept { return view_.dragging() || slice_.dragging(); }
   /// Whether nothing is dragged that an edit would be of.
   [[nodiscard]] bool resting() const noexcept {
-    return !region_.dragging() && !plane_image_.dragging() && !slice_.dragging() && !lens_.followed() &&
-           !color_lens_.followed() && !hand_in_space_.holding();
+    return !region_.dragging() && !plane_image_.dragging() && !slice_.dragging() &&
+           !pane_control_.dragging() && !lens_.followed() && !color_lens_.followed() &&
+           !hand_in_space_.holding();
   }
   /// Whether a lens or a cut was moved since the last call.
   [[nodiscard]] bool take_lens_moved() noexcept { return std::exchange(lens_moved_, false); }
 
  private:
+  bool handle_pane(const InputEvent& event, const ControlledScene& on);
   bool handle_region(const InputEvent& event, const ControlledScene& on);
   bool handle_plane_image(const InputEvent& event, const ControlledScene& on);
   bool handle_lens(const InputEvent& event, const ControlledScene& on);
@@ -105,6 +110,7 @@ class SceneControls {
   HandInSpace hand_in_space_;
   ViewControl view_;
   SliceControl slice_;
+  PaneControl pane_control_;
   LensControl lens_;
   ColorLensControl color_lens_;
   PlaneImageControl plane_image_;

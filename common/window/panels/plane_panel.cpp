@@ -12,6 +12,7 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/window/panels/panel_parts.h"
+#include "common/window/panels/panes_panel.h"
 
 namespace palpate {
 namespace {
@@ -156,15 +157,8 @@ void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram) {
   hint(
       "the values on each plane; Ctrl and a drag on it: right widens the window, up raises "
       "the level");
-  const double lower = volume.image->lowest, upper = volume.image->highest, range = upper - lower;
-  if (planes.shown && range > 0.0) {
-    constexpr double kNarrowest = 1e-4;
-    const double least = kNarrowest * range, most = 2.0 * range;
-    ValueWindow window = window_of(volume);
-    bool edited = slider_scalar("window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
-    edited |= slider_scalar("level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
-    if (edited && window.width > 0.0) planes.window = window;
-  }
+  const double lower = volume.image->lowest, upper = volume.image->highest;
+  if (planes.shown) edit_window(volume);
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < planes.contours.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
@@ -226,6 +220,8 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
                std::vector<CuttingPlane>* cuts) {
   if (mode != kGridMode || !session.data().scalar()) return;
   GridAxisSettings& grid = choice.settings.grid_axis;
+  if (const std::string note = grid_note(*session.data().scalar(), grid); !note.empty())
+    ImGui::TextWrapped("%s", note.c_str());
   edit_setting("grid-pull", grid.threshold, kMillimetres);
   edit_setting("grid-notch", grid.notch, kMillimetres);
   edit_setting("grid-detents", grid.detents);

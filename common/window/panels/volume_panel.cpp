@@ -12,6 +12,7 @@
 #include "common/base/text.h"
 #include "common/window/panels/lens_panel.h"
 #include "common/window/panels/panel_parts.h"
+#include "common/window/panels/panes_panel.h"
 #include "common/window/panels/plane_panel.h"
 #include "common/window/panels/region_transfer_editor.h"
 #include "common/window/panels/time_panel.h"
@@ -133,6 +134,7 @@ void draw_volume(PanelContext& on) {
   choose_word("field", state.document.input.field, scene.info->fields);
   if (!volume.fields.empty()) draw_values_at_probe(state, state.document.input.field, volume);
   draw_time(state, scene.info->times);
+  edit_panes(volume, state.histogram.of(volume.image), on.view.anatomical);
   draw_volume_appearance(state, scene, state.document.input.field, scene.info->fields,
                          state.document.input.secondary, value_at_probe(state), volume, on.actions);
 }

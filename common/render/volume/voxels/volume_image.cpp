@@ -159,10 +159,19 @@ double VolumeImage::number(std::size_t index) const noexcept {
   }
 }
 
-double VolumeImage::value_at(const Vec3& place) const noexcept {
+Vec3 VolumeImage::grid_direction(const Vec3& along) const noexcept {
   // Powers of two keep tiny spacings from vanishing.
   const double unit = power_of_two(binary_exponent(bounds().diagonal()));
-  const Vec3 g = glm::inverse(axes / unit) * ((place - origin) / unit);
+  return glm::inverse(axes / unit) * (along / unit);
+}
+
+double VolumeImage::step_along(const Vec3& direction) const noexcept {
+  const Vec3 g = glm::abs(grid_direction(direction));
+  return 1.0 / std::max({g.x, g.y, g.z});
+}
+
+double VolumeImage::value_at(const Vec3& place) const noexcept {
+  const Vec3 g = grid_point(place);
   const Vec3 first = lower(), last = upper();
   for (int a = 0; a < 3; ++a) {
     if (!(g[a] >= first[a] && g[a] <= last[a])) return std::numeric_limits<double>::quiet_NaN();

@@ -41,6 +41,11 @@ struct VolumeImage {
   /// The number at a point; @pre index < points.x * points.y * points.z.
   [[nodiscard]] double number(std::size_t index) const noexcept;
   [[nodiscard]] double value(std::size_t index) const noexcept { return offset + scale * number(index); }
+  /// Grid coordinates of a place, and of a direction, in data coordinates.
+  [[nodiscard]] Vec3 grid_point(const Vec3& place) const noexcept { return grid_direction(place - origin); }
+  [[nodiscard]] Vec3 grid_direction(const Vec3& along) const noexcept;
+  /// Length of the step along a unit direction that changes some grid coordinate by one [data units].
+  [[nodiscard]] double step_along(const Vec3& direction) const noexcept;
   /// At a place in data coordinates, trilinear; NaN outside and where a value about it is not finite.
   [[nodiscard]] double value_at(const Vec3& place) const noexcept;
   [[nodiscard]] std::size_t point_count() const noexcept;

@@ -105,6 +105,29 @@ TEST(FibreRule, IsTheRuleOfBayerOnTheVentricleWithinOneDegree) {
   EXPECT_LT(errors_of(fine, kAngles, 0.1, rule).worst, 3.0);
 }
 
+/// A cell has one fibre: what the rule turns by between the layers of the mesh is stated.
+TEST(FibreRule, StatesHowFarItTurnsWithinACell) {
+  for (const int wall : {1, 2, 5, 10}) {
+    const Ruled made = ruled({.wall = wall, .along = 24, .around = 48}, FibreRule::kBayer, kAngles);
+    const Ventricle& shape = made.shape;
+    double least = HUGE_VAL, most = 0.0;
+    for (int layer = 0; layer < wall; ++layer) {
+      const auto depth = [&](int at) {
+        const double part = static_cast<double>(at) / wall;
+        return depth_at(shape,
+                        {.lambda = shape.lambda_inner + part * (shape.lambda_outer - shape.lambda_inner)});
+      };
+      const double turn = 120.0 * kDegree * (depth(layer + 1) - depth(layer));
+      least = std::min(least, turn);
+      most = std::max(most, turn);
+    }
+    EXPECT_GT(made.made.median_turn, 0.9 * least) << wall;
+    EXPECT_LT(made.made.median_turn, 1.1 * most) << wall;
+    EXPECT_GE(made.made.most_turn, made.made.median_turn) << wall;
+    EXPECT_LT(made.made.most_turn, 1.2 * most) << wall;
+  }
+}
+
 TEST(FibreRule, ConvergesWithTheMesh) {
   std::vector<double> worst;
   for (const int n : {1, 2, 3}) {

@@ -2,6 +2,8 @@
 // through it, and the mode that they are given to has them there.
 
 #include <random>
+#include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,26 @@ TEST(GridLandmarks, FollowATurnedImage) {
   EXPECT_NEAR(marks[1].at, -0.8 * 3.0 + 0.6 * 5.0, 1e-14);
   EXPECT_EQ(marks[2].at, 7.0);
   EXPECT_EQ(marks_at({.kind = GridFrame::Kind::kWorld}, local, x)[0].at, 3.0);
+}
+
+/// Nodes that are no points of the data are named, unless the user has chosen them.
+TEST(GridLandmarks, SayWhereNodesAreNoPointsOfTheData) {
+  const auto note_of = [](double shear, const GridAxisSettings& settings) {
+    DataSet image = volume_example("blob");
+    auto& lattice = std::get<UniformTopology>(image.topology);
+    lattice.axes[2] += shear * lattice.axes[0];
+    const auto field = make_scalar_field({image}, {kVolumeArray, Association::kPoint, 0}, "blob", 1);
+    HapticScene scene{.workspace = Workspace(0.05, field->frame()), .scalar = field};
+    scene.settings.grid_axis = settings;
+    return find_mode(modes_of(FieldKind::kScalar), kGridMode).make(scene).note;
+  };
+  EXPECT_EQ(note_of(0.0, {}), "");
+  EXPECT_EQ(note_of(1e-6, {}), "") << "places rounded in a file are no shear";
+  for (const double shear : {0.2, -0.2, 1.0, 3.0}) {
+    EXPECT_NE(note_of(shear, {}).find("no right angles"), std::string::npos) << shear;
+    EXPECT_NE(note_of(shear, {.spacing = Vec3{0.1}}).find("spaced as asked"), std::string::npos) << shear;
+    EXPECT_EQ(note_of(shear, {.frame = {.kind = GridFrame::Kind::kWorld}}), "") << shear;
+  }
 }
 
 }  // namespace

@@ -258,7 +258,8 @@ TEST(VolumePass, TablesOfAComputeShaderAndThoseOfOneFunctionAlone) {
   VolumePicture picture(kSize, kSize);
   (void)picture.draw(view, camera);
   EXPECT_EQ(picture.cost().tables_made, 2);
-  EXPECT_EQ(picture.cost().tables_by.substr(0, 9), "processor");
+  const std::string faster = picture.cost().tables_by;
+  EXPECT_TRUE(faster.starts_with("processor") || faster.starts_with("GPU")) << faster;
   for (const TableMaker maker : {TableMaker::kProcessor, TableMaker::kGpu}) {
     view.table_maker = maker;
     view.lenses[0].transfer = fitted(ColorTransfer(

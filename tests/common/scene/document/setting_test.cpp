@@ -69,6 +69,10 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("volume", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
   }
   {
+    const auto& [a, b, c, d, e, f, g, h, i, j] = document.panes;
+    expect("panes", a, b, c, d, e, f, g, h, i, j);
+  }
+  {
     const auto& [a, b, c, d, e, f] = document.slice;
     expect("slice", a, b, c, d, e, f);
   }

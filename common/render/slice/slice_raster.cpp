@@ -1,0 +1,227 @@
+#include "common/render/slice/slice_raster.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "common/base/index.h"
+#include "common/base/parallel.h"
+
+namespace palpate {
+namespace {
+
+constexpr int kMostPlanes = 4096;
+constexpr double kGridRounding = 1e-9;  // of a step: by which places computed on a point lie beside it
+
+/// Numbers as they stand in memory.
+template <typename T>
+struct DenseNumbers {
+  const std::byte* bytes;
+
+  [[nodiscard]] double operator[](std::size_t index) const noexcept {
+    T value;
+    std::memcpy(&value, bytes + index * sizeof(T), sizeof(T));
+    return static_cast<double>(value);
+  }
+};
+struct SparseReader {
+  const SparseNumbers* numbers;
+
+  [[nodiscard]] double operator[](std::size_t index) const noexcept {
+    return static_cast<double>((*numbers)[index]);
+  }
+};
+
+/// Values of an image at places in grid coordinates.
+template <typename Numbers>
+class Sampler {
+ public:
+  Sampler(const VolumeImage& image, Numbers numbers)
+      : numbers_(numbers),
+        points_(image.points),
+        lower_(image.lower() - kGridRounding),
+        upper_(image.upper() + kGridRounding),
+        last_(image.points - 1),
+        last_cell_(glm::max(image.points - 2, Index3(0))),
+        steps_{1, as_size(image.points.x), as_size(image.points.x) * as_size(image.points.y)},
+        scale_(image.scale),
+        offset_(image.offset) {}
+
+  /// NaN outside, and where a voxel that counts has no value.
+  [[nodiscard]] double operator()(const Vec3& g) const noexcept {
+    std::array<double, 3> part{};
+    std::size_t at = 0;
+    std::array<std::size_t, 3> beside{};
+    for (int a = 0; a < 3; ++a) {
+      if (!(g[a] >= lower_[a] && g[a] <= upper_[a])) return std::numeric_limits<double>::quiet_NaN();
+      const double inside = std::clamp(g[a], 0.0, static_cast<double>(last_[a]));
+      const int cell = std::min(static_cast<int>(inside), last_cell_[a]);
+      double u = inside - cell;
+      // On a point its neighbours have no say.
+      if (u <= kGridRounding) u = 0.0;
+      if (u >= 1.0 - kGridRounding) u = 1.0;
+      const auto i = as_size(a);
+      part[i] = u;
+      at += steps_[i] * as_size(cell);
+      beside[i] = cell < last_[a] ? steps_[i] : 0;
+    }
+    double sum = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      const bool x = (corner & 1U) != 0, y = (corner & 2U) != 0, z = (corner & 4U) != 0;
+      const double weight =
+          (x ? part[0] : 1.0 - part[0]) * (y ? part[1] : 1.0 - part[1]) * (z ? part[2] : 1.0 - part[2]);
+      if (!(weight > 0.0)) continue;
+      sum += weight * numbers_[at + (x ? beside[0] : 0) + (y ? beside[1] : 0) + (z ? beside[2] : 0)];
+    }
+    return offset_ + scale_ * sum;
+  }
+
+ private:
+  Numbers numbers_;
+  Index3 points_;
+  Vec3 lower_, upper_;
+  Index3 last_, last_cell_;
+  std::array<std::size_t, 3> steps_;
+  double scale_, offset_;
+};
+
+/// The lattice of the pixels' middles, and of the planes behind each.
+struct Pixels {
+  Vec3 first{0.0}, right{0.0}, down{0.0};  // data coordinates
+  Vec3 back{0.0};                          // from plane to plane
+  int planes = 1;
+};
+
+Pixels pixels_of(const VolumeImage& image, const SliceView& slice, const Camera& camera, int width,
+                 int height) {
+  const double pixel = camera.view_height / height;
+  Pixels pixels;
+  pixels.right = pixel * camera.axes[0];
+  pixels.down = -pixel * camera.axes[1];
+  pixels.first = camera.focal_point - 0.5 * (width - 1) * pixels.right - 0.5 * (height - 1) * pixels.down;
+  pixels.planes = slab_planes(image, slice.slab, camera.axes[2]);
+  if (pixels.planes > 1) {
+    pixels.back = slice.slab / pixels.planes * camera.axes[2];
+    pixels.first -= 0.5 * (pixels.planes - 1) * pixels.back;
+  }
+  return pixels;
+}
+
+/// One value out of those through the slab; those that are none have no say, unless all are.
+class Gathered {
+ public:
+  explicit Gathered(SlabRule rule) : rule_(rule) {}
+  void add(double value) noexcept {
+    if (!std::isfinite(value)) return;
+    if (count_ == 0) result_ = 0.0;
+    result_ = count_ == 0 || rule_ == SlabRule::kMean ? result_ + value
+              : rule_ == SlabRule::kHighest           ? std::max(result_, value)
+                                                      : std::min(result_, value);
+    ++count_;
+  }
+  [[nodiscard]] double value() const noexcept {
+    return rule_ == SlabRule::kMean && count_ > 0 ? result_ / count_ : result_;
+  }
+
+ private:
+  SlabRule rule_;
+  double result_ = std::numeric_limits<double>::quiet_NaN();
+  int count_ = 0;
+};
+
+template <typename Numbers>
+void sample_values(const VolumeImage& image, Numbers numbers, const Pixels& pixels, SlabRule rule, int width,
+                   int height, int threads, std::vector<float>& values) {
+  const Sampler<Numbers> sample(image, numbers);
+  const Vec3 first = image.grid_point(pixels.first), right = image.grid_direction(pixels.right),
+             down = image.grid_direction(pixels.down), back = image.grid_direction(pixels.back);
+  parallel_for(as_size(height), threads, [&](std::size_t from, std::size_t to) {
+    for (std::size_t row = from; row < to; ++row) {
+      const Vec3 start = first + static_cast<double>(row) * down;
+      for (int x = 0; x < width; ++x) {
+        const Vec3 g = start + static_cast<double>(x) * right;
+        double value = 0.0;
+        if (pixels.planes == 1) {
+          value = sample(g);
+        } else {
+          Gathered gathered(rule);
+          for (int plane = 0; plane < pixels.planes; ++plane)
+            gathered.add(sample(g + static_cast<double>(plane) * back));
+          value = gathered.value();
+        }
+        values[row * as_size(width) + as_size(x)] = static_cast<float>(value);
+      }
+    }
+  });
+}
+
+/// The values of an image at the pixels, rows from the top; NaN where there is none.
+std::vector<float> values_at(const VolumeImage& image, const Pixels& pixels, SlabRule rule, int width,
+                             int height, int threads) {
+  std::vector<float> values(as_size(width) * as_size(height));
+  const auto sample = [&](auto numbers) {
+    sample_values(image, numbers, pixels, rule, width, height, threads, values);
+  };
+  if (image.sparse) {
+    sample(SparseReader{image.sparse.get()});
+  } else if (image.type == ScalarType::kUint8) {
+    sample(DenseNumbers<std::uint8_t>{image.bytes.data()});
+  } else if (image.type == ScalarType::kUint16) {
+    sample(DenseNumbers<std::uint16_t>{image.bytes.data()});
+  } else {
+    sample(DenseNumbers<float>{image.bytes.data()});
+  }
+  return values;
+}
+
+std::uint8_t byte_of(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
+
+void blend_over(const SliceBlend& blend, const std::vector<float>& values, Image& image) {
+  const double low = blend.image->lowest, range = blend.image->highest - low;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = static_cast<double>(values[i]);
+    if (!std::isfinite(value) || !(range > 0.0)) continue;
+    const double part = std::clamp((value - low) / range, 0.0, 1.0), opacity = blend.opacity * part;
+    const Rgb color = map_color(blend.map, part);
+    const std::array<double, 3> over{static_cast<double>(color.r), static_cast<double>(color.g),
+                                     static_cast<double>(color.b)};
+    std::uint8_t* const pixel = image.rgba.data() + 4 * i;
+    const double under = pixel[3] > 0 ? 1.0 : 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+      pixel[c] = byte_of(opacity * over[c] + (1.0 - opacity) * under * pixel[c] / 255.0);
+    if (opacity > 0.0) pixel[3] = 255;
+  }
+}
+
+}  // namespace
+
+int slab_planes(const VolumeImage& image, double slab, const Vec3& normal) noexcept {
+  if (!(slab > 0.0)) return 1;
+  const double planes = std::ceil(2.0 * slab / image.step_along(normal) - kGridRounding);
+  return planes >= kMostPlanes ? kMostPlanes : std::max(1, static_cast<int>(planes));
+}
+
+Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height, int threads) {
+  const VolumeImage& image = *slice.image;
+  const auto all_values = [&](const VolumeImage& of) {
+    return values_at(of, pixels_of(of, slice, camera, width, height), slice.rule, width, height, threads);
+  };
+  const std::vector<float> values = all_values(image);
+  Image picture{width, height, std::vector<std::uint8_t>(4 * values.size())};
+  const double black = slice.window.level - 0.5 * slice.window.width;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double value = static_cast<double>(values[i]);
+    if (!std::isfinite(value)) continue;
+    const std::uint8_t grey = byte_of(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
+    const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
+    std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+  }
+  if (slice.blend && slice.blend->opacity > 0.0)
+    blend_over(*slice.blend, all_values(*slice.blend->image), picture);
+  return picture;
+}
+
+}  // namespace palpate

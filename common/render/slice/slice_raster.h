@@ -1,0 +1,26 @@
+/// The pixels of a slice, computed by the processor: exactly the values of the image, in whatever memory they stand,
+/// and quick enough for a picture to follow the hand without a graphics card.
+#pragma once
+
+#include "common/math/vec.h"
+#include "common/render/camera.h"
+#include "common/render/scene_view.h"
+#include "common/render/slice/slice_view.h"
+
+namespace palpate {
+
+/// Values v(x) are trilinear between points (VolumeImage::value_at()). Grey is
+///
+///   (v - (level - width / 2)) / width, clamped to [0, 1]                                          (1)
+///
+/// of the middle of each pixel: in the plane, or of the mean, highest or lowest value of planes no farther apart than
+/// half a step of the image that fill the slab. Where there is no value, outside and at voxels that have none, the
+/// picture is clear.
+/// @param camera orthographic. @param threads 0: all cores. The result does not depend on it.
+[[nodiscard]] Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height,
+                                 int threads = 0);
+
+/// How many planes stand for the slab, seen along the unit vector `normal`: 1 for the plane alone.
+[[nodiscard]] int slab_planes(const VolumeImage& image, double slab, const Vec3& normal) noexcept;
+
+}  // namespace palpate

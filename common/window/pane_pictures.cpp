@@ -1,0 +1,39 @@
+#include "common/window/pane_pictures.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace palpate {
+
+void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
+                        const std::string& under_mouse, const Pane* mouse_in) {
+  std::erase_if(shown_, [&](const Shown& one) {
+    return std::none_of(parts.begin(), parts.end(),
+                        [&](const Pane& pane) { return pane.plane == one.pane.plane; });
+  });
+  for (const Pane& pane : parts) {
+    if (!pane.plane || pane.width < 1 || pane.height < 1) continue;
+    SceneView view = pane_view(scene, scene.volume->panes, parts, pane);
+    if (mouse_in != nullptr && *mouse_in == pane) view.subtitle = under_mouse;
+    auto at = std::find_if(shown_.begin(), shown_.end(),
+                           [&](const Shown& one) { return one.pane.plane == pane.plane; });
+    if (at == shown_.end()) {
+      shown_.push_back({.pane = {}, .view = {}, .renderer = std::make_unique<SceneRenderer>()});
+      at = std::prev(shown_.end());
+    } else if (at->pane.width == pane.width && at->pane.height == pane.height &&
+               same_picture(at->view, view)) {
+      at->pane = pane;
+      continue;
+    }
+    at->renderer->draw(view, pane.width, pane.height);
+    at->pane = pane;
+    at->view = std::move(view);
+  }
+}
+
+void PanePictures::show(int left, int top, int height) const {
+  for (const Shown& one : shown_)
+    one.renderer->show(left + one.pane.left, height - top - one.pane.top - one.pane.height);
+}
+
+}  // namespace palpate

@@ -1,0 +1,33 @@
+/// The pictures of slices beside that of a volume, each drawn again where something about it changed.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "common/render/scene_renderer.h"
+#include "common/render/scene_view.h"
+#include "common/render/slice/slice_panes.h"
+
+namespace palpate {
+
+/// Needs the window's context from its construction to its end.
+class PanePictures {
+ public:
+  /// What of them has a slice, of a picture that holds `parts`. @pre scene.volume.
+  void draw(const SceneView& scene, const std::vector<Pane>& parts, const std::string& under_mouse,
+            const Pane* mouse_in);
+  /// Copies them into the framebuffer that is bound. @param left, top of the picture, @param height of the
+  /// framebuffer [pixels].
+  void show(int left, int top, int height) const;
+
+ private:
+  struct Shown {
+    Pane pane;
+    SceneView view;
+    std::unique_ptr<SceneRenderer> renderer;
+  };
+  std::vector<Shown> shown_;
+};
+
+}  // namespace palpate
