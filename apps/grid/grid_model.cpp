@@ -20,7 +20,15 @@ TangibleVolume GridModel::read(Input& input, const Document& document, Progress&
 
 SceneState GridModel::present(Input& input, const TangibleVolume& volume, const Document& document,
                               const SceneState* before, Progress& /*progress*/) const {
-  SceneView view = make_volume_scene(input, volume, document, 1.0);
+  Document seen = document;
+  // Another field has a window of its own, unless that was changed with it.
+  if (before != nullptr && document.input.field != before->document.input.field &&
+      document.volume.window == before->document.volume.window &&
+      document.volume.level == before->document.volume.level) {
+    seen.volume.window.reset();
+    seen.volume.level.reset();
+  }
+  SceneView view = make_volume_scene(input, volume, seen, 1.0);
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->bounds = view.bounds;
   info->outline = view.outline;

@@ -26,6 +26,7 @@
 #include "common/load/write/write_image.h"
 #include "common/load/write/write_lines.h"
 #include "common/render/png.h"
+#include "common/scene/document/tables.h"
 
 namespace palpate {
 namespace {
@@ -194,6 +195,13 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.panes.layout != PanesOptions{}.layout) return draw_panes(options, context);
   check_request(options);
+  for (const Setting& row : panes_settings()) {
+    if (row.name != "slice-side" && !is_default(row, options))
+      throw usage_error("--" + std::string(row.name) +
+                        " is for --layout 2 and 4: --plane says which slice is written");
+  }
+  if (!options.output.size.empty())
+    throw usage_error("--size is for --layout 2 and 4: --spacing says how large pixels are");
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
   const DataSet block = load_volume_block(input, &context.progress);
@@ -262,7 +270,7 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
 Verb slice_verb(std::vector<UsageExample> examples) {
   return {.name = "slice",
           .summary = "write a slice through the volume as a picture or an image, or several side by side",
-          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes},
+          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes, Group::kPanesSize},
           .examples = std::move(examples),
           .run = run_slice};
 }

@@ -11,6 +11,7 @@
 #include "common/cli/verbs.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/stereo_text.h"
 #include "common/hand/drawn/annotation_list.h"
 #include "common/hand/drawn/drawn_lines.h"
@@ -76,7 +77,7 @@ void measure_error(const SceneView& view, const RenderedImage& rendered, RenderS
       summary.image_error_kind += ", from the coarser voxels that are drawn: what these hide is not in it";
     return;
   }
-  const RenderedImage fine = render_image(view, kOversampling * image.width, kOversampling * image.height);
+  const RenderedImage fine = render_panes(view, kOversampling * image.width, kOversampling * image.height);
   summary.image_error = difference(image, fine.image, kOversampling);
   summary.image_error_kind = "root mean square of full scale, against 9 samples a pixel";
 }
@@ -128,6 +129,10 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
                  " voxels, each the mean of several: finer ones do not fit --gpu-memory" + error);
   }
   console.print(stereo_text(drawn.view));
+  if (drawn.view.volume) {
+    const std::string note = panes_note(*drawn.view.volume);
+    if (!note.empty()) console.note(note);
+  }
 }
 
 }  // namespace
@@ -147,7 +152,14 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
   if (!options.touch.drawn_lines.empty()) lines.put(read_drawn_lines(options.touch.drawn_lines));
   const std::vector<ScreenPicture> pictures = asked_pictures(options);
   const auto [width, height] = pictures.front().size;
-  const double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
+  double aspect = eye_aspect(pictures.front().stereo.mode, width, height);
+  const SlicePanes panes = slice_panes_of(options.panes, Box());
+  if (panes.layout > 1) {
+    if (!options.hand.workbench.empty())
+      throw usage_error("--layout: slices are for a desktop: leave out --workbench, or ask for --layout 1");
+    for (const Pane& pane : panes_of(panes, width, height))
+      if (!pane.plane) aspect = static_cast<double>(pane.width) / pane.height;
+  }
   if (options.output.file.extension() != ".png" && options.output.file.extension() != ".PNG") {
     throw usage_error(options.output.file.string() + ": pictures are written as .png");
   }

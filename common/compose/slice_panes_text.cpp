@@ -56,6 +56,31 @@ SlicePanes slice_panes_of(const PanesOptions& options, const Box& bounds) {
   return panes;
 }
 
+std::string panes_note(const VolumeView& volume) {
+  const SlicePanes& panes = volume.panes;
+  const Box bounds = volume.image->bounds();
+  if (panes.layout == 1) {
+    SlicePanes usual;
+    usual.cross = usual.center = bounds.center();
+    usual.first = panes.first;
+    usual.radiological = panes.radiological;
+    return panes == usual
+               ? std::string()
+               : "there are no slices in the picture that --cross, --slab and the like are of: --layout 2 and "
+                 "4 have some";
+  }
+  if (!bounds.contains(panes.cross)) {
+    const auto text = [](const Vec3& x) {
+      return short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z);
+    };
+    return "--cross lies outside the volume, which reaches from " + text(bounds.lower) + " to " +
+           text(bounds.upper) + ": slices may show nothing";
+  }
+  if (panes.blend > 0.0 && volume.fields.empty())
+    return "--slice-blend has nothing to lay over the slices: name a second volume, as in --field scalars,pet.nii.gz";
+  return {};
+}
+
 void keep_panes(const SlicePanes& panes, const Box& bounds, PanesOptions& options) {
   const auto unless_middle = [&bounds](const Vec3& x) {
     return x == bounds.center() ? std::string() : exact_text(x);

@@ -7,7 +7,6 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
-#include "common/render/slice/slice_panes.h"
 
 namespace palpate {
 namespace {
@@ -22,6 +21,16 @@ void paste(const Image& part, const Pane& pane, Image& whole) {
 
 }  // namespace
 
+Image join_panes(const std::vector<PaneImage>& parts, const Background& background, int width, int height) {
+  const std::uint8_t between = background.is_light() ? 160 : 70;
+  Image whole{width, height, std::vector<std::uint8_t>(4 * as_size(width) * as_size(height), 255)};
+  for (std::size_t i = 0; i < whole.rgba.size(); ++i) {
+    if (i % 4 != 3) whole.rgba[i] = between;
+  }
+  for (const PaneImage& part : parts) paste(part.image, part.pane, whole);
+  return whole;
+}
+
 RenderedImage render_panes(const SceneView& view, int width, int height, int repeat, double budget,
                            bool error) {
   if (!view.volume || view.volume->panes.layout == 1)
@@ -31,19 +40,17 @@ RenderedImage render_panes(const SceneView& view, int width, int height, int rep
   const SlicePanes& panes = view.volume->panes;
   const std::vector<Pane> parts = panes_of(panes, width, height);
   RenderedImage rendered;
-  Image whole{width, height, std::vector<std::uint8_t>(4 * as_size(width) * as_size(height), 255)};
-  for (std::size_t i = 0; i < whole.rgba.size(); ++i) {
-    if (i % 4 != 3) whole.rgba[i] = view.background.is_light() ? 160 : 70;  // between panes
-  }
+  std::vector<PaneImage> images;
   for (const Pane& pane : parts) {
     if (pane.plane) {
-      paste(render_image(pane_view(view, panes, parts, pane), pane.width, pane.height).image, pane, whole);
-      continue;
+      images.push_back(
+          {pane, render_image(pane_view(view, panes, parts, pane), pane.width, pane.height).image});
+    } else {
+      rendered = render_image(view, pane.width, pane.height, repeat, budget, error);
+      images.push_back({pane, std::move(rendered.image)});
     }
-    rendered = render_image(view, pane.width, pane.height, repeat, budget, error);
-    paste(rendered.image, pane, whole);
   }
-  rendered.image = std::move(whole);
+  rendered.image = join_panes(images, view.background, width, height);
   return rendered;
 }
 

@@ -105,6 +105,8 @@ class ExplorerWindow {
   /// isosurfaces felt, which they would bury.
   [[nodiscard]] SceneView with_focus();
   void draw_picture(SceneView picture, int width, int height);
+  /// Finds the pane of the scene itself in the picture.
+  void place_picture();
   /// How the picture is divided.
   [[nodiscard]] std::vector<Pane> panes() const;
   /// A pointer is seen by both eyes where it is in both halves, at the same place.
@@ -141,6 +143,8 @@ class ExplorerWindow {
   /// Shows `to` in place of what is shown, from where it is seen now.
   void restore(const Edited& to);
   [[nodiscard]] std::vector<PngText> picture_texts() const;
+  /// All panes of it.
+  [[nodiscard]] Image whole_picture();
   /// @}
 
   WindowModel& model_;

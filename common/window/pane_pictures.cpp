@@ -1,12 +1,13 @@
 #include "common/window/pane_pictures.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace palpate {
 
 void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
-                        const std::string& under_mouse, const Pane* mouse_in) {
+                        const std::string& under_mouse, const Pane* mouse_in, bool moving) {
   std::erase_if(shown_, [&](const Shown& one) {
     return std::none_of(parts.begin(), parts.end(),
                         [&](const Pane& pane) { return pane.plane == one.pane.plane; });
@@ -15,6 +16,8 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
     if (!pane.plane || pane.width < 1 || pane.height < 1) continue;
     SceneView view = pane_view(scene, scene.volume->panes, parts, pane);
     if (mouse_in != nullptr && *mouse_in == pane) view.subtitle = under_mouse;
+    constexpr int kPlanesWhileMoving = 12;
+    if (moving) view.slice->most_planes = kPlanesWhileMoving;
     auto at = std::find_if(shown_.begin(), shown_.end(),
                            [&](const Shown& one) { return one.pane.plane == pane.plane; });
     if (at == shown_.end()) {
@@ -26,9 +29,16 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
       continue;
     }
     at->renderer->draw(view, pane.width, pane.height);
+    (void)at->renderer->finish();  // frames are timed one at a time
     at->pane = pane;
     at->view = std::move(view);
   }
+}
+
+std::vector<PaneImage> PanePictures::read() const {
+  std::vector<PaneImage> images;
+  for (const Shown& one : shown_) images.push_back({one.pane, one.renderer->read()});
+  return images;
 }
 
 void PanePictures::show(int left, int top, int height) const {

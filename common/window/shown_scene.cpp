@@ -17,7 +17,7 @@ namespace {
 void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
   const std::optional<VolumeView> before = std::exchange(view.volume, scene.volume);
   view.anatomical = scene.info->anatomical;
-  view.volume_label = scene.volume_label;
+  const bool same_field = std::exchange(view.volume_label, scene.volume_label) == scene.volume_label;
   if (!view.volume || !before || as_made) return;
   view.volume->shading = before->shading;
   view.volume->samples_per_voxel = before->samples_per_voxel;
@@ -25,7 +25,9 @@ void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
   view.volume->shown = before->shown;
   view.volume->lenses = before->lenses;
   view.volume->cuts = before->cuts;
+  const std::optional<ValueWindow> window = view.volume->planes.window;
   view.volume->planes = before->planes;
+  if (!same_field) view.volume->planes.window = window;  // that of other values
   view.volume->panes = before->panes;
   if (scene.tensors) {  // edited in the view alone
     view.volume->transfer = before->transfer;

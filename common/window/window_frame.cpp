@@ -13,6 +13,17 @@
 #include "common/window/explorer_window.h"
 
 namespace palpate {
+namespace {
+
+/// What the volume's own pane shows, which changes with nothing of the others.
+SceneView without_panes(SceneView view) {
+  if (!view.volume) return view;
+  view.volume->panes = {};
+  if (!shows_planes(*view.volume)) view.volume->planes.window.reset();
+  return view;
+}
+
+}  // namespace
 
 void ExplorerWindow::draw_frame(double seconds) {
   int width = 0, height = 0;
@@ -23,12 +34,8 @@ void ExplorerWindow::draw_frame(double seconds) {
     return;
   }
   const WindowLayout parts = layout(width, height, gui_->text_height());
-  panes_ = picture_ = parts.picture;
-  for (const Pane& pane : panes()) {
-    if (!pane.plane)
-      picture_ = {panes_.left + pane.left, panes_.top + pane.top, static_cast<double>(pane.width),
-                  static_cast<double>(pane.height)};
-  }
+  panes_ = parts.picture;
+  place_picture();
   gui_->set_background(view_.background);
   const std::vector<InputEvent> events = take_events();
   gui_->begin_frame(events, width, height, seconds);
@@ -54,7 +61,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   draw_picture(picture, width, height);
   draw_second_pointer();
   gui_->end_frame();
-  if (screens_) screens_->draw(picture, *workbench_, state_.picture.quality);
+  if (screens_) screens_->draw(without_panes(picture), *workbench_, state_.picture.quality);
 }
 
 ControlledScene ExplorerWindow::controlled() {
@@ -151,12 +158,22 @@ SceneView ExplorerWindow::with_focus() {
 }
 
 std::vector<Pane> ExplorerWindow::panes() const {
+  // Screens of a workbench show the scene itself.
   const SlicePanes alone;
-  return panes_of(view_.volume ? view_.volume->panes : alone, static_cast<int>(panes_.width),
+  return panes_of(view_.volume && !workbench_ ? view_.volume->panes : alone, static_cast<int>(panes_.width),
                   static_cast<int>(panes_.height));
 }
 
+void ExplorerWindow::place_picture() {
+  for (const Pane& pane : panes()) {
+    if (pane.plane) continue;
+    picture_ = {panes_.left + pane.left, panes_.top + pane.top, static_cast<double>(pane.width),
+                static_cast<double>(pane.height)};
+  }
+}
+
 void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
+  place_picture();  // the panel may have divided it otherwise
   const auto w = static_cast<int>(picture_.width), h = static_cast<int>(picture_.height);
   if (glfw_.take_damage()) live_->damage();
   PictureMoment moment{
@@ -183,10 +200,10 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
     const bool over_panel = ImGui::GetIO().WantCaptureMouse;
     slices_->draw(picture, parts,
                   over_panel ? std::string() : controls_.panes().words_under_mouse(panes_, parts, view_),
-                  over_panel ? nullptr : controls_.panes().pane_under_mouse(panes_, parts));
+                  over_panel ? nullptr : controls_.panes().pane_under_mouse(panes_, parts),
+                  controls_.panes().dragging() || (moment.editing && picture.volume->panes.slab > 0.0));
   }
-  // The volume's own pane shows nothing of the others.
-  if (picture.volume) picture.volume->panes = {};
+  picture = without_panes(std::move(picture));
   live_->draw(std::move(picture), w, h, moment);
   state_.picture = live_->figures();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -10,6 +10,7 @@
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/window/event_text.h"
@@ -18,6 +19,18 @@
 #include "common/window/panels/panes_panel.h"
 
 namespace palpate {
+namespace {
+
+/// Panes as they are set, seen from where `from` is: where one looks is no edit.
+PanesOptions looked_at(PanesOptions panes, const PanesOptions& from) {
+  panes.cross = from.cross;
+  panes.turn = from.turn;
+  panes.center = from.center;
+  panes.zoom = from.zoom;
+  return panes;
+}
+
+}  // namespace
 
 std::vector<InputEvent> ExplorerWindow::take_events() {
   std::vector<InputEvent>& waiting = glfw_.events();
@@ -36,7 +49,7 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     const auto command = command_of(event);
     // The one key that works in text fields, too.
     if (command == Command::kForceOff) run_command(*command);
-    controls_.follow_pointer(event);
+    controls_.follow_pointer(event, controlled());
     if (files_.handle(event)) continue;
     say(controls_.handle(event, controlled(), io.WantCaptureMouse, io.WantTextInput));
     // An open list takes Esc for itself.
@@ -146,7 +159,7 @@ void ExplorerWindow::run_command(Command command) {
       state_.show_rates = !state_.show_rates;
       break;
     case Command::kSavePicture:
-      files_.save_picture(live_->read(), picture_texts());
+      files_.save_picture(whole_picture(), picture_texts());
       break;
     case Command::kSaveSession:
       keep_document();
@@ -199,6 +212,7 @@ ExplorerWindow::Edited ExplorerWindow::edited() const {
   Edited now{.document = state_.document, .made = touch_.trail().made(), .view = edits_of(view_)};
   now.document.view.camera.clear();
   now.document.view.focal.clear();
+  now.document.panes = looked_at(now.document.panes, {});
   return now;
 }
 
@@ -235,14 +249,18 @@ std::string ExplorerWindow::redo() {
 
 void ExplorerWindow::restore(const Edited& to) {
   const ViewOptions seen = state_.document.view;
+  const PanesOptions seen_panes = state_.document.panes;
   state_.document = to.document;
   state_.document.view.camera = seen.camera;
   state_.document.view.focal = seen.focal;
+  state_.document.panes = looked_at(to.document.panes, seen_panes);
   state_.seeds = seed_choice(to.document.tracing.seeds);
   state_.plotted = to.document.series.plot;
   state_.play_rate = to.document.view.play_rate;
   apply_appearance(to.document, view_);
   put_edits(to.view, *scene_, view_);
+  if (view_.volume)
+    view_.volume->panes = slice_panes_of(state_.document.panes, view_.volume->image->bounds());
   const std::string& box = to.document.slice.box;
   controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
   touch_.restore(to.document.touch);
@@ -252,6 +270,17 @@ void ExplorerWindow::restore(const Edited& to) {
   // What the document says in other words now is no edit.
   keep_document();
   history_->settle(edited());
+}
+
+Image ExplorerWindow::whole_picture() {
+  Image own = live_->read();
+  if (!slices_) return own;
+  std::vector<PaneImage> parts = slices_->read();
+  for (const Pane& pane : panes()) {
+    if (!pane.plane && pane.width == own.width && pane.height == own.height)
+      parts.push_back({pane, std::move(own)});
+  }
+  return join_panes(parts, view_.background, static_cast<int>(panes_.width), static_cast<int>(panes_.height));
 }
 
 std::vector<PngText> ExplorerWindow::picture_texts() const {

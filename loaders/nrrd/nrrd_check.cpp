@@ -69,7 +69,12 @@ bool holds(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end == word.data() + word.size();
   } else {
-    return number(word).has_value();
+    if (number(word)) return true;
+    // Too small for a double is zero.
+    double value = 1.0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc::result_out_of_range && end == word.data() + word.size() &&
+           word.find("e-") != std::string_view::npos;
   }
 }
 
@@ -132,7 +137,7 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
   } else if (field == "encoding") {
     claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
-    claims.skips = true;
+    claims.skips = claims.skips || value != "0";
     if (field.starts_with("byte")) claims.from_end = value.starts_with("-");
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
@@ -211,29 +216,56 @@ std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available)
          " bytes of values, but there are " + std::to_string(available) + " bytes of " + encoded + " data";
 }
 
-std::optional<NrrdWord> wrong_word(std::string_view text, ScalarType type) {
-  constexpr std::string_view kBetween = " \t\r\n\v\f,";
-  std::size_t index = 0;
-  for (std::size_t at = text.find_first_not_of(kBetween); at != std::string_view::npos; ++index) {
-    const std::size_t end = std::min(text.find_first_of(kBetween, at), text.size());
-    const std::string_view word = text.substr(at, end - at);
-    if (!holds(type, word)) return NrrdWord{std::string(word.substr(0, 40)), index};
-    at = text.find_first_not_of(kBetween, end);
+NrrdWords words_of(std::string_view text, ScalarType type, std::uint64_t wanted) {
+  constexpr std::string_view kBlanks = " \t\r\n\v\f";
+  NrrdWords words;
+  for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
+    std::string_view word = text.substr(at, end - at);
+    at = text.find_first_not_of(kBlanks, end);
+    word.remove_prefix(std::min(word.find_first_not_of(','), word.size()));
+    while (word.ends_with(',')) word.remove_suffix(1);
+    if (word.empty()) continue;
+    // What stands behind the numbers is nobody's business, unless it is one more.
+    const bool good = holds(type, word);
+    if (words.count == wanted) {
+      words.count += good ? 1 : 0;
+      return words;
+    }
+    if (!good) {
+      words.wrong = word.substr(0, 40);
+      return words;
+    }
+    ++words.count;
   }
-  return std::nullopt;
+  return words;
 }
 
 namespace {
 
-/// @throws Error (bad input) where the text from byte `first` on has a word that Teem would take for another number.
-void check_words(const std::string& file, std::uint64_t first, ScalarType type) {
-  const MappedFile mapped(file);
-  const std::string_view text = mapped.text().substr(std::min<std::size_t>(mapped.text().size(), first));
-  const auto wrong = wrong_word(text, type);
-  if (!wrong) return;
-  throw input_error({file, "value " + std::to_string(wrong->index), "is '" + wrong->word + "'",
-                     "a number that the type of the header holds as it is written",
-                     "write whole numbers without points and exponents, or state type double"});
+/// Text in one file or several. @throws Error (bad input) where Teem would take its words for other numbers.
+void check_text(const std::string& file, const NrrdClaims& claims, const std::vector<std::string>& names,
+                std::uint64_t wanted) {
+  std::uint64_t found = 0;
+  for (const std::string& name : names) {
+    const MappedFile mapped(name);
+    const std::uint64_t first = claims.detached ? 0 : claims.header_bytes;
+    const NrrdWords words =
+        words_of(mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first)), *claims.type,
+                 wanted - found);
+    if (words.wrong) {
+      throw input_error(
+          {name, "value " + std::to_string(found + words.count), "is '" + *words.wrong + "'",
+           "a number that the type of the header holds as it is written",
+           "write whole numbers without points and exponents, others with points, or state another type"});
+    }
+    found += words.count;
+    if (found > wanted) {
+      throw input_error({file, "",
+                         "has more numbers as text than the " + std::to_string(wanted) + " of the header", "",
+                         "one too many moves all behind it"});
+    }
+  }
 }
 
 }  // namespace
@@ -259,6 +291,8 @@ std::string check_nrrd(const std::string& file) {
   }
   const std::string problem = nrrd_size_problem(claims, available);
   if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be truncated"});
+  std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()
+  for (const std::uint64_t size : claims.sizes) wanted *= size;
   const std::string& encoding = claims.encoding;
   const bool text = encoding == "txt" || encoding == "text" || encoding == "ascii";
   if (text && !claims.skips) {
@@ -266,12 +300,9 @@ std::string check_nrrd(const std::string& file) {
     for (const std::string& name : claims.data_files)
       names.push_back((std::filesystem::path(file).parent_path() / name).string());
     if (!claims.detached) names = {file};
-    for (const std::string& name : names)
-      check_words(name, claims.detached ? 0 : claims.header_bytes, *claims.type);
+    check_text(file, claims, names, wanted / claims.bytes_per_value);
     if (names.size() == 1) return text_end_note(names.front());
   }
-  std::uint64_t wanted = claims.bytes_per_value;  // does not overflow: nrrd_size_problem()
-  for (const std::uint64_t size : claims.sizes) wanted *= size;
   if (encoding == "raw" && claims.from_end && available > wanted)
     return taken_from_end_note(available - wanted);
   const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";

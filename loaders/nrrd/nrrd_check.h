@@ -36,13 +36,13 @@ struct NrrdClaims {
 /// Why data of `available` bytes cannot hold what `claims` says, or empty.
 [[nodiscard]] std::string nrrd_size_problem(const NrrdClaims& claims, std::uint64_t available);
 
-/// The first word of a text of numbers that the type does not hold as it stands, with its count: Teem takes such words for
-/// what they begin with. Words are parted by blanks and commas.
-struct NrrdWord {
-  std::string word;
-  std::size_t index = 0;
+/// The numbers of a text, parted by blanks, with commas before or behind them: how many of `wanted` there are, and the
+/// first that the type does not hold as it is written. Teem takes a word for what it begins with.
+struct NrrdWords {
+  std::uint64_t count = 0;           ///< `wanted` + 1 where a number follows those
+  std::optional<std::string> wrong;  ///< its place is `count`, and none behind it were counted
 };
-[[nodiscard]] std::optional<NrrdWord> wrong_word(std::string_view text, ScalarType type);
+[[nodiscard]] NrrdWords words_of(std::string_view text, ScalarType type, std::uint64_t wanted);
 
 /// @throws Error (bad input).
 /// @return what the user should know of data beyond what the header claims, or empty.

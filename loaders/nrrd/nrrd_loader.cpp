@@ -28,6 +28,14 @@ constexpr const char* kOwnFrame =
     "behind it";
 constexpr const char* kUnturned = "values are left in the measurement frame of the file";
 
+/// Whether a frame's axes are not those of the space, mirrored or not.
+bool is_turn(const Mat3& frame) {
+  for (int c = 0; c < 3; ++c)
+    for (int r = 0; r < 3; ++r)
+      if (std::abs(frame[c][r]) != (c == r ? 1.0 : 0.0)) return true;
+  return false;
+}
+
 using NrrdPtr = std::unique_ptr<Nrrd, Nrrd* (*)(Nrrd*)>;
 using IoPtr = std::unique_ptr<NrrdIoState, NrrdIoState* (*)(NrrdIoState*)>;
 
@@ -224,7 +232,7 @@ class NrrdLoader : public Loader {
       for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
     }
     check_frame(notes);
-    if (turn_ != Mat3{1.0}) notes.emplace_back(kOwnFrame);
+    if (is_turn(turn_)) notes.emplace_back(kOwnFrame);
     for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
     array_.components = turned_size(kind_);
     turned_ = turn_ != Mat3{1.0} || array_.components != stored_components_;
@@ -256,8 +264,9 @@ class NrrdLoader : public Loader {
     for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
       for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
     }
-    const bool own_frame = frame != Mat3{1.0};
-    if (!own_frame && signs_ == Vec3{-1.0, -1.0, 1.0}) info.diffusion.gradient_frame = VectorFrame::kLps;
+    const bool own_frame = is_turn(frame);
+    if (frame == Mat3{1.0} && signs_ == Vec3{-1.0, -1.0, 1.0})
+      info.diffusion.gradient_frame = VectorFrame::kLps;
     for (int c = 0; c < 3; ++c) frame[c] *= signs_;
     info.diffusion.gradients =
         read_nrrd_gradients(keys, static_cast<std::size_t>(stored_components_), frame, file_, info.notes);

@@ -105,7 +105,8 @@ TEST_F(GridPanes, SlicesSideBySideShowTheValuesOfTheirPlanes) {
   const Json drawn =
       json(with_input({"slice"}, {"--layout", "4", "--cross", "5,30,75", "--window", "200", "--level", "100",
                                   "--size", "402x302", "--out", "four.png"}));
-  EXPECT_EQ(drawn["size"], Json({402, 302}));
+  EXPECT_EQ(drawn["width"], 402);
+  EXPECT_EQ(drawn["height"], 302);
   const Image four = read_picture("four.png");
   ASSERT_EQ(four.width, 402);
   // The middle of each pane is the middle of the volume, in its plane: 20, 20, 45 but for one coordinate.
@@ -137,6 +138,17 @@ TEST_F(GridPanes, SlicesSideBySideShowTheValuesOfTheirPlanes) {
   refused({"--layout", "4", "--slice-turn", "0,0,0,0", "--out", "x.png"}, "--slice-turn");
   refused({"--layout", "4", "--out", "x.nii"}, ".png");
   refused({"--layout", "4"}, "--out");
+  refused({"--slab", "5", "--out", "x.png"}, "--layout 2 and 4");
+  refused({"--size", "40x40", "--out", "x.png"}, "--spacing");
+  const auto noted = [&](const std::vector<std::string>& more, const std::string& word) {
+    const ProgramResult result = run(with_input({"render"}, more));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  };
+  noted({"--slab", "5", "--size", "40x30", "--out", "n.png", "--force"}, "no slices");
+  noted({"--layout", "4", "--cross", "1e6,0,0", "--size", "40x30", "--out", "n.png", "--force"},
+        "outside the volume");
+  noted({"--layout", "4", "--slice-blend", "0.5", "--size", "40x30", "--out", "n.png", "--force"}, "--field");
   EXPECT_FALSE(std::filesystem::exists(folder_.path("x.png")));
 }
 

@@ -106,7 +106,7 @@ std::string words(const NumberType& type) {
   for (int k = 0; k < kPoints.z; ++k)
     for (int j = 0; j < kPoints.y; ++j)
       for (int i = 0; i < kPoints.x; ++i)
-        all += exact_number(value_at(type, {i, j, k})) + (i == 4 ? "\n" : " ");
+        all += number_text(type, value_at(type, {i, j, k})) + (i == 4 ? "\n" : " ");
   return all;
 }
 

@@ -25,7 +25,7 @@ void VolumeSlicePass::draw(const SliceView& slice, const Camera& camera, int wid
     width_ = width;
     height_ = height;
   }
-  if (!same_size || !shown_ || !(*shown_ == slice) || !(camera_ == camera)) {
+  if (!same_size || !shown_ || !same_pixels(*shown_, slice) || !(camera_ == camera)) {
     const Image image = slice_raster(slice, camera, width, height);
     glTextureSubImage2D(texture_.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
                         image.rgba.data());

@@ -13,7 +13,6 @@
 namespace palpate {
 namespace {
 
-constexpr int kMostPlanes = 4096;
 constexpr double kGridRounding = 1e-9;  // of a step: by which places computed on a point lie beside it
 
 /// Numbers as they stand in memory.
@@ -102,11 +101,21 @@ Pixels pixels_of(const VolumeImage& image, const SliceView& slice, const Camera&
   pixels.right = pixel * camera.axes[0];
   pixels.down = -pixel * camera.axes[1];
   pixels.first = camera.focal_point - 0.5 * (width - 1) * pixels.right - 0.5 * (height - 1) * pixels.down;
-  pixels.planes = slab_planes(image, slice.slab, camera.axes[2]);
-  if (pixels.planes > 1) {
-    pixels.back = slice.slab / pixels.planes * camera.axes[2];
-    pixels.first -= 0.5 * (pixels.planes - 1) * pixels.back;
-  }
+  if (!(slice.slab > 0.0)) return pixels;
+  // What of the slab the volume reaches, along the normal from the plane.
+  const Vec3& back = camera.axes[2];
+  const Box bounds = image.bounds();
+  const double middle = glm::dot(bounds.center() - camera.focal_point, back),
+               half = 0.5 * glm::dot(bounds.size(), glm::abs(back)),
+               low = std::max(-0.5 * slice.slab, middle - half),
+               high = std::min(0.5 * slice.slab, middle + half);
+  if (!(low < high)) return pixels;
+  constexpr double kMost = 1e6;
+  const double wanted = std::ceil(2.0 * (high - low) / image.step_along(back) - kGridRounding);
+  pixels.planes =
+      static_cast<int>(std::clamp(wanted, 1.0, slice.most_planes > 0 ? slice.most_planes : kMost));
+  pixels.back = (high - low) / pixels.planes * back;
+  pixels.first += low * back + 0.5 * pixels.back;
   return pixels;
 }
 
@@ -134,7 +143,7 @@ class Gathered {
 
 template <typename Numbers>
 void sample_values(const VolumeImage& image, Numbers numbers, const Pixels& pixels, SlabRule rule, int width,
-                   int height, int threads, std::vector<float>& values) {
+                   int height, int threads, std::vector<double>& values) {
   const Sampler<Numbers> sample(image, numbers);
   const Vec3 first = image.grid_point(pixels.first), right = image.grid_direction(pixels.right),
              down = image.grid_direction(pixels.down), back = image.grid_direction(pixels.back);
@@ -152,16 +161,16 @@ void sample_values(const VolumeImage& image, Numbers numbers, const Pixels& pixe
             gathered.add(sample(g + static_cast<double>(plane) * back));
           value = gathered.value();
         }
-        values[row * as_size(width) + as_size(x)] = static_cast<float>(value);
+        values[row * as_size(width) + as_size(x)] = value;
       }
     }
   });
 }
 
 /// The values of an image at the pixels, rows from the top; NaN where there is none.
-std::vector<float> values_at(const VolumeImage& image, const Pixels& pixels, SlabRule rule, int width,
-                             int height, int threads) {
-  std::vector<float> values(as_size(width) * as_size(height));
+std::vector<double> values_at(const VolumeImage& image, const Pixels& pixels, SlabRule rule, int width,
+                              int height, int threads) {
+  std::vector<double> values(as_size(width) * as_size(height));
   const auto sample = [&](auto numbers) {
     sample_values(image, numbers, pixels, rule, width, height, threads, values);
   };
@@ -179,10 +188,10 @@ std::vector<float> values_at(const VolumeImage& image, const Pixels& pixels, Sla
 
 std::uint8_t byte_of(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
 
-void blend_over(const SliceBlend& blend, const std::vector<float>& values, Image& image) {
+void blend_over(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
   const double low = blend.image->lowest, range = blend.image->highest - low;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double value = static_cast<double>(values[i]);
+    const double value = values[i];
     if (!std::isfinite(value) || !(range > 0.0)) continue;
     const double part = std::clamp((value - low) / range, 0.0, 1.0), opacity = blend.opacity * part;
     const Rgb color = map_color(blend.map, part);
@@ -198,10 +207,9 @@ void blend_over(const SliceBlend& blend, const std::vector<float>& values, Image
 
 }  // namespace
 
-int slab_planes(const VolumeImage& image, double slab, const Vec3& normal) noexcept {
-  if (!(slab > 0.0)) return 1;
-  const double planes = std::ceil(2.0 * slab / image.step_along(normal) - kGridRounding);
-  return planes >= kMostPlanes ? kMostPlanes : std::max(1, static_cast<int>(planes));
+bool same_pixels(const SliceView& a, const SliceView& b) {
+  return a.image == b.image && a.window == b.window && a.slab == b.slab && a.rule == b.rule &&
+         a.most_planes == b.most_planes && a.blend == b.blend;
 }
 
 Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height, int threads) {
@@ -209,11 +217,11 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
   const auto all_values = [&](const VolumeImage& of) {
     return values_at(of, pixels_of(of, slice, camera, width, height), slice.rule, width, height, threads);
   };
-  const std::vector<float> values = all_values(image);
+  const std::vector<double> values = all_values(image);
   Image picture{width, height, std::vector<std::uint8_t>(4 * values.size())};
   const double black = slice.window.level - 0.5 * slice.window.width;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double value = static_cast<double>(values[i]);
+    const double value = values[i];
     if (!std::isfinite(value)) continue;
     const std::uint8_t grey = byte_of(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
     const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};

@@ -14,13 +14,13 @@ namespace palpate {
 ///   (v - (level - width / 2)) / width, clamped to [0, 1]                                          (1)
 ///
 /// of the middle of each pixel: in the plane, or of the mean, highest or lowest value of planes no farther apart than
-/// half a step of the image that fill the slab. Where there is no value, outside and at voxels that have none, the
+/// half a step of the image that fill the slab, as far as the volume reaches; fewer where SliceView::most_planes says so. Where there is no value, outside and at voxels that have none, the
 /// picture is clear.
 /// @param camera orthographic. @param threads 0: all cores. The result does not depend on it.
 [[nodiscard]] Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height,
                                  int threads = 0);
 
-/// How many planes stand for the slab, seen along the unit vector `normal`: 1 for the plane alone.
-[[nodiscard]] int slab_planes(const VolumeImage& image, double slab, const Vec3& normal) noexcept;
+/// Whether both have the same pixels: what is drawn over them may differ.
+[[nodiscard]] bool same_pixels(const SliceView& a, const SliceView& b);
 
 }  // namespace palpate

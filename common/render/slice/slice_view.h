@@ -77,6 +77,7 @@ struct SliceView {
   ValueWindow window;  ///< of black and white
   double slab = 0.0;
   SlabRule rule = SlabRule::kMean;
+  int most_planes = 0;  ///< that stand for the slab, while something moves; 0: as many as it takes
   std::optional<SliceBlend> blend;
   /// Planes that cross this one, and what else has an outline in it.
   std::vector<SliceTrace> traces;

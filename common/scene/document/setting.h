@@ -52,6 +52,7 @@ enum class Group : std::uint8_t {
   kImage,        ///< order and axes of an image that is written
   kMeasure,      ///< which measure of tensors is written
   kPanes,        ///< slices beside a volume
+  kPanesSize,    ///< size of a picture of such slices
   kSlice,        ///< which slice is written
   kPart,         ///< a part of a volume
   kFocal,        ///< where a view that a hand moves turns about

@@ -83,7 +83,7 @@ const Setting kPanesRows[] = {
      .preferred = true},
     {.name = "slice-blend",
      .place = kPanesAt<&PanesOptions::blend>,
-     .help = "opacity on slices of the first other volume that a lens names (field=), in colours",
+     .help = "opacity on slices of the second volume that --field names, in colours",
      .value = "A",
      .heading = "Slices",
      .groups = {Group::kPanes},

@@ -72,7 +72,7 @@ std::string PaneControl::words_under_mouse(const PictureArea& picture, const std
   return words + (std::isfinite(value) ? value_text(value) : "no value");
 }
 
-void PaneControl::follow(const InputEvent& event, const PictureArea& picture, const VolumeView& volume) {
+void PaneControl::follow(const InputEvent& event, const PictureArea& picture, const VolumeView* volume) {
   before_x_ = x_;
   before_y_ = y_;
   switch (event.kind) {
@@ -86,14 +86,16 @@ void PaneControl::follow(const InputEvent& event, const PictureArea& picture, co
       y_ = event.y;
       return;
     case InputKind::kPress:
-      if (held_++ == 0) {
-        const std::vector<Pane> parts = parts_of(picture, volume);
+      if (!held_ || *held_ == event.button) {
+        const std::vector<Pane> parts = volume != nullptr ? parts_of(picture, *volume) : std::vector<Pane>();
         const Pane* const pane = pane_under_mouse(picture, parts);
+        held_ = event.button;
         pressed_in_ = pane != nullptr ? pane->plane : std::nullopt;
       }
       return;
     case InputKind::kRelease:
-      held_ = std::max(0, held_ - 1);
+      if (held_ == event.button) held_.reset();
+      if (drag_ && drag_->button == event.button) drag_.reset();
       return;
     default:
       return;
@@ -102,7 +104,7 @@ void PaneControl::follow(const InputEvent& event, const PictureArea& picture, co
 
 std::optional<SlicePlane> PaneControl::plane_in_hand(const std::vector<Pane>& parts,
                                                      const PictureArea& picture) const {
-  if (held_ > 0) return pressed_in_;
+  if (held_) return pressed_in_;
   const Pane* const pane = pane_under_mouse(picture, parts);
   return pane != nullptr ? pane->plane : std::nullopt;
 }
@@ -134,11 +136,6 @@ bool PaneControl::handle(const InputEvent& event, const PictureArea& picture, co
     if (drag_) drag(event, picture, scene, volume);
     return drag_.has_value();
   }
-  if (event.kind == InputKind::kRelease) {
-    if (!drag_ || event.button != drag_->button) return false;
-    drag_.reset();
-    return true;
-  }
   const std::vector<Pane> parts = parts_of(picture, volume);
   const Pane* const pane = pane_under_mouse(picture, parts);
   if (pane == nullptr) return false;
@@ -167,10 +164,13 @@ bool PaneControl::handle(const InputEvent& event, const PictureArea& picture, co
     const Vec3 off = under - camera.focal_point;
     panes.center += (1.0 - before / panes.zoom) * off;
   } else {
-    // Away from the viewer for positive notches.
+    // Away from the viewer for positive notches; touch pads turn by parts of one.
+    turned_ += event.y;
+    const double voxels = std::trunc(turned_);
+    turned_ -= voxels;
     const Vec3& back = camera.axes[2];
-    panes.cross = within(volume.image->bounds(),
-                         panes.cross - (event.y > 0.0 ? 1.0 : -1.0) * volume.image->step_along(back) * back);
+    panes.cross =
+        within(volume.image->bounds(), panes.cross - voxels * volume.image->step_along(back) * back);
   }
   return true;
 }

@@ -24,8 +24,9 @@ struct Sight {
 
 class PaneControl {
  public:
-  /// Where the mouse goes and what it holds, whatever the event is for.
-  void follow(const InputEvent& event, const PictureArea& picture, const VolumeView& volume);
+  /// Where the mouse goes and what it holds, whatever the event is for; a drag ends when its button does.
+  /// @param volume null where there is none.
+  void follow(const InputEvent& event, const PictureArea& picture, const VolumeView* volume);
   /// The pane in which the mouse is, or was when the button went down that is held; nothing where that has no slice.
   [[nodiscard]] std::optional<Sight> sight(const PictureArea& picture, const SceneView& scene) const;
   /// The place in its plane under the mouse, within the volume; nothing as above, or beside it.
@@ -39,7 +40,11 @@ class PaneControl {
   /// @return whether the command was one of these, and there are slices.
   static bool run(Command command, VolumeView& volume);
   [[nodiscard]] bool dragging() const noexcept { return drag_.has_value(); }
-  void let_go() noexcept { drag_.reset(); }
+  void let_go() noexcept {
+    drag_.reset();
+    held_.reset();
+    control_ = shift_ = false;
+  }
 
   /// The pane under the mouse; nothing where that has no slice. @param parts of the picture.
   [[nodiscard]] const Pane* pane_under_mouse(const PictureArea& picture,
@@ -63,8 +68,9 @@ class PaneControl {
 
   double x_ = -1.0, y_ = -1.0;                ///< of the mouse [pixels]
   double before_x_ = -1.0, before_y_ = -1.0;  ///< before the last event
-  int held_ = 0;                              ///< buttons that are down
-  std::optional<SlicePlane> pressed_in_;      ///< where the first of them went down
+  std::optional<MouseButton> held_;           ///< the first one that went down
+  std::optional<SlicePlane> pressed_in_;      ///< where it did
+  double turned_ = 0.0;                       ///< of the wheel, less than a notch
   bool control_ = false, shift_ = false;      ///< keys that are held
   std::optional<Drag> drag_;
 };

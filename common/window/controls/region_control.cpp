@@ -83,6 +83,10 @@ bool RegionControl::handle(const InputEvent& event, const PictureArea& area, con
       std::optional<std::size_t> found;
       const auto places = handles(*box_);
       for (std::size_t i = 0; i < places.size(); ++i) {
+        // A face that is seen head on goes nowhere on the screen.
+        constexpr double kHeadOn = 0.999;
+        const bool head_on = i != kMiddle && std::abs(camera.axes[2][static_cast<int>(i / 2)]) > kHeadOn;
+        if (head_on && camera.projection == Projection::kOrthographic) continue;
         const Vec3 at =
             project(camera, places[i], static_cast<int>(area.width), static_cast<int>(area.height));
         const double far = std::hypot(at.x + area.left - x_, at.y + area.top - y_);

@@ -1,5 +1,6 @@
 #include "common/window/controls/scene_controls.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,13 @@ namespace {
 
 /// The depth of the layer that is shown.
 double shown_layer(const SceneState& scene) { return number(scene.document.heart.layer).value_or(0.5); }
+
+/// Whether the plane through the focal point, across the line of sight, meets the box.
+bool is_met(const Box& box, const Camera& camera) {
+  const Vec3& normal = camera.axes[2];
+  return std::abs(glm::dot(box.center() - camera.focal_point, normal)) <=
+         0.5 * glm::dot(box.size(), glm::abs(normal));
+}
 
 }  // namespace
 
@@ -43,7 +51,6 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
   // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
   const bool leaves_lens = event.kind == InputKind::kPress && (lens_.followed() || color_lens_.followed());
   bool lens = false;
-  if (view.volume) pane_control_.follow(event, on.panes, *view.volume);
   const bool of_pane = !of_panel && view.volume && handle_pane(event, on);
   if (!of_panel && !of_pane && !menu_.handle(event, area, view.camera) && !handle_region(event, on) &&
       !handle_plane_image(event, on) && !(leaves_lens && (lens = handle_lens(event, on))) &&
@@ -70,10 +77,15 @@ bool SceneControls::handle_pane(const InputEvent& event, const ControlledScene& 
     return true;
   }
   VolumeView& volume = *on.view.volume;
-  if (on.has_region() && region_.handle(event, sight->area, sight->camera, on.view.bounds)) return true;
-  lens_moved_ = lens_moved_ || lens_.followed();
-  if (lens_.followed() && lens_.handle(event, sight->area, sight->camera, on.view.bounds, volume))
-    return true;
+  const bool region = on.has_region() && region_.box() && !touch_control_.grabbed() &&
+                      (region_.dragging() || is_met(*region_.box(), sight->camera));
+  if (region && region_.handle(event, sight->area, sight->camera, on.view.bounds)) return true;
+  // One that stays on the screen is none of slices.
+  const auto lens = lens_.followed();
+  if (lens && *lens < volume.lenses.size() && !volume.lenses[*lens].screen) {
+    lens_moved_ = true;
+    if (lens_.handle(event, sight->area, sight->camera, on.view.bounds, volume)) return true;
+  }
   return pane_control_.handle(event, on.panes, on.view, volume);
 }
 

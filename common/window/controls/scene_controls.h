@@ -48,7 +48,10 @@ class SceneControls {
   /// Once a frame, before its events: where the picture lies and the menu in it. @param two eyes see it.
   void place(const ControlledScene& on, bool two);
   /// The mouse goes on, whatever the event is for.
-  void follow_pointer(const InputEvent& event) { pointer_.follow(event); }
+  void follow_pointer(const InputEvent& event, const ControlledScene& on) {
+    pointer_.follow(event);
+    pane_control_.follow(event, on.panes, on.view.volume ? &*on.view.volume : nullptr);
+  }
   /// @param over_panel the mouse is over a panel, to which presses are. @param in_text keys are typed into a
   /// field. @return what to tell the user; nothing where nothing is to be said.
   std::optional<std::string> handle(const InputEvent& event, const ControlledScene& on, bool over_panel,

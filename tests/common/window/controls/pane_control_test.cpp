@@ -56,7 +56,7 @@ class PaneControlTest : public testing::Test {
     (void)send({.kind = down ? InputKind::kKeyDown : InputKind::kKeyUp, .key = key});
   }
   bool send(const InputEvent& event) {
-    control_.follow(event, area_, *scene_.volume);
+    control_.follow(event, area_, &*scene_.volume);
     return control_.handle(event, area_, scene_, *scene_.volume);
   }
 
@@ -78,7 +78,7 @@ TEST_F(PaneControlTest, AClickPutsTheCrosshairUnderTheMouse) {
   move({area_.left - 5000.0, area_.top});
   EXPECT_GE(panes().cross.x, scene_.bounds.lower.x);
   EXPECT_LE(panes().cross.x, scene_.bounds.upper.x);
-  EXPECT_TRUE(release(MouseButton::kLeft));
+  release(MouseButton::kLeft);
   EXPECT_FALSE(control_.dragging());
 }
 
@@ -131,7 +131,7 @@ TEST_F(PaneControlTest, AMiddleDragMovesTheSlices) {
   move(from);
   EXPECT_TRUE(press(MouseButton::kMiddle));
   move({from.x + 30.0, from.y - 12.0});
-  EXPECT_TRUE(release(MouseButton::kMiddle));
+  release(MouseButton::kMiddle);
   const Vec2 now = pixel_of(SlicePlane::kSagittal, there);
   EXPECT_NEAR(now.x, from.x + 30.0, 1e-6);
   EXPECT_NEAR(now.y, from.y - 12.0, 1e-6);
@@ -168,6 +168,34 @@ TEST_F(PaneControlTest, ARightDragSetsWindowAndLevel) {
   EXPECT_NEAR(scene_.volume->planes.window->level, 5000.0 + 0.1 * range, 1e-6 * range);
   move({from.x - 9000.0, from.y});
   EXPECT_GT(scene_.volume->planes.window->width, 0.0);
+}
+
+/// A layout without its pane, a lost release: a drag ends with its button, and the next press begins anew.
+TEST_F(PaneControlTest, ADragEndsWhateverHappensToItsPane) {
+  const Vec3 cross = panes().cross;
+  move(pixel_of(SlicePlane::kAxial, cross));
+  EXPECT_TRUE(press(MouseButton::kLeft));
+  panes().layout = 1;
+  move({area_.left + 5.0, area_.top + 5.0});
+  release(MouseButton::kLeft);
+  EXPECT_FALSE(control_.dragging());
+  panes().layout = 4;
+  EXPECT_FALSE(move(pixel_of(SlicePlane::kAxial, cross + Vec3(3.0, 0.0, 0.0))));
+  EXPECT_EQ(panes().cross, cross);
+  // The release is lost to a question, and the mouse goes to another pane.
+  EXPECT_TRUE(press(MouseButton::kLeft));
+  control_.let_go();
+  move(pixel_of(SlicePlane::kSagittal, panes().cross));
+  ASSERT_TRUE(control_.sight(area_, scene_));
+  EXPECT_EQ(control_.sight(area_, scene_)->area.left, area_.left + pane(SlicePlane::kSagittal).left);
+}
+
+/// Touch pads turn the wheel by parts of a notch.
+TEST_F(PaneControlTest, PartsOfNotchesAddUp) {
+  const Vec3 before = panes().cross;
+  move(pixel_of(SlicePlane::kAxial, before));
+  for (int i = 0; i < 9; ++i) (void)wheel(0.125);
+  EXPECT_NEAR(glm::distance(panes().cross, before), 1.5, 1e-9) << "one voxel";
 }
 
 /// Place, voxel and value under the mouse.
