@@ -22,9 +22,11 @@ std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int b
   return held ? buttons | kBit : buttons & ~kBit;
 }
 
-LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling)
+LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling,
+                           const std::optional<DeviceLimits>& asked)
     : link_(std::move(link)) {
   PALPATE_CHECK(link_ != nullptr);
+  if (asked) link_->restrain(*asked);
   limits_ = link_->limits();
   tracks_ = link_->poses() != nullptr;
   if (enabling.link) {

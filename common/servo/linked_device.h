@@ -12,6 +12,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -35,8 +36,10 @@ class LinkedDevice final : public Device {
   /// the fault that it is.
   static constexpr double kKept = 0.25;
 
-  /// Starts the thread, and one for a switch that is on another device. @pre link is not null.
-  explicit LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling = {});
+  /// Starts the thread, and one for a switch that is on another device. @param asked caps that the user
+  /// asks for, to which the link itself holds (DriverLink::restrain()). @pre link is not null.
+  explicit LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling = {},
+                        const std::optional<DeviceLimits>& asked = {});
   /// Leaves the device without force.
   ~LinkedDevice() override;
 

@@ -139,6 +139,15 @@ std::string DhdLink::advice() const {
 std::string DhdLink::place() const { return open_ ? "dhd " + std::to_string(int{id_}) + " " + name_ : ""; }
 
 bool DhdLink::round(const Vec3& force) noexcept {
+  try {
+    return work(force);
+  } catch (...) {
+    give_up();
+    return false;
+  }
+}
+
+bool DhdLink::work(const Vec3& force) {
   if (!open_) {
     search();
     return false;
@@ -148,7 +157,7 @@ bool DhdLink::round(const Vec3& force) noexcept {
   return exchange(force);
 }
 
-void DhdLink::search() noexcept {
+void DhdLink::search() {
   if (dhd_.device_count() <= 0) {
     status_.phase = LinkPhase::kAbsent;
     clock_.sleep(kDhdLookPause);
@@ -179,7 +188,7 @@ void DhdLink::search() noexcept {
   if (!show(Vec3{0.0}) || dhd_.enable_force(1, id_) < 0) give_up();
 }
 
-bool DhdLink::look() noexcept {
+bool DhdLink::look() {
   DhdFunctions::Status state{};
   if (dhd_.status(state.data(), id_) < 0) return false;
   looked_ = clock_.now();
@@ -187,7 +196,7 @@ bool DhdLink::look() noexcept {
   return state[kDhdError] == 0;
 }
 
-bool DhdLink::exchange(const Vec3& force) noexcept {
+bool DhdLink::exchange(const Vec3& force) {
   bool sound = true;
   if (looked_ < 0.0 || clock_.now() - looked_ > kDhdStatusPause) sound = look();
   const bool usable = state_[kDhdPower] != 0 && state_[kDhdReset] != 0;
@@ -226,7 +235,7 @@ bool DhdLink::exchange(const Vec3& force) noexcept {
   return false;
 }
 
-bool DhdLink::take_sample(double now) noexcept {
+bool DhdLink::take_sample(double now) {
   Vec3 x{0.0};
   // Where it repeats an earlier position, because not enough time has passed, that is no fault.
   if (dhd_.position(&x.x, &x.y, &x.z, id_) < 0) {
@@ -249,8 +258,8 @@ bool DhdLink::take_sample(double now) noexcept {
   return true;
 }
 
-bool DhdLink::show(const Vec3& force) noexcept {
-  const Vec3 f = settings_.arm.frame.force_for_maker(force_within(force, cap_));
+bool DhdLink::show(const Vec3& force) {
+  const Vec3 f = settings_.arm.frame.force_for_maker(shown_.next(force_within(force, cap_), clock_.now()));
   return dhd_.set_force(f.x, f.y, f.z, id_) >= 0;
 }
 
@@ -262,9 +271,17 @@ void DhdLink::give_up() noexcept {
 
 void DhdLink::close() noexcept {
   if (!open_) return;
-  for (int n = 0; n < kLastZeros; ++n) (void)show(Vec3{0.0});
-  (void)dhd_.enable_force(0, id_);
-  (void)dhd_.close(id_);
+  // Whatever one of them throws, the next is done.
+  const auto try_to = [](const auto& call) {
+    try {
+      call();
+    } catch (...) {
+      return;
+    }
+  };
+  for (int n = 0; n < kLastZeros; ++n) try_to([this] { (void)show(Vec3{0.0}); });
+  try_to([this] { (void)dhd_.enable_force(0, id_); });
+  try_to([this] { (void)dhd_.close(id_); });
   open_ = false;
   name_.clear();
 }

@@ -5,8 +5,8 @@
 /// call that never comes back leaves no force.
 ///
 /// The last command on any fault is zero. A device that switched its force off by itself gets force again
-/// once none was asked for (ForceRearm). Where the calls of the library fail it is closed and looked for
-/// again.
+/// once none was asked for (ForceRearm). Where the calls of the library fail, or one throws, it is closed and
+/// looked for again.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 
 #include "common/device/driver/arm_settings.h"
 #include "common/device/driver/link_clock.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver_link.h"
 
 namespace palpate {
@@ -88,15 +89,19 @@ class DhdLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
-  void search() noexcept;
-  bool exchange(const Vec3& force) noexcept;
+  // What calls the library, which may be of C++ and throw.
+  bool work(const Vec3& force);
+  void search();
+  bool exchange(const Vec3& force);
   /// Reads what the device says of itself; false: the call failed.
-  bool look() noexcept;
-  bool take_sample(double now) noexcept;
-  bool show(const Vec3& force) noexcept;
+  bool look();
+  bool take_sample(double now);
+  bool show(const Vec3& force);
+
   void give_up() noexcept;
   void close() noexcept;
 
@@ -104,6 +109,7 @@ class DhdLink final : public DriverLink {
   LinkClock& clock_;
   DhdSettings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 

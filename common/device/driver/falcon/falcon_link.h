@@ -22,6 +22,7 @@
 
 #include "common/device/driver/falcon/falcon_packet.h"
 #include "common/device/driver/motor_heat.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/usb.h"
 #include "common/device/driver_link.h"
 #include "common/kinematics/delta_arm.h"
@@ -59,6 +60,7 @@ class FalconLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -92,6 +94,7 @@ class FalconLink final : public DriverLink {
   FalconSettings settings_;
   DeltaArm arm_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 

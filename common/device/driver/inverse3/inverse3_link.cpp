@@ -174,7 +174,7 @@ bool Inverse3Link::exchange(const Vec3& force) noexcept {
 }
 
 bool Inverse3Link::send(const Vec3& force) noexcept {
-  const Vec3 held = force_within(force, settings_.arm.force_cap);
+  const Vec3 held = shown_.next(force, transport_.now());
   try {
     write_haply_force(sent_, *device_, settings_.arm.frame.force_for_maker(held), spelling_);
   } catch (const std::exception&) {  // no memory

@@ -12,6 +12,7 @@
 
 #include "common/device/driver/arm_settings.h"
 #include "common/device/driver/inverse3/inverse3_message.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/web_transport.h"
 #include "common/device/driver_link.h"
 
@@ -47,6 +48,7 @@ class Inverse3Link final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -63,6 +65,7 @@ class Inverse3Link final : public DriverLink {
   WebTransport& transport_;
   Inverse3Settings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 

@@ -210,7 +210,7 @@ void VrpnLink::speak(const Vec3& force) noexcept {
     const bool ready = status_.phase == LinkPhase::kReady && atoms_.has_position && misses_ == 0 &&
                        now - posed_ <= kFreshPose;
     const Vec3 allowed = rearm_.allowed(is_finite(force) ? force : Vec3{0.0});
-    const Vec3 shown = ready ? allowed : Vec3{0.0};
+    const Vec3 shown = shown_.next(ready ? allowed : Vec3{0.0}, now);
     local_.add(atoms_.position, shown);
     const bool presses = shown != Vec3{0.0};
     // A force that ends does so at once; one that lasts is renewed no more often than it is worth.

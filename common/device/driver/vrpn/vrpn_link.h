@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "common/device/driver/arm_settings.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/byte_stream.h"
 #include "common/device/driver/vrpn/local_field.h"
 #include "common/device/driver/vrpn/vrpn_message.h"
@@ -76,6 +77,7 @@ class VrpnLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -95,6 +97,7 @@ class VrpnLink final : public DriverLink {
   std::unique_ptr<StreamPlace> place_;
   VrpnSettings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
   PoseAtoms poses_;

@@ -37,6 +37,10 @@ int call(char id) {
     --dhd.failing_calls;
     return -1;
   }
+  if (dhd.throwing_calls > 0) {
+    --dhd.throwing_calls;
+    throw 42;
+  }
   if (dhd.repeated_calls > 0) {
     --dhd.repeated_calls;
     return 1;
@@ -91,6 +95,7 @@ int dhdOpenSerial(int serial) { return serial == 4711 ? palpate::test::open_it()
 
 PALPATE_FAKE_API int dhdClose(char id);
 int dhdClose(char id) {
+  fake().throwing_calls = 0;
   (void)call(id);
   fake().switch_force_off(0);
   fake().open = false;
@@ -153,6 +158,7 @@ int dhdSetForce(double x, double y, double z, char id) {
   ++dhd.commands;
   dhd.last = {y, z, x};
   dhd.last_time = dhd.arm.time();
+  dhd.wire.told(dhd.last_time, dhd.last);
   if (dhd.force_on && !dhd.deaf) dhd.arm.push(dhd.last);
   return done;
 }

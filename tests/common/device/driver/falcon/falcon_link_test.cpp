@@ -168,7 +168,7 @@ TEST_F(FalconLinkTest, ShowsTheForceThatIsAskedFor) {
 TEST_F(FalconLinkTest, ShortensWhatIsTooMuchAndKeepsItsDirection) {
   plug_ready();
   const Vec3 huge{0.0, 0.0, -500.0};
-  run(0.02, [&](const DeviceAtoms&) { return huge; });
+  run(0.05, [&](const DeviceAtoms&) { return huge; });
   EXPECT_LE(glm::length(falcon_->motor_force()), 8.0 + 0.02);
   EXPECT_GT(glm::length(falcon_->motor_force()), 7.0);
   EXPECT_LT(glm::dot(glm::normalize(falcon_->motor_force()), glm::normalize(huge)) - 1.0, 1e-3);

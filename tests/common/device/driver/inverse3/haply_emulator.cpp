@@ -62,6 +62,7 @@ std::string HaplyEmulator::take(double now, const std::string& message) {
     heard_ = now;
     // x right, y forward, z up.
     last = {x, z, -y};
+    wire.told(now, last);
     arm.push(plugged ? last : Vec3{0.0});
   } else {
     strange = message;

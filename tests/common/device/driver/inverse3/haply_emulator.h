@@ -30,6 +30,7 @@ class HaplyEmulator {
   std::uint64_t understood = 0;  ///< forces
   std::string strange;           ///< the last message that was not understood; empty: none
   Vec3 last{0.0};                ///< [N] that was understood last, frame D
+  ForceWitness wire;
 
   /// All that it has, as it is pushed to a new client.
   [[nodiscard]] std::string snapshot(double now);

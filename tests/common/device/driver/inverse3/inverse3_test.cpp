@@ -185,7 +185,7 @@ TEST_F(Inverse3LinkTest, SendsOneCommandForEachState) {
 
 TEST_F(Inverse3LinkTest, HoldsEveryForceToTheCap) {
   get_ready();
-  run(0.01, {30.0, 0.0, -40.0});
+  run(0.05, {30.0, 0.0, -40.0});
   EXPECT_NEAR(glm::distance(service_.last, {3.0, 0.0, -4.0}), 0.0, 1e-6);
   run(0.01, {std::nan(""), 0.0, 1.0});
   EXPECT_EQ(service_.last, Vec3(0.0));
@@ -276,6 +276,7 @@ TEST_F(Inverse3LinkTest, BearsEveryFaultForLong) {
     fresh += soak.work(
         link_, [&] { return web_.now(); }, 0.3, soak.force(15.0), [&] { return web_.connections(); });
     ASSERT_LE(service_.arm.largest_force(), 5.0 + 1e-5);
+    ASSERT_LE(service_.wire.excess(), 1e-5);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(100.0 * seconds));
   EXPECT_GT(web_.opened(), 3);
