@@ -44,6 +44,7 @@ LinkedDevice::~LinkedDevice() {
 }
 
 void LinkedDevice::work(const std::stop_token& stop) {
+  ForceEnd::leave_signals_to_others();
   request_real_time_priority(kLinkPriority);
   Order order;
   LinkPhase told = LinkPhase::kAbsent;
@@ -52,10 +53,12 @@ void LinkedDevice::work(const std::stop_token& stop) {
     (void)orders_.read(order);
     const double now = now_seconds();
     const bool fresh = now - order.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
-    if (link_->round(fresh ? order.force : Vec3{0.0})) {
+    const bool shows = fresh && order.force != Vec3{0.0} && end_.may_show();
+    if (link_->round(shows ? order.force : Vec3{0.0})) {
       atoms_.write(link_->atoms());
       if (const PoseAtoms* const poses = link_->poses()) poses_.write(*poses);
     }
+    if (!shows) end_.rested();
     // Words are for people: when something has changed, and now and then.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();

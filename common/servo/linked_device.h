@@ -3,7 +3,8 @@
 ///
 /// Three lines of defence stand between a stalled program and a force that stays: a force that the servo has
 /// not renewed for kFreshFor is zero to the link, the watchdog's emergency_stop() too, and the link itself
-/// shows none without sense in its device's answers.
+/// shows none without sense in its device's answers. What ends or stops the program takes the force away
+/// first (force_end.h).
 ///
 /// A dead-man switch on another device is a link on a thread of its own. Whether it is held goes into the
 /// samples as a button, by its own time stamp (with_switch()): what records and replays samples has it, too.
@@ -20,6 +21,7 @@
 #include "common/device/device.h"
 #include "common/device/device_limits.h"
 #include "common/device/driver_link.h"
+#include "common/servo/force_end.h"
 
 namespace palpate {
 
@@ -83,6 +85,7 @@ class LinkedDevice final : public Device {
   TripleBuffer<PoseAtoms> poses_;
   TripleBuffer<Order> orders_;
   std::atomic<bool> stopped_{false};
+  ForceEnd end_;
 
   DeviceAtoms newest_;  ///< the servo thread's
   bool seen_ = false;
