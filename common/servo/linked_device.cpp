@@ -34,7 +34,6 @@ LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitc
     switch_button_ = enabling.button;
     limits_.enabling_button = enabling.sample_button();
   }
-  advice_ = link_->advice();
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -49,6 +48,7 @@ void LinkedDevice::work(const std::stop_token& stop) {
   Order order;
   LinkPhase told = LinkPhase::kAbsent;
   double reported_at = 0.0;
+  const double begun = now_seconds();
   while (!stop.stop_requested()) {
     (void)orders_.read(order);
     const double now = now_seconds();
@@ -65,7 +65,9 @@ void LinkedDevice::work(const std::stop_token& stop) {
     if (status.phase == told && now - reported_at < kPause) continue;
     told = status.phase;
     reported_at = now;
-    std::string advice = link_->advice();
+    // What is there needs a moment to be found.
+    const bool had_its_chance = status.phase != LinkPhase::kAbsent || now - begun > kChance;
+    std::string advice = had_its_chance ? link_->advice() : std::string();
     const std::lock_guard lock(mutex_);
     status_ = status;
     advice_ = std::move(advice);

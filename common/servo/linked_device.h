@@ -34,6 +34,7 @@ namespace palpate {
 class LinkedDevice final : public Device {
  public:
   static constexpr double kFreshFor = 0.020;  ///< [s]
+  static constexpr double kChance = 1.0;      ///< [s]
   /// [s] for which the last sample of a device that fell silent is still given, so that its age is seen as
   /// the fault that it is.
   static constexpr double kKept = 0.25;
@@ -64,7 +65,8 @@ class LinkedDevice final : public Device {
   /// @name Any thread but the servo's
   /// @{
   [[nodiscard]] LinkStatus status() const;
-  /// What the user should know or do now, about the device, else about its switch; empty: nothing.
+  /// What the user should know or do now, about the device, else about its switch; empty: nothing. That a
+  /// device is not there is said once it had kChance to be found.
   [[nodiscard]] std::string advice() const;
   /// @}
 

@@ -103,7 +103,16 @@ TEST_F(LinkedDeviceTest, GivesTheNewestSampleAndKeepsItForAWhile) {
   EXPECT_TRUE(device.read(time + 0.9 * LinkedDevice::kKept, sample));
   EXPECT_EQ(sample.time, time);
   EXPECT_FALSE(device.read(time + 1.1 * LinkedDevice::kKept, sample));
-  EXPECT_EQ(device.advice(), "move it");
+  EXPECT_TRUE(comes([&] { return device.advice() == "move it"; }));
+}
+
+// Before anybody has looked for it a device is not missing.
+TEST_F(LinkedDeviceTest, GivesADeviceItsChanceBeforeItIsSaidToBeMissing) {
+  const double start = now();
+  const LinkedDevice device(link_);
+  EXPECT_EQ(device.advice(), "");
+  ASSERT_TRUE(comes([&] { return device.advice() == "move it"; }));
+  EXPECT_GE(now() - start, LinkedDevice::kChance);
 }
 
 TEST_F(LinkedDeviceTest, GivesTheNewestPosesEachForAWhile) {

@@ -15,14 +15,19 @@ constexpr const char* kDhdRemedy =
 constexpr int kOldestDhd = 3;
 
 // Forces and radii are those that open drivers use; the makers' sheets give no more than that for any.
-constexpr std::array kDhdModels{
-    DhdModel{33, "omega.3", 12.0, 0.075},        DhdModel{34, "omega.6", 12.0, 0.075},
-    DhdModel{36, "omega.6, left", 12.0, 0.075},  DhdModel{35, "omega.7", 12.0, 0.075},
-    DhdModel{37, "omega.7, left", 12.0, 0.075},  DhdModel{63, "delta.3", 20.0, 0.15},
-    DhdModel{206, "sigma.3", 12.0, 0.075},       DhdModel{104, "sigma.7", 12.0, 0.075},
-    DhdModel{105, "sigma.7, left", 12.0, 0.075}, DhdModel{203, "lambda.3", 12.0, 0.075},
-    DhdModel{108, "lambda.7", 12.0, 0.075},      DhdModel{109, "lambda.7, left", 12.0, 0.075},
-    DhdModel{60, "Novint Falcon", 8.0, 0.04}};
+constexpr std::array kDhdModels{DhdModel{33, "omega.3", 12.0, 0.075},
+                                DhdModel{34, "omega.6", 12.0, 0.075},
+                                DhdModel{36, "omega.6, left", 12.0, 0.075},
+                                DhdModel{35, "omega.7", 12.0, 0.075, true},
+                                DhdModel{37, "omega.7, left", 12.0, 0.075, true},
+                                DhdModel{63, "delta.3", 20.0, 0.15},
+                                DhdModel{206, "sigma.3", 12.0, 0.075},
+                                DhdModel{104, "sigma.7", 12.0, 0.075, true},
+                                DhdModel{105, "sigma.7, left", 12.0, 0.075, true},
+                                DhdModel{203, "lambda.3", 12.0, 0.075},
+                                DhdModel{108, "lambda.7", 12.0, 0.075, true},
+                                DhdModel{109, "lambda.7, left", 12.0, 0.075, true},
+                                DhdModel{60, "Novint Falcon", 8.0, 0.04}};
 
 // Places in the status of a device.
 constexpr std::size_t kDhdPower = 0, kDhdReset = 3, kDhdForce = 5, kDhdError = 9, kDhdForceOff = 14;
@@ -60,6 +65,7 @@ DhdFunctions open_dhd_library(const std::string& file) {
   library.require(dhd.last_error, "dhdErrorGetLastStr");
   library.want(dhd.enable_expert, "dhdEnableExpertMode");
   library.want(dhd.set_watchdog, "dhdSetWatchdog");
+  library.want(dhd.emulate_button, "dhdEmulateButton");
   return dhd;
 }
 
@@ -128,6 +134,8 @@ std::string DhdLink::advice() const {
         return "its force is switched off: press its force button";
       if (off_ || rearm_.tripped())
         return "it switched its force off: let go of the switch, then hold it again";
+      if (no_button_)
+        return "its library makes no button of its gripper: name another switch, such as enable=pedal";
       break;
     case LinkPhase::kNeedsFirmware:
     case LinkPhase::kLoading:
@@ -179,6 +187,7 @@ void DhdLink::search() {
   if (dhd_.enable_expert != nullptr && dhd_.set_watchdog != nullptr && dhd_.enable_expert() >= 0) {
     (void)dhd_.set_watchdog(kWatchdog, id_);  // a device without one says so: the link's own rules remain
   }
+  no_button_ = model.gripper && (dhd_.emulate_button == nullptr || dhd_.emulate_button(1, id_) < 0);
   status_.phase = LinkPhase::kNeedsHoming;
   misses_ = 0;
   looked_ = -1.0;

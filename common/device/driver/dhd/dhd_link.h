@@ -44,6 +44,7 @@ struct DhdFunctions {
   // Not in every version: null where they are missing.
   int (*enable_expert)() = nullptr;
   int (*set_watchdog)(unsigned char eighths_of_ms, char id) = nullptr;  ///< 0: none
+  int (*emulate_button)(unsigned char on, char id) = nullptr;  ///< button 0 is a gripper that is closed
 };
 
 /// Opens the library by `file`, or by its usual names where that is empty, and finds its functions.
@@ -54,8 +55,9 @@ struct DhdFunctions {
 struct DhdModel {
   int type = 0;
   const char* name = "";
-  double force = 0.0;  ///< [N] that open drivers use as its peak
-  double reach = 0.0;  ///< [m] radius of its workspace
+  double force = 0.0;    ///< [N] that open drivers use as its peak
+  double reach = 0.0;    ///< [m] radius of its workspace
+  bool gripper = false;  ///< in place of a button
 };
 /// The Omega's numbers for a type that is not known.
 [[nodiscard]] const DhdModel& dhd_model(int type) noexcept;
@@ -118,9 +120,10 @@ class DhdLink final : public DriverLink {
   std::string name_;  ///< "omega.3"
   double cap_ = 0.0;  ///< [N] of the device that is open
   DhdFunctions::Status state_{};
-  double looked_ = -1.0;  ///< [s]
-  double round_ = 0.0;    ///< [s] when the last one began
-  bool off_ = false;      ///< it has switched its force off
+  double looked_ = -1.0;    ///< [s]
+  double round_ = 0.0;      ///< [s] when the last one began
+  bool off_ = false;        ///< it has switched its force off
+  bool no_button_ = false;  ///< it has a gripper, and no button
   ForceRearm rearm_;
   int misses_ = 0;  ///< in a row
 };

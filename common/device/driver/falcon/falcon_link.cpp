@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -154,7 +155,7 @@ std::string falcon_help() {
 bool FalconSettings::valid() const noexcept {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   return geometry.valid() && positive(gain) && std::isfinite(zero_angle) && positive(count_angle) &&
-         positive(force_cap) &&
+         positive(force_cap) && force_cap <= kMostForceCap &&
          (firmware.empty() || (firmware.size() >= kLeastFirmware && firmware.size() <= kMostFirmware));
 }
 
@@ -206,6 +207,10 @@ std::string FalconLink::advice() const {
     case LinkPhase::kNeedsHoming:
       return "pull the grip out as far as it goes, then push it in";
     case LinkPhase::kReady:
+      if (!guarded_) {
+        return "palpate-guardian cannot be started: keep the Falcon's switch at hand, its force may stay where "
+               "this program is killed";
+      }
       break;
   }
   return {};
@@ -229,6 +234,7 @@ void FalconLink::probe() noexcept {
     if (ask({}) || ask({})) {  // the first one may fall into what was left of another packet
       uploads_in_a_row_ = 0;
       misses_ = 0;
+      guarded_ = leave_last_word();
       status_.phase = LinkPhase::kNeedsHoming;
       stage_ = Stage::kRun;
       return;
@@ -236,6 +242,14 @@ void FalconLink::probe() noexcept {
     if (!connection_) return;
   }
   stage_ = Stage::kLoad;
+}
+
+bool FalconLink::leave_last_word() noexcept {
+  try {
+    return connection_ && connection_->leave_last_word(kOut, encode({.lights = kFalconRed}));
+  } catch (const std::exception&) {  // no memory
+    return false;
+  }
 }
 
 void FalconLink::load() noexcept {

@@ -169,6 +169,7 @@ void VrpnLink::search() noexcept {
   parser_.reset();
   names_.reset();
   local_.reset();
+  clock_.reset();
   rearm_.trip();
   greeted_ = pressing_ = false;
   misses_ = 0;
@@ -279,6 +280,7 @@ bool VrpnLink::take(const VrpnMessage& message, double now) noexcept {
       if (station) status_.phase = LinkPhase::kReady;
       if (!pose || pose->sensor != settings_.sensor) return station;
       news = take_pose(*pose, now);
+      if (news) atoms_.time = clock_.local(message.time, now);
       break;
     }
     case VrpnType::kButtonChange:
@@ -313,8 +315,7 @@ bool VrpnLink::take(const VrpnMessage& message, double now) noexcept {
   ++status_.rounds;
   status_.phase = LinkPhase::kReady;
   // A button that is pressed makes no pose younger.
-  const bool of_pose = names_.type(message.type) == VrpnType::kPosQuat;
-  if (of_pose || !atoms_.has_position) atoms_.time = now;
+  if (!atoms_.has_position) atoms_.time = now;
   return true;
 }
 

@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "common/device/driver/arm_settings.h"
+#include "common/device/driver/sender_clock.h"
 #include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/byte_stream.h"
 #include "common/device/driver/vrpn/local_field.h"
@@ -105,6 +106,7 @@ class VrpnLink final : public DriverLink {
   std::unique_ptr<ByteStream> stream_;
   VrpnParser parser_;
   VrpnNames names_;
+  SenderClock clock_;  ///< of the poses
   LocalField local_;
   ForceRearm rearm_;
   bool greeted_ = false;

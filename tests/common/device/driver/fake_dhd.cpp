@@ -137,7 +137,17 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
 }
 
 PALPATE_FAKE_API unsigned dhdGetButtonMask(char id);
-unsigned dhdGetButtonMask(char /*id*/) { return fake().buttons; }
+unsigned dhdGetButtonMask(char /*id*/) {
+  const auto& dhd = fake();
+  return dhd.buttons | (dhd.gripper_is_button && dhd.closed_gripper ? 1U : 0U);
+}
+
+PALPATE_FAKE_API int dhdEmulateButton(unsigned char on, char id);
+int dhdEmulateButton(unsigned char on, char id) {
+  const int done = call(id);
+  if (done >= 0) fake().gripper_is_button = on != 0;
+  return done;
+}
 
 PALPATE_FAKE_API int dhdEnableForce(unsigned char on, char id);
 int dhdEnableForce(unsigned char on, char id) {

@@ -25,6 +25,7 @@ struct FakeDhd {
   double max_force = 0.0;  ///< [N] that its maker's software allows; 0: not told
   bool powered = true, has_zero = true, broken = false;
   unsigned buttons = 0;
+  bool closed_gripper = false;
   int failing_calls = 0;   ///< so many of the next ones return an error
   int repeated_calls = 0;  ///< so many return that they repeat themselves: no fault
   bool nonsense = false;   ///< positions are no numbers
@@ -41,6 +42,7 @@ struct FakeDhd {
   ForceWitness wire;
   double last_time = 0.0;  ///< [s] of it
   int watchdog = 0;        ///< [1/8 ms] that was asked for
+  bool gripper_is_button = false;
 
   void switch_force_off(int cause) {
     force_on = false;

@@ -91,6 +91,8 @@ TEST(DhdOptions, AreChecked) {
   EXPECT_EQ(settings.arm.limits().force_cap, 3.0);
   for (const auto& [name, value] : DriverOptions{{"cap", "0"},
                                                  {"cap", "x"},
+                                                 {"cap", "1e300"},
+                                                 {"reach", "1e300"},
                                                  {"reach", "-1"},
                                                  {"serial", "1.5"},
                                                  {"serial", "70000"},
@@ -218,6 +220,34 @@ TEST_F(DhdLinkTest, TheLastCommandOnAnyFaultIsZero) {
     }
     EXPECT_TRUE(silenced) << name;
   }
+}
+
+// An omega.7 has no button, but a gripper that closes: the switch of its force.
+TEST_F(DhdLinkTest, AClosedGripperIsTheFirstButton) {
+  const auto after = [this](int type) {
+    fake_.plugged = false;
+    run(0.3, Vec3{0.0});
+    fake_.plugged = true;
+    fake_.gripper_is_button = false;
+    fake_.type = type;
+    get_ready();
+    return fake_.gripper_is_button;
+  };
+  for (const int type : {35, 37, 104, 105, 108, 109}) EXPECT_TRUE(after(type)) << type;
+  for (const int type : {33, 34, 63, 203, 206, 60}) EXPECT_FALSE(after(type)) << type;
+  ASSERT_TRUE(after(35));
+  EXPECT_EQ(link_->atoms().buttons, 0U);
+  fake_.closed_gripper = true;
+  run(0.01, Vec3{0.0});
+  EXPECT_EQ(link_->atoms().buttons, 1U);
+  EXPECT_EQ(link_->advice(), "");
+  // A library that is too old for that says so.
+  functions_.emulate_button = nullptr;
+  link_ = nullptr;
+  link_ = std::make_unique<DhdLink>(functions_, clock_, settings_);
+  fake_.type = 104;
+  get_ready();
+  EXPECT_NE(link_->advice().find("enable=pedal"), std::string::npos) << link_->advice();
 }
 
 TEST_F(DhdLinkTest, TimeGuardAndSaturationAreNoFaults) {

@@ -21,7 +21,9 @@ class HaplyEmulator {
   std::string device = "049D";
   bool plugged = true;
   bool grip = true;
-  bool old_buttons = false;  ///< button_0 to button_3
+  bool calibrated = true, powered = true;
+  bool tells_status = false;  ///< with each state, not in the snapshot alone
+  bool old_buttons = false;   ///< button_0 to button_3
   unsigned buttons = 0;
   ArmInHand arm;
 

@@ -226,6 +226,51 @@ TEST_F(Inverse3LinkTest, TheLastCommandOnAnyFaultIsZero) {
   }
 }
 
+// By the status in the snapshot, or in any state after it.
+TEST_F(Inverse3LinkTest, ShowsNoForceUncalibratedOrWithoutPower) {
+  for (bool* const lacking : {&service_.calibrated, &service_.powered}) {
+    service_.tells_status = true;
+    get_ready();
+    run(0.1, {1.0, 0.0, 0.0});
+    ASSERT_NEAR(service_.last.x, 1.0, 1e-6);
+    *lacking = false;
+    run(0.05, {1.0, 0.0, 0.0});
+    EXPECT_EQ(service_.last, Vec3(0.0));
+    EXPECT_EQ(link_.status().phase, LinkPhase::kNeedsHoming);
+    EXPECT_NE(link_.advice().find(lacking == &service_.calibrated ? "not calibrated" : "power supply"),
+              std::string::npos)
+        << link_.advice();
+    *lacking = true;
+    run(0.1, {1.0, 0.0, 0.0});
+    EXPECT_EQ(link_.status().phase, LinkPhase::kReady);
+    // The snapshot alone says it, to a client that comes anew.
+    service_.tells_status = false;
+    *lacking = false;
+    web_.listens = false;
+    run(0.5, Vec3{0.0});
+    web_.listens = true;
+    run(1.0, {1.0, 0.0, 0.0});
+    EXPECT_EQ(service_.last, Vec3(0.0));
+    EXPECT_EQ(link_.status().phase, LinkPhase::kNeedsHoming);
+    *lacking = true;
+    web_.listens = false;
+    run(0.5, Vec3{0.0});
+    web_.listens = true;
+    get_ready();
+  }
+}
+
+TEST_F(Inverse3LinkTest, SaysThatNothingCanBeHeldWithoutAGrip) {
+  service_.grip = false;
+  get_ready();
+  EXPECT_NE(link_.advice().find("enable=pedal"), std::string::npos) << link_.advice();
+  run(0.1, {1.0, 0.0, 0.0});
+  EXPECT_EQ(link_.advice(), "") << "another switch is held";
+  service_.grip = true;
+  get_ready();
+  EXPECT_EQ(link_.advice(), "");
+}
+
 TEST_F(Inverse3LinkTest, FallsSilentWhereTheProgramDoes) {
   get_ready();
   run(0.1, kForce);
