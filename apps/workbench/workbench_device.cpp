@@ -36,10 +36,8 @@ WorkbenchDevice::WorkbenchDevice(const std::string& text, const WorkbenchGeometr
   DeviceLimits limits = opened.link->limits();
   limits.enabling_button = opened.enabling.sample_button();
   linked_ = std::make_unique<LinkedDevice>(std::move(opened.link), opened.enabling);
-  // Its reach is kept by the placed device; a device of valuators steers within a box of its own.
-  limits.reach_lower = Vec3{-HUGE_VAL};
-  limits.reach_upper = Vec3{HUGE_VAL};
-  constexpr double kSteered = 0.05;  // [m]
+  limits.edge_stiffness = 0.0;
+  constexpr double kSteered = 0.05;  // [m] half a side of the box in which a device of valuators steers
   placed_ =
       std::make_unique<PlacedDevice>(*linked_, limits, Placement{}, Box{Vec3{-kSteered}, Vec3{kSteered}});
   clock_ = std::make_unique<SampleClock>(*placed_);

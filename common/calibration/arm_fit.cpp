@@ -1,7 +1,10 @@
 #include "common/calibration/arm_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <Eigen/Dense>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -83,6 +86,101 @@ std::vector<double> errors_of(const ArmEstimate& e, const std::vector<ArmMeasure
   return out;
 }
 
+constexpr double kPlacingByHand =
+    2e-4;  // [m] no hand puts a tip more exactly, however well a few measurements agree
+constexpr double kUnknownNoise = 5e-3;  // [m] as much was fitted as was measured
+
+/// How far from a flat plate the nominal arm puts the points of the first grid, in half of all cases [m].
+double nominal_error(const std::vector<ArmMeasurement>& rows, const DhhChain& chain, double turn,
+                     double length) {
+  std::vector<double> errors;
+  for (ArmMeasurement row : rows) {
+    if (row.grid != 0) continue;
+    for (double& reading : row.readings) reading *= turn;
+    errors.push_back(glm::distance(length * row.point, chain.forward(row.readings).translation));
+  }
+  if (errors.empty()) return NAN;
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
+}
+
+/// Refuses a table that fits the nominal arm well once it is read in other units. A nominal arm is off by some
+/// centimetres; errors beyond that are none of its offsets.
+void refuse_slips(const std::vector<ArmMeasurement>& rows, const DhhChain& nominal,
+                  const std::string& source) {
+  constexpr double kNominal = 0.2, kBetter = 0.4, kTwoTurns = 12.6;  // [m], 1, [rad]
+  const double before = nominal_error(rows, nominal, 1.0, 1.0);
+  const bool turned = std::any_of(rows.begin(), rows.end(), [](const ArmMeasurement& row) {
+    return std::any_of(row.readings.begin(), row.readings.end(),
+                       [](double reading) { return std::abs(reading) > kTwoTurns; });
+  });
+  if (!(before > kNominal) && !turned) return;
+  struct Slip {
+    const char* what;
+    double turn, length;
+  };
+  constexpr std::array kSlips{
+      Slip{"the readings look like degrees", kDegree, 1.0},
+      Slip{"the points look like millimetres", 1.0, 1e-3},
+      Slip{"the points look like centimetres", 1.0, 1e-2},
+      Slip{"the readings look like degrees and the points like millimetres", kDegree, 1e-3}};
+  const Slip* best = nullptr;
+  double least = kBetter * before;
+  for (const Slip& slip : kSlips) {
+    const double then = nominal_error(rows, nominal, slip.turn, slip.length);
+    if (!(then < least)) continue;
+    least = then;
+    best = &slip;
+  }
+  if (best == nullptr) return;
+  throw input_error({.file = source,
+                     .place = "",
+                     .found = std::string(best->what) + ": so read, the nominal arm is " +
+                              short_number(std::round(1e3 * least)) + " mm off in half of the cases, not " +
+                              short_number(std::round(1e3 * before)),
+                     .expected = "metres and radians",
+                     .remedy = "write them so"});
+}
+
+/// Refuses a fit that betters nothing.
+void require_betterment(const FitReport& report, const std::string& method) {
+  constexpr double kNoise = 2.0, kLess = 0.95;  // [mm] below it there is nothing to better
+  const ErrorRow* const before = report.find("nominal", "distance", false);
+  const ErrorRow* const after = report.find(method, "distance", true);
+  if (before == nullptr || after == nullptr || before->errors.mean <= kNoise) return;
+  if (after->errors.mean < kLess * before->errors.mean) return;
+  throw work_error(
+      report.source + ": the fit leaves " + short_number(std::round(10.0 * after->errors.mean) / 10.0) +
+      " mm of " + short_number(std::round(10.0 * before->errors.mean) / 10.0) +
+      " mm on points that it has not seen: check which readings belong to which point, and --nominal");
+}
+
+/// Gross errors are to be looked at before anything else is measured.
+std::string gross_remedy(const FitReport& report, const std::string& otherwise) {
+  if (report.outliers.empty()) return otherwise;
+  constexpr std::size_t kNamed = 6;
+  std::string rows;
+  for (std::size_t i = 0; i < std::min(kNamed, report.outliers.size()); ++i)
+    rows += (i == 0 ? "" : ", ") + std::to_string(report.outliers[i]);
+  return "look at measurements " + rows + (report.outliers.size() > kNamed ? ", …" : "") +
+         ", which fit badly, or take a robust loss; " + otherwise;
+}
+
+void require_certainty(const std::vector<double>& predicted, const Identifiability& found,
+                       const std::string& source, const std::string& remedy) {
+  const double worst = *std::max_element(predicted.begin(), predicted.end());
+  if (worst <= kMostPredicted) return;
+  throw input_error({.file = source,
+                     .place = "",
+                     .found = "from these measurements the tip is uncertain by up to " +
+                              short_number(std::round(1e3 * worst)) +
+                              " mm in the workspace (condition number " +
+                              short_number(std::round(found.condition_number)) + ")",
+                     .expected = short_number(1e3 * kMostPredicted) + " mm at most",
+                     .remedy = remedy});
+}
+
 }  // namespace
 
 std::vector<DhhPlace> full_parameters(const DhhChain& chain) {
@@ -160,6 +258,7 @@ ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhCha
                      const ArmFitOptions& options) {
   const Stopwatch watch;
   const std::vector<ArmMeasurement>& rows = table.rows;
+  refuse_slips(rows, nominal, table.source);
   const std::vector<DhhPlace> free =
       options.offsets_only ? offset_parameters(nominal) : full_parameters(nominal);
   const std::size_t grids = grid_count(rows), unknowns = free.size() + 6 * (grids - 1);
@@ -212,16 +311,22 @@ ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhCha
   describe(report, found);
   if (found.condition_number > kReliableCondition)
     report.advice = where_to_measure_next(rows, best.estimate, free, found.condition_number);
-  require_identifiable(found, table.source,
-                       report.advice.empty() ? "measure at more places, with other turns of the wrist"
-                                             : report.advice.front());
+  const std::string remedy =
+      report.advice.empty() ? "measure at more places, with other turns of the wrist" : report.advice.front();
+  require_identifiable(found, table.source, remedy);
   if (!options.offsets_only) judge("full", free, best);
+  require_betterment(report, options.offsets_only ? "offsets" : "full");
 
   const std::vector<double> residuals = errors_of(best.estimate, rows);
   constexpr double kNoOutlier = 1e-3;  // [m], what placing a tip by hand may be off
   report.outliers = outlying(residuals, kNoOutlier);
   const double sigma =
       residual_deviation(residuals, 3, linear.columns, options.loss != Loss::kSquare, kNoOutlier);
+  const std::vector<double> predicted =
+      predicted_errors(rows, best.estimate, free, linear,
+                       std::isfinite(sigma) ? std::max(sigma, kPlacingByHand) : kUnknownNoise);
+  report.errors.push_back(distance_row("predicted", true, predicted));
+  require_certainty(predicted, found, table.source, gross_remedy(report, remedy));
   for (std::size_t i = 0; i < free.size(); ++i) {
     const bool length = free[i].second == DhhQuantity::kD || free[i].second == DhhQuantity::kA;
     report.parameters.push_back({linear.names[i], best.problem.parameters[0].values[i],
@@ -261,9 +366,10 @@ Rigid frame_of(const Plane& plane) {
   return {glm::normalize(Quat{1.0 + along, axis.x, axis.y, axis.z}), plane.origin};
 }
 
-/// Readings drawn from the ranges that were seen, somewhat widened.
-std::vector<std::vector<double>> reachable(const std::vector<ArmMeasurement>& rows) {
-  constexpr double kWider = 0.2;
+/// Readings drawn from the ranges that were seen, somewhat widened, and to `least` [rad] each.
+std::vector<std::vector<double>> reachable(const std::vector<ArmMeasurement>& rows, std::size_t count,
+                                           double least) {
+  constexpr double kWider = 1.4;
   const std::size_t joints = rows[0].readings.size();
   std::vector<double> lower(joints, HUGE_VAL), upper(joints, -HUGE_VAL);
   for (const ArmMeasurement& row : rows) {
@@ -272,18 +378,53 @@ std::vector<std::vector<double>> reachable(const std::vector<ArmMeasurement>& ro
       upper[j] = std::max(upper[j], row.readings[j]);
     }
   }
-  std::vector<std::vector<double>> out(kTries, std::vector<double>(joints));
+  std::vector<std::vector<double>> out(count, std::vector<double>(joints));
   std::uint64_t counter = 0;
   for (auto& readings : out) {
     for (std::size_t j = 0; j < joints; ++j) {
-      const double more = kWider * (upper[j] - lower[j]);
-      readings[j] = lower[j] - more + uniform_at(counter++) * (upper[j] - lower[j] + 2.0 * more);
+      const double range = std::max(kWider * (upper[j] - lower[j]), least);
+      readings[j] = 0.5 * (lower[j] + upper[j]) + (uniform_at(counter++) - 0.5) * range;
     }
   }
   return out;
 }
 
 }  // namespace
+
+std::vector<double> predicted_errors(const std::vector<ArmMeasurement>& rows, const ArmEstimate& estimate,
+                                     const std::vector<DhhPlace>& free, const Linearization& linear,
+                                     double sigma) {
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto columns = static_cast<Eigen::Index>(linear.columns),
+             numbers = static_cast<Eigen::Index>(free.size());
+  Matrix a =
+      Eigen::Map<const Matrix>(linear.jacobian.data(), static_cast<Eigen::Index>(linear.rows), columns);
+  // Columns of unit length: metres and radians beside each other.
+  const Eigen::VectorXd lengths = a.colwise().norm().cwiseMax(1e-300);
+  for (Eigen::Index c = 0; c < columns; ++c) a.col(c) /= lengths(c);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(a, Eigen::ComputeThinV);
+  // Rows of V / s are the unknowns' deviations along each singular direction.
+  const Eigen::MatrixXd along = lengths.cwiseInverse().asDiagonal() * svd.matrixV() *
+                                svd.singularValues().cwiseMax(1e-300).cwiseInverse().asDiagonal();
+  constexpr std::size_t kPlaces = 400;
+  constexpr double kWorkspace =
+      1.0;  // [rad] a joint that hardly turned while it was measured turns as far in use
+  constexpr double kStep = 1e-6;
+  std::vector<double> out;
+  for (const std::vector<double>& readings : reachable(rows, kPlaces, kWorkspace)) {
+    Eigen::MatrixXd tip(3, numbers);
+    for (Eigen::Index i = 0; i < numbers; ++i) {
+      DhhChain more = estimate.chain, less = estimate.chain;
+      at(more, free[as_size(i)]) += kStep;
+      at(less, free[as_size(i)]) -= kStep;
+      const Vec3 d =
+          (more.forward(readings).translation - less.forward(readings).translation) / (2.0 * kStep);
+      tip.col(i) << d.x, d.y, d.z;
+    }
+    out.push_back(sigma * (tip * along.topRows(numbers)).norm());
+  }
+  return out;
+}
 
 std::vector<std::string> where_to_measure_next(const std::vector<ArmMeasurement>& rows,
                                                const ArmEstimate& estimate, const std::vector<DhhPlace>& free,
@@ -303,7 +444,7 @@ std::vector<std::string> where_to_measure_next(const std::vector<ArmMeasurement>
   for (const int across : {0, 1})
     planes.push_back({middle, axes.vectors[across], "nearly perpendicular to the first one"});
 
-  const auto candidates = reachable(rows);
+  const auto candidates = reachable(rows, kTries, 0.0);
   std::vector<Vec3> candidate_tips;
   candidate_tips.reserve(candidates.size());
   for (const auto& readings : candidates)

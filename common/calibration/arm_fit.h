@@ -44,14 +44,33 @@ struct ArmFitOptions {
 struct ArmFit {
   DhhChain chain;
   std::vector<Rigid> grids;  ///< of each grid in the first one's frame
-  FitReport report;          ///< errors "nominal", "offsets", and "full" unless offsets_only
+  /// Errors "nominal", "offsets", and "full" unless offsets_only; "predicted" is what the fit's uncertainty makes
+  /// of the tip's place over the workspace (predicted_errors()).
+  FitReport report;
 };
+
+/// Largest uncertainty of the tip over the workspace with which an arm is of use [m].
+inline constexpr double kMostPredicted = 0.010;
 
 /// @param nominal where the search starts; its `free` flags say what a full fit estimates.
 /// @throws Error (bad input) for fewer measurements than unknowns, and for sets that cannot tell parameters
-/// apart: names them and says where to measure next.
+/// apart, or leave the tip uncertain by more than kMostPredicted somewhere in the workspace: names them and says
+/// where to measure next. For readings in degrees and places in millimetres; (work failed) for a fit that leaves
+/// as much as there was before.
 [[nodiscard]] ArmFit calibrate_arm(const MeasurementTable<ArmMeasurement>& table, const DhhChain& nominal,
                                    const ArmFitOptions& options);
+
+/// The standard deviation of the tip's place [m] at readings drawn from the ranges that were seen, widened to
+/// those of use:
+///
+///   sigma sqrt(trace(J C J^T)),   C = (A^T A)^-1
+///
+/// A the derivatives of all residuals by all unknowns, J those of the tip by the chain's numbers. Reproducible.
+/// @param linear of arm_problem() at `estimate`; @param sigma of a measurement along an axis [m].
+[[nodiscard]] std::vector<double> predicted_errors(const std::vector<ArmMeasurement>& rows,
+                                                   const ArmEstimate& estimate,
+                                                   const std::vector<DhhPlace>& free,
+                                                   const Linearization& linear, double sigma);
 
 /// Tries further grids in planes through and beside the places measured so far, each with an unknown frame of
 /// its own and twenty poses that the arm reaches with readings like those seen, and ranks them by the

@@ -1,8 +1,10 @@
 #include "common/calibration/tracker_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -77,7 +79,18 @@ MatrixXd design(const std::vector<Vec3>& places, const VectorPolynomial& frame) 
   return a;
 }
 
-/// Least squares for three right-hand sides, with Huber's weights by the length of a row's residual if asked.
+/// How much a row counts by the length r of its residual: the square root of the weight of a robust loss with
+/// the deviation `sigma` of an axis. Huber's falls as 1 / r, Cauchy's as 1 / r^2: it forgets what is far off.
+double robust_weight(Loss loss, double r, double sigma) {
+  // 95 % of the efficiency of plain squares on normal errors.
+  constexpr double kHuber = 1.345, kCauchy = 2.385;
+  const double bound = std::sqrt(3.0) * sigma * (loss == Loss::kCauchy ? kCauchy : kHuber);
+  if (loss == Loss::kCauchy) return 1.0 / std::sqrt(1.0 + (r / bound) * (r / bound));
+  return r > bound ? std::sqrt(bound / r) : 1.0;
+}
+
+/// Least squares for three right-hand sides, with a robust loss's weights by the length of a row's residual if
+/// asked.
 MatrixXd solved(const MatrixXd& a, const MatrixXd& b, Loss loss) {
   MatrixXd c = a.householderQr().solve(b);
   constexpr int kRounds = 20;  // of reweighting; Huber's weights settle in a few
@@ -86,12 +99,12 @@ MatrixXd solved(const MatrixXd& a, const MatrixXd& b, Loss loss) {
     std::vector<double> sorted(lengths.data(), lengths.data() + lengths.size());
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                      sorted.end());
-    // 1.345 deviations give 95 % of the efficiency of plain squares on normal errors.
-    constexpr double kHuber = 1.345, kMedianNorm = 1.54;
-    const double bound = kHuber * std::sqrt(3.0) * sorted[sorted.size() / 2] / kMedianNorm;
-    if (!(bound > 0.0)) break;
-    const VectorXd weights =
-        lengths.unaryExpr([&](double r) { return r > bound ? std::sqrt(bound / r) : 1.0; });
+    constexpr double kMedianNorm = 1.54;
+    const double sigma = sorted[sorted.size() / 2] / kMedianNorm;
+    if (!(sigma > 0.0)) break;
+    // Cauchy's loss has many minima: Huber's single one is where it starts from.
+    const Loss now = loss == Loss::kCauchy && round < kRounds / 2 ? Loss::kHuber : loss;
+    const VectorXd weights = lengths.unaryExpr([&](double r) { return robust_weight(now, r, sigma); });
     c = (weights.asDiagonal() * a).householderQr().solve(weights.asDiagonal() * b);
   }
   return c;
@@ -214,6 +227,57 @@ ErrorTable sampled(const ErrorSpline& spline, const std::vector<Vec3>& places, i
   return out;
 }
 
+/// The samples with `kept`, errors from `errors`.
+std::pair<std::vector<Vec3>, MatrixXd> part_of(const std::vector<Vec3>& places, const MatrixXd& errors,
+                                               const std::vector<bool>& kept) {
+  std::pair<std::vector<Vec3>, MatrixXd> out{{}, MatrixXd(std::count(kept.begin(), kept.end(), true), 6)};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!kept[i]) continue;
+    out.second.row(static_cast<Index>(out.first.size())) = errors.row(static_cast<Index>(i));
+    out.first.push_back(places[i]);
+  }
+  return out;
+}
+
+/// Those that are no gross errors, by what `predicted` says of each place: five robust deviations.
+template <class Predicted>
+std::vector<bool> plausible(const Samples& samples, const Predicted& predicted) {
+  constexpr double kFloor = 1e-3, kTurnFloor = 2e-3;  // [m], [rad] what a tracker's noise may be
+  std::vector<double> position, orientation;
+  for (std::size_t i = 0; i < samples.places.size(); ++i) {
+    const PoseError measured = pose_error_of(samples.errors.row(static_cast<Index>(i)).transpose());
+    const PoseError e = predicted(samples.places[i]);
+    position.push_back(glm::distance(measured.position, e.position));
+    orientation.push_back(glm::distance(measured.orientation, e.orientation));
+  }
+  std::vector<bool> out(samples.places.size(), true);
+  for (const std::size_t row : outlying(position, kFloor)) out[row - 1] = false;
+  for (const std::size_t row : outlying(orientation, kTurnFloor)) out[row - 1] = false;
+  return out;
+}
+
+/// A spline through gross errors follows them: what a robust polynomial does not explain is left out, and comes
+/// back where the spline of the others does, which is where the field itself is steep.
+std::vector<bool> without_gross_errors(const Samples& samples, const TrackerFitOptions& options,
+                                       const std::string& source) {
+  int degree = options.degree;
+  while (degree > 1 && as_size(term_count(degree)) * 2 > samples.places.size()) --degree;
+  TrackerCorrection polynomial;
+  PolynomialFit fit = fit_polynomials(samples, degree, options.loss, source);
+  polynomial.position = std::move(fit.position);
+  polynomial.orientation = std::move(fit.orientation);
+  std::vector<bool> kept = plausible(samples, [&](const Vec3& p) { return polynomial.error_at(p); });
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round) {
+    const auto [places, errors] = part_of(samples.places, samples.errors, kept);
+    const ErrorSpline spline = fit_spline(places, errors);
+    if (spline.centers.empty()) break;
+    const std::vector<bool> explained = plausible(samples, [&](const Vec3& p) { return spline.at(p); });
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = kept[i] || explained[i];
+  }
+  return kept;
+}
+
 TrackerCorrection fitted(const Samples& samples, const TrackerFitOptions& options,
                          const std::string& source) {
   TrackerCorrection out;
@@ -230,9 +294,13 @@ TrackerCorrection fitted(const Samples& samples, const TrackerFitOptions& option
       left.row(static_cast<Index>(i)) -= six;
     }
   }
-  out.spline = fit_spline(samples.places, left);
+  const std::vector<bool> kept = options.loss == Loss::kSquare
+                                     ? std::vector<bool>(samples.places.size(), true)
+                                     : without_gross_errors(samples, options, source);
+  const auto [places, errors] = part_of(samples.places, left, kept);
+  out.spline = fit_spline(places, errors);
   if (options.method == TrackerMethod::kTable || options.method == TrackerMethod::kCombined) {
-    out.table = sampled(out.spline, samples.places, options.table_nodes);
+    out.table = sampled(out.spline, places, options.table_nodes);
     out.spline = {};
   }
   return out;
@@ -257,6 +325,122 @@ void add_rows(FitReport& report, const std::string& method, bool left_out, const
   }
   report.errors.push_back({method, "position", "mm", left_out, statistics_of(position)});
   report.errors.push_back({method, "orientation", "deg", left_out, statistics_of(orientation)});
+}
+
+/// Another way to read a table, by which a slip shows.
+struct Slip {
+  const char* what;    ///< "the reported positions look like millimetres"
+  const char* remedy;  ///< "write metres"
+  bool turns;          ///< it shows in orientations, else in positions
+  TrackerMeasurement (*mended)(TrackerMeasurement row);
+};
+
+/// Read as w, x, y, z though written as x, y, z, w.
+Quat moved_first(const Quat& q) { return {q.z, q.w, q.x, q.y}; }
+
+constexpr std::array kSlips{Slip{"the reported positions look like millimetres", "write metres", false,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.position *= 1e-3;
+                                   return row;
+                                 }},
+                            Slip{"the actual positions look like millimetres", "write metres", false,
+                                 [](TrackerMeasurement row) {
+                                   row.actual.position *= 1e-3;
+                                   return row;
+                                 }},
+                            Slip{"all positions look like millimetres", "write metres", false,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.position *= 1e-3;
+                                   row.actual.position *= 1e-3;
+                                   return row;
+                                 }},
+                            Slip{"the reported positions look like centimetres", "write metres", false,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.position *= 1e-2;
+                                   return row;
+                                 }},
+                            Slip{"the reported positions look like inches", "write metres", false,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.position *= 0.0254;
+                                   return row;
+                                 }},
+                            Slip{"the reported quaternions look like x, y, z, w", "write w, x, y, z", true,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.orientation = moved_first(row.reported.orientation);
+                                   return row;
+                                 }},
+                            Slip{"the actual quaternions look like x, y, z, w", "write w, x, y, z", true,
+                                 [](TrackerMeasurement row) {
+                                   row.actual.orientation = moved_first(row.actual.orientation);
+                                   return row;
+                                 }},
+                            Slip{"one side's quaternions look like conjugates of the other's",
+                                 "give both as the turn from the sensor's axes to the transmitter's", true,
+                                 [](TrackerMeasurement row) {
+                                   row.reported.orientation = glm::conjugate(row.reported.orientation);
+                                   return row;
+                                 }}};
+
+/// Half of the measurements are no worse than that [m], or [rad].
+double median_error(const std::vector<TrackerMeasurement>& rows, const Slip* slip, bool turns) {
+  std::vector<double> errors;
+  for (const TrackerMeasurement& row : rows) {
+    const Left left = left_by({}, slip != nullptr ? slip->mended(row) : row);
+    errors.push_back(turns ? left.orientation : left.position);
+  }
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
+}
+
+/// Refuses a table that fits well once it is read another way. Metal bends a field by centimetres and some
+/// degrees; errors beyond that are none of metal's.
+void refuse_slips(const std::vector<TrackerMeasurement>& rows, const std::string& source) {
+  constexpr double kMetal = 0.5, kMetalTurn = 30.0 * kDegree, kBetter = 0.25,
+                   kRoom = 5.0;  // [m], [rad], 1, [m]
+  if (rows.empty()) return;
+  double farthest = 0.0;
+  for (const TrackerMeasurement& row : rows) farthest = std::max(farthest, glm::length(row.actual.position));
+  for (const bool turns : {false, true}) {
+    const double before = median_error(rows, nullptr, turns);
+    const bool large = before > (turns ? kMetalTurn : kMetal) || (!turns && farthest > kRoom);
+    if (!std::isfinite(before) || !large) continue;
+    const Slip* best = nullptr;
+    double least = kBetter * before;
+    for (const Slip& slip : kSlips) {
+      if (slip.turns != turns) continue;
+      const double then = median_error(rows, &slip, turns);
+      if (then < least) {
+        least = then;
+        best = &slip;
+      }
+    }
+    if (best == nullptr) continue;
+    const auto text = [turns](double error) {
+      return turns ? short_number(std::round(10.0 * error / kDegree) / 10.0) + " degrees"
+                   : short_number(std::round(1e6 * error) / 1e3) + " mm";
+    };
+    throw input_error({.file = source,
+                       .place = "",
+                       .found = std::string(best->what) + ": so read, half of the errors are below " +
+                                text(least) + ", not " + text(before),
+                       .expected = "metres, and quaternions w, x, y, z of the same turns",
+                       .remedy = best->remedy});
+  }
+}
+
+/// Refuses a correction that corrects nothing.
+void require_betterment(const std::vector<Left>& before, const std::vector<Left>& after,
+                        const std::string& source) {
+  constexpr double kNoise = 2e-3, kLess = 0.95;  // [m] below it there is nothing to correct
+  double was = 0.0, is = 0.0;
+  for (const Left& e : before) was += e.position / static_cast<double>(before.size());
+  for (const Left& e : after) is += e.position / static_cast<double>(after.size());
+  if (was <= kNoise || is < kLess * was) return;
+  throw work_error(source + ": the correction leaves " + short_number(std::round(1e4 * is) / 10.0) +
+                   " mm of " + short_number(std::round(1e4 * was) / 10.0) +
+                   " mm on measurements that it has not seen: these errors do not depend on the place; check "
+                   "which reported pose belongs to which actual one");
 }
 
 /// Seconds of one evaluation.
@@ -311,6 +495,7 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
     (table.rows[i].validation ? validation : fit).push_back(table.rows[i]);
     if (!table.rows[i].validation) fit_rows.push_back(i + 1);
   }
+  refuse_slips(table.rows, table.source);
   TrackerFit out;
   out.correction = fit_tracker(fit, options, table.source);
   FitReport& report = out.report;
@@ -370,6 +555,7 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
   }
 
   const std::vector<Left> after = left_out(options, out.correction);
+  require_betterment(before, after, table.source);
   std::vector<double> residuals;
   for (const Left& e : seen) residuals.push_back(e.position);
   constexpr double kNoOutlier = 1e-3;  // [m], what a tracker's noise may be

@@ -21,9 +21,10 @@ enum class TrackerMethod { kPolynomial, kTable, kSpline, kCombined, kCombinedSpl
 struct TrackerFitOptions {
   TrackerMethod method = TrackerMethod::kCombined;
   int degree = 4;
-  Loss loss = Loss::kSquare;  ///< of the polynomial; kCauchy counts as kHuber here
-  int table_nodes = 0;        ///< along the longest side; 0: as many as the measurements stand apart
-  std::size_t folds = 5;      ///< of leave-out validation, where no measurements are marked for it
+  Loss loss =
+      Loss::kSquare;      ///< of the polynomial; with any but kSquare spline and table leave gross errors out
+  int table_nodes = 0;    ///< along the longest side; 0: as many as the measurements stand apart
+  std::size_t folds = 5;  ///< of leave-out validation, where no measurements are marked for it
 };
 
 struct TrackerFit {
@@ -37,7 +38,8 @@ struct TrackerFit {
                                             const std::string& source = "measurements");
 
 /// @throws Error (bad input) for fewer measurements than unknowns, and for places that do not fill a volume;
-/// says what to measure, or which degree the measurements bear.
+/// says what to measure, or which degree the measurements bear. So it does for poses in other units or another
+/// convention, which it names, and (work failed) for a correction that leaves as much as there was before.
 [[nodiscard]] TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
                                            const TrackerFitOptions& options);
 

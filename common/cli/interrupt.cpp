@@ -18,6 +18,7 @@
 #include "common/base/error.h"
 #include "common/base/last_acts.h"
 #include "common/base/output_file.h"
+#include "common/servo/force_end.h"
 
 namespace palpate {
 namespace {
@@ -31,7 +32,7 @@ constexpr long kGraceNanoseconds = 800'000'000;  // the contract says a second; 
 
 extern "C" void on_signal(int) {
   const int saved = errno;
-  signals_seen.fetch_add(1);
+  if (signals_seen.fetch_add(1) == 0) hold_forces();
   if (Progress* progress = cancelled_progress.load()) progress->cancel();
   sem_post(&signal_arrived);
   errno = saved;
@@ -46,6 +47,7 @@ struct InterruptGuard::State {
   std::vector<std::filesystem::path> unfinished;
   struct sigaction old_interrupt {};
   struct sigaction old_terminate {};
+  struct sigaction old_hang_up {};
   std::atomic<bool> over{false};
   std::thread watchdog;
 
@@ -76,11 +78,11 @@ struct InterruptGuard::State {
     }
     if (over) return;
     timespec end{};
-    clock_gettime(CLOCK_REALTIME, &end);
+    clock_gettime(CLOCK_MONOTONIC, &end);  // which nobody sets back
     end.tv_nsec += kGraceNanoseconds;
     end.tv_sec += end.tv_nsec / 1'000'000'000;
     end.tv_nsec %= 1'000'000'000;
-    while (sem_timedwait(&signal_arrived, &end) != 0 && errno == EINTR) {
+    while (sem_clockwait(&signal_arrived, CLOCK_MONOTONIC, &end) != 0 && errno == EINTR) {
     }
     if (!over) end_now();
   }
@@ -100,11 +102,16 @@ InterruptGuard::InterruptGuard(Progress& progress, std::string program) : state_
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, &state_->old_interrupt);
   sigaction(SIGTERM, &action, &state_->old_terminate);
+  sigaction(SIGHUP, nullptr, &state_->old_hang_up);
+  // nohup: who closes the terminal wants the program to go on.
+  if (state_->old_hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &state_->old_interrupt, nullptr);
   sigaction(SIGTERM, &state_->old_terminate, nullptr);
+  sigaction(SIGHUP, &state_->old_hang_up, nullptr);
+  if (interrupted()) release_forces();
   state_->over = true;
   sem_post(&signal_arrived);
   state_->watchdog.join();

@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-/// While it lives, SIGINT and SIGTERM cancel `progress`. 0.8 s later a program that is still at work does
+/// While it lives, SIGINT, SIGTERM and SIGHUP take the force away at once and cancel `progress`. 0.8 s later a program that is still at work does
 /// its last acts (last_acts.h), removes what it was writing (output_file.h) and the unfinished outputs that
 /// it announced, says what was kept and exits with 130; a second signal does so at once. One at a time.
 class InterruptGuard {

@@ -34,14 +34,12 @@ std::vector<PathRow> device_path(const std::string& device) {
   return {};
 }
 
-/// The limits of a real device, caps no higher than those of `asked`; its reach is its own affair
-/// (PlacedDevice).
+/// The limits of a real device, caps no higher than those of `asked`, as PlacedDevice takes them.
 DeviceLimits linked_limits(const DriverLink& link, const DeviceLimits& asked) {
   DeviceLimits limits = link.limits();
   limits.force_cap = std::min(limits.force_cap, asked.force_cap);
   limits.slew_cap = std::min(limits.slew_cap, asked.slew_cap);
-  limits.reach_lower = Vec3{-HUGE_VAL};
-  limits.reach_upper = Vec3{HUGE_VAL};
+  limits.edge_stiffness = 0.0;
   return limits;
 }
 

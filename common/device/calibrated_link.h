@@ -53,6 +53,7 @@ class CalibratedLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return link_->status(); }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return link_->limits(); }
+  void restrain(const DeviceLimits& asked) noexcept override { link_->restrain(asked); }
   [[nodiscard]] std::string place() const override { return link_->place(); }
 
  private:

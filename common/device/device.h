@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "common/device/device_limits.h"
 #include "common/math/vec.h"
@@ -15,6 +16,11 @@ struct DeviceSample {
   double time = 0.0;          ///< [s] when it was taken
   Vec3 position{0.0};         ///< [m]
   std::uint32_t buttons = 0;  ///< bit i: button i is down
+  /// [m] where the hand was in the device's own frame, in which reach and velocity gate are given. None: as
+  /// `position`.
+  std::optional<Vec3> hand{};
+
+  [[nodiscard]] Vec3 in_hand() const noexcept { return hand.value_or(position); }
 
   bool operator==(const DeviceSample&) const = default;
 };

@@ -78,6 +78,9 @@ class DriverLink {
   /// What the user should know or do now, one sentence; empty where there is nothing to say.
   [[nodiscard]] virtual std::string advice() const = 0;
   [[nodiscard]] virtual const DeviceLimits& limits() const noexcept = 0;
+  /// From now on no force that the device is told is larger than the cap of `asked` or of limits(), or grows
+  /// or turns faster than their slew limits, whatever round() is asked for. Before the first round.
+  virtual void restrain(const DeviceLimits& asked) noexcept { (void)asked; }
   /// Bus and place, "usb 1-2.3", or empty while there is none.
   [[nodiscard]] virtual std::string place() const = 0;
 

@@ -44,7 +44,7 @@ Device& ProbeHand::make_device() {
   if (options_.link) {
     // The next picture says which way the view is.
     const Box bounds{workspace.workspace_from_data(box.lower), workspace.workspace_from_data(box.upper)};
-    linked_ = std::make_unique<LinkedDevice>(options_.link, options_.enabling);
+    linked_ = std::make_unique<LinkedDevice>(options_.link, options_.enabling, options_.limits);
     placed_ = std::make_unique<PlacedDevice>(*linked_, options_.limits, Placement{.middle = bounds.center()},
                                              bounds);
     return *placed_;

@@ -48,6 +48,10 @@ std::vector<ServoRow> servo_rows(const ServoState& state) {
   if (statistics.stalls > 0) {
     rows.push_back({"stalls", std::to_string(statistics.stalls) + ", the device was stopped"});
   }
+  if (statistics.stops > 0) {
+    rows.push_back({"stopped", counted(static_cast<std::size_t>(statistics.stops), "time") +
+                                   " by sleep or Ctrl-Z; no force until it is armed"});
+  }
   return rows;
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/output_file.h"
+#include "common/base/text.h"
 #include "common/servo/recording.h"
 
 namespace palpate {
@@ -130,12 +132,14 @@ void FaultRecorder::change(std::uint64_t step, const Change& change) noexcept {
 void FaultRecorder::step(const HandInput& input, const HandStep& step) noexcept {
   now_.take(step, header_.limits);
   memories_[as_size(active_)].add(StepEntry{input, step}, header_.limits);
-  if (is_fault(step.cut) && step.cut != cut_) begin_fault();
-  cut_ = step.cut;
+  if (std::exchange(cut_, step.cut) != step.cut && is_fault(step.cut)) begin_fault();
   if (to_go_ && (*to_go_)-- == 0) hand_over();
 }
 
 void FaultRecorder::begin_fault() noexcept {
+  // A busy machine is no fault of what shows no force: a mouse.
+  const bool late = !is_fault(cut_) || cut_ == ForceCut::kStale || cut_ == ForceCut::kTime;
+  if (late && !header_.limits.latch_faults) return;
   faults_.store(faults_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (!to_go_ && files_ < kMostFiles) to_go_ = aftermath_;
 }
@@ -178,10 +182,12 @@ void FaultRecorder::save(const Memory& memory) {
   try {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);  // a failure shows when the file is made
-    const std::filesystem::path path = free_name();
+    const std::vector<std::uint64_t> there = numbers();
+    const std::filesystem::path path = file_of(there.empty() ? 1 : there.back() + 1);
     OutputFile file(path, false);
     file.write(text_of(memory));
     file.finish();
+    prune();
     message =
         "a fault of the servo: the seconds before it are in " + path.string() + ", which --replay plays";
   } catch (const Error& error) {
@@ -191,11 +197,30 @@ void FaultRecorder::save(const Memory& memory) {
   news_ = std::move(message);
 }
 
-std::filesystem::path FaultRecorder::free_name() const {
-  for (int n = 1;; ++n) {
-    std::filesystem::path path = folder_ / (header_.program + "-fault-" + std::to_string(n) + ".rec");
-    std::error_code unknown;  // where it cannot be told the file is not made either
-    if (!std::filesystem::exists(path, unknown)) return path;
+std::filesystem::path FaultRecorder::file_of(std::uint64_t number) const {
+  return folder_ / (header_.program + "-fault-" + std::to_string(number) + ".rec");
+}
+
+std::vector<std::uint64_t> FaultRecorder::numbers() const {
+  std::vector<std::uint64_t> found;
+  std::error_code unknown;  // where it cannot be told no file is made either
+  for (const auto& entry : std::filesystem::directory_iterator(folder_, unknown)) {
+    const std::string name = entry.path().filename().string(), before = header_.program + "-fault-";
+    if (!name.starts_with(before)) continue;
+    const auto number = parsed<std::uint64_t>(name.substr(before.size(), name.find('.') - before.size()));
+    if (number && *number < std::numeric_limits<std::uint64_t>::max() && entry.path() == file_of(*number)) {
+      found.push_back(*number);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+void FaultRecorder::prune() const {
+  const std::vector<std::uint64_t> there = numbers();
+  for (std::size_t i = 0; i + kKept < there.size(); ++i) {
+    std::error_code left_there;
+    std::filesystem::remove(file_of(there[i]), left_there);
   }
 }
 

@@ -3,7 +3,8 @@
 /// A fault is a ForceCut that is one, and a stall of the servo. What led to it and kAftermath after it are
 /// written, by a thread of its own, as a recording (recording.h) that `--replay` plays:
 /// FOLDER/PROGRAM-fault-1.rec, and so on. While one is being written the next is not kept; after kMostFiles
-/// faults are only counted, so that a device that keeps failing does not fill the disk.
+/// faults are only counted, so that a device that keeps failing does not fill the disk. Of a program's files, those
+/// of other runs too, the latest kKept stay.
 ///
 /// Where the hand was off the device once in that time the file begins there, since all proxies are forgotten
 /// then: a replay has the very proxies and forces of the run, and checks it. Else it begins as long ago as
@@ -34,6 +35,7 @@ class FaultRecorder {
   static constexpr double kSeconds = 10.0;    ///< that are kept
   static constexpr double kAftermath = 0.25;  ///< [s] of them after the fault
   static constexpr int kMostFiles = 8;
+  static constexpr std::size_t kKept = 20;
 
   /// Takes all memory. The folder is made when there is something to put in it.
   /// @param rate of the servo [Hz].
@@ -121,7 +123,10 @@ class FaultRecorder {
   void write_loop(const std::stop_token& stop);
   void save(const Memory& memory);
   [[nodiscard]] std::string text_of(const Memory& memory);
-  [[nodiscard]] std::filesystem::path free_name() const;
+  /// Numbers of the files that are there, from the least on.
+  [[nodiscard]] std::vector<std::uint64_t> numbers() const;
+  [[nodiscard]] std::filesystem::path file_of(std::uint64_t number) const;
+  void prune() const;
 
   static constexpr int kNone = -1;
 

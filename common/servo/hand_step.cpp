@@ -52,8 +52,8 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
   if (request.cut == ForceCut::kNoHand) let_go();
   if (request.cut == ForceCut::kNone) {
     request.age = input.time - input.sample.time;
-    request.speed = speed_to(input.sample);
-    request.position = input.sample.position;
+    request.position = input.sample.in_hand();
+    request.speed = speed_.update(input.sample.time, request.position);
     request.buttons = input.sample.buttons;
     const Vec3& velocity = velocity_.update(input.sample.time, input.sample.position);
     last_sample_ = input.sample;
@@ -97,18 +97,13 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
 ForceCut HandStepper::judge(const HandInput& input, double dt) const noexcept {
   if (!input.present) return ForceCut::kNoHand;
   const DeviceSample& sample = input.sample;
-  if (!std::isfinite(input.time) || !std::isfinite(sample.time) || !is_finite(sample.position)) {
+  if (!std::isfinite(input.time) || !std::isfinite(sample.time) || !is_finite(sample.position) ||
+      !is_finite(sample.in_hand())) {
     return ForceCut::kNotFinite;
   }
   if (dt <= 0.0) return ForceCut::kTime;  // NaN on the first step, which has nothing to be later than
   if (input.time - sample.time > limits().stale_after) return ForceCut::kStale;
   return ForceCut::kNone;
-}
-
-double HandStepper::speed_to(const DeviceSample& sample) const noexcept {
-  const double dt = sample.time - last_sample_time_;
-  if (!(dt > 0.0)) return 0.0;  // the same sample again, or the first
-  return glm::length((sample.position - last_sample_.position) / dt);
 }
 
 bool HandStepper::watches(int links) const noexcept {
@@ -134,6 +129,7 @@ void HandStepper::let_go() noexcept {
   if (std::isnan(last_sample_time_)) return;
   last_sample_time_ = kNever;
   velocity_.reset();
+  speed_.reset();
   passivity_.reset();
   last_ = {};
   starting_ = true;

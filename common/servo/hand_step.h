@@ -15,6 +15,7 @@
 #include "common/haptics/passivity.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/velocity_estimate.h"
+#include "common/servo/hand_speed.h"
 #include "common/servo/safety_stage.h"
 
 namespace palpate {
@@ -74,8 +75,6 @@ class HandStepper {
 
   /// What keeps the sample from being used, or kNone. @param dt [s] NaN for the first step.
   [[nodiscard]] ForceCut judge(const HandInput& input, double dt) const noexcept;
-  /// The speed of the hand since the last sample that was used [m/s].
-  [[nodiscard]] double speed_to(const DeviceSample& sample) const noexcept;
   /// Whether the passivity controller looks after a chain of so many links.
   [[nodiscard]] bool watches(int links) const noexcept;
   /// The force of the chain with the controller's damping, where that is in use. @param dt as in judge().
@@ -88,6 +87,7 @@ class HandStepper {
   DeviceSample last_sample_;          ///< the last one that was used
   double last_sample_time_ = kNever;  ///< [s] NaN while there is none to measure a speed from
   VelocityEstimate velocity_{kPositionNoise};
+  HandSpeed speed_;
   PassivityController passivity_;
   double last_time_ = kNever;  ///< [s] the last finite time of a step
   std::uint64_t next_ = 0;

@@ -22,9 +22,11 @@ std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int b
   return held ? buttons | kBit : buttons & ~kBit;
 }
 
-LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling)
+LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling,
+                           const std::optional<DeviceLimits>& asked)
     : link_(std::move(link)) {
   PALPATE_CHECK(link_ != nullptr);
+  if (asked) link_->restrain(*asked);
   limits_ = link_->limits();
   tracks_ = link_->poses() != nullptr;
   if (enabling.link) {
@@ -32,7 +34,6 @@ LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitc
     switch_button_ = enabling.button;
     limits_.enabling_button = enabling.sample_button();
   }
-  advice_ = link_->advice();
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
@@ -42,25 +43,31 @@ LinkedDevice::~LinkedDevice() {
 }
 
 void LinkedDevice::work(const std::stop_token& stop) {
+  ForceEnd::leave_signals_to_others();
   request_real_time_priority(kLinkPriority);
   Order order;
   LinkPhase told = LinkPhase::kAbsent;
   double reported_at = 0.0;
+  const double begun = now_seconds();
   while (!stop.stop_requested()) {
     (void)orders_.read(order);
     const double now = now_seconds();
     const bool fresh = now - order.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
-    if (link_->round(fresh ? order.force : Vec3{0.0})) {
+    const bool shows = fresh && order.force != Vec3{0.0} && end_.may_show();
+    if (link_->round(shows ? order.force : Vec3{0.0})) {
       atoms_.write(link_->atoms());
       if (const PoseAtoms* const poses = link_->poses()) poses_.write(*poses);
     }
+    if (!shows) end_.rested();
     // Words are for people: when something has changed, and now and then.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
     if (status.phase == told && now - reported_at < kPause) continue;
     told = status.phase;
     reported_at = now;
-    std::string advice = link_->advice();
+    // What is there needs a moment to be found.
+    const bool had_its_chance = status.phase != LinkPhase::kAbsent || now - begun > kChance;
+    std::string advice = had_its_chance ? link_->advice() : std::string();
     const std::lock_guard lock(mutex_);
     status_ = status;
     advice_ = std::move(advice);

@@ -3,7 +3,8 @@
 ///
 /// Three lines of defence stand between a stalled program and a force that stays: a force that the servo has
 /// not renewed for kFreshFor is zero to the link, the watchdog's emergency_stop() too, and the link itself
-/// shows none without sense in its device's answers.
+/// shows none without sense in its device's answers. What ends or stops the program takes the force away
+/// first (force_end.h).
 ///
 /// A dead-man switch on another device is a link on a thread of its own. Whether it is held goes into the
 /// samples as a button, by its own time stamp (with_switch()): what records and replays samples has it, too.
@@ -12,6 +13,7 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -19,6 +21,7 @@
 #include "common/device/device.h"
 #include "common/device/device_limits.h"
 #include "common/device/driver_link.h"
+#include "common/servo/force_end.h"
 
 namespace palpate {
 
@@ -31,12 +34,15 @@ namespace palpate {
 class LinkedDevice final : public Device {
  public:
   static constexpr double kFreshFor = 0.020;  ///< [s]
+  static constexpr double kChance = 1.0;      ///< [s]
   /// [s] for which the last sample of a device that fell silent is still given, so that its age is seen as
   /// the fault that it is.
   static constexpr double kKept = 0.25;
 
-  /// Starts the thread, and one for a switch that is on another device. @pre link is not null.
-  explicit LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling = {});
+  /// Starts the thread, and one for a switch that is on another device. @param asked caps that the user
+  /// asks for, to which the link itself holds (DriverLink::restrain()). @pre link is not null.
+  explicit LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitch& enabling = {},
+                        const std::optional<DeviceLimits>& asked = {});
   /// Leaves the device without force.
   ~LinkedDevice() override;
 
@@ -59,7 +65,8 @@ class LinkedDevice final : public Device {
   /// @name Any thread but the servo's
   /// @{
   [[nodiscard]] LinkStatus status() const;
-  /// What the user should know or do now, about the device, else about its switch; empty: nothing.
+  /// What the user should know or do now, about the device, else about its switch; empty: nothing. That a
+  /// device is not there is said once it had kChance to be found.
   [[nodiscard]] std::string advice() const;
   /// @}
 
@@ -80,6 +87,7 @@ class LinkedDevice final : public Device {
   TripleBuffer<PoseAtoms> poses_;
   TripleBuffer<Order> orders_;
   std::atomic<bool> stopped_{false};
+  ForceEnd end_;
 
   DeviceAtoms newest_;  ///< the servo thread's
   bool seen_ = false;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/base/index.h"
-#include "common/servo/safety_stage.h"
 
 namespace palpate {
 
@@ -28,18 +27,16 @@ bool PlacedDevice::read(double now, DeviceSample& sample) noexcept {
   DeviceAtoms atoms;
   if (!device_.read_atoms(now, atoms)) {
     steered_at_ = -1.0;
-    inside_ = false;
     buttons_.store(0, std::memory_order_relaxed);
     return false;
   }
   if (atoms.has_valuators) return steer(now, atoms, sample);
   if (!atoms.has_position) return false;
-  inside_ = within_reach(device_.limits(), atoms.position);
   const Vec3 in_hand = placement_.on_surface(atoms.position);
   tips_.write(in_hand);
   if (moved) return false;
   sample = {atoms.time, placement_.middle + placement_.scale * (placement_.axes * in_hand),
-            haptic_buttons(atoms.buttons)};
+            haptic_buttons(atoms.buttons), atoms.position};
   return true;
 }
 
@@ -63,18 +60,18 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
     const Vec3 in_hand = (steered_ - placement_.middle) * placement_.axes / placement_.scale;
     steered_ = placement_.middle + placement_.scale * (placement_.axes * placement_.on_surface(in_hand));
   }
-  sample = {now, steered_, haptic_buttons(atoms.buttons)};  // at rest it is no stale one
+  // At rest it is no stale one; the hand itself stays at the middle of its device.
+  sample = {now, steered_, haptic_buttons(atoms.buttons), Vec3{0.0}};
   return true;
 }
 
 void PlacedDevice::command(const Vec3& force) noexcept {
-  // Frame D's reach is a box in W only where it is not turned: so it is kept here, not by the safety stage.
   Vec3 felt = force * placement_.axes;  // row vector times R is R^T times column
   if (placement_.surface) {
     const Vec3 n{*placement_.surface};
     felt -= glm::dot(n, felt) * n;
   }
-  device_.command(inside_ ? felt / std::max(1.0, placement_.scale) : Vec3{0.0});  // (2)
+  device_.command(felt / std::max(1.0, placement_.scale));  // (2)
 }
 
 }  // namespace palpate

@@ -9,7 +9,10 @@
 ///
 ///   F_D = R^T F_W / max(1, s),                                                                       (2)
 ///
-/// a stiffness of dF_D/dx_D = K where s > 1 and s K below it: never more than K, and never more force.
+/// a stiffness of dF_D/dx_D = K where s > 1 and s K below it: never more than K, and never more force. (2) and
+/// the plane of a placement do not change from one force to the next and lengthen none, so what kept to a cap
+/// and a slew limit before keeps to them after. Whether the hand is within its reach, and how fast it is, the
+/// safety stage sees by DeviceSample::hand.
 ///
 /// A device of valuators (a SpaceMouse) moves the probe at a speed in proportion to how far each is pushed,
 /// in the axes of the placement, and stays where it is when the cap is let go:
@@ -55,7 +58,8 @@ class PlacedDevice final : public Device {
   static constexpr double kTopSpeed = 0.15;     ///< v_max of (1) [m/s]
   static constexpr double kLongestStep = 0.05;  ///< [s] a longer pause moves no further
 
-  /// `device` outlives this. @param limits in W: without a reach.
+  /// `device` outlives this. @param limits with the reach of the device in D and no push at its border
+  /// (edge_stiffness 0), which would be given in D and felt in W.
   PlacedDevice(LinkedDevice& device, const DeviceLimits& limits, const Placement& placement,
                const Box& bounds) noexcept;
 
@@ -92,7 +96,6 @@ class PlacedDevice final : public Device {
   Placement placement_;  ///< servo thread, as all below
   Vec3 steered_{0.0};
   double steered_at_ = -1.0;  ///< [s] negative: not yet
-  bool inside_ = false;       ///< of the reach of the device, at the last sample
 };
 
 }  // namespace palpate

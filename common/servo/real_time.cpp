@@ -30,6 +30,7 @@ bool set_fifo(int priority) noexcept {
 }  // namespace
 
 std::int64_t monotonic_ns() noexcept { return clock_ns(CLOCK_MONOTONIC); }
+std::int64_t slept_ns() noexcept { return clock_ns(CLOCK_BOOTTIME) - clock_ns(CLOCK_MONOTONIC); }
 std::int64_t thread_cpu_ns() noexcept { return clock_ns(CLOCK_THREAD_CPUTIME_ID); }
 
 void sleep_until_ns(std::int64_t deadline) noexcept {

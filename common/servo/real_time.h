@@ -7,6 +7,8 @@ namespace palpate {
 
 /// CLOCK_MONOTONIC [ns].
 [[nodiscard]] std::int64_t monotonic_ns() noexcept;
+/// CLOCK_BOOTTIME less CLOCK_MONOTONIC [ns]: how long the machine has slept since it was switched on.
+[[nodiscard]] std::int64_t slept_ns() noexcept;
 /// Processor time of the calling thread [ns]: what it used itself, whatever else the machine does.
 [[nodiscard]] std::int64_t thread_cpu_ns() noexcept;
 /// Sleeps until CLOCK_MONOTONIC is `deadline` [ns], an absolute time, so that errors do not add up.

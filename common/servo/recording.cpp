@@ -62,6 +62,7 @@ class Words {
     return value;
   }
 
+  [[nodiscard]] bool done() const noexcept { return rest_.empty(); }
   /// All that is left, spaces included.
   std::string rest() { return std::string(std::exchange(rest_, {})); }
   void finish() const {
@@ -168,6 +169,10 @@ class BodyReader {
       sample.time = words.number<double>("the time of the sample");
       for (int a = 0; a < 3; ++a) sample.position[a] = words.number<double>("a coordinate");
       sample.buttons = words.number<std::uint32_t>("the buttons");
+      if (!words.done()) {
+        Vec3& hand = sample.hand.emplace();
+        for (int a = 0; a < 3; ++a) hand[a] = words.number<double>("a coordinate of the hand");
+      }
     }
     next_ = step.number + 1;
     recording_.steps.push_back(step);
@@ -268,6 +273,7 @@ void RecordingText::step(const HandInput& input, const HandStep& step) {
     append(text_, sample.time);
     for (int a = 0; a < 3; ++a) append(text_, sample.position[a]);
     append(text_, sample.buttons);
+    for (int a = 0; sample.hand && a < 3; ++a) append(text_, (*sample.hand)[a]);
   }
   text_ += '\n';
   if (is_fault(step.cut) && step.cut != cut_) {

@@ -13,7 +13,7 @@
 ///   chain STEP DESCRIPTION                    before the step: another chain, in words of the program
 ///   settings STEP NAME=VALUE …                before the step: ChainSettings (haptics/settings_text.h)
 ///   switch STEP NAME                          before the step: HandSwitch
-///   s STEP TIME SAMPLE_TIME X Y Z BUTTONS     a step with a sample
+///   s STEP TIME SAMPLE_TIME X Y Z BUTTONS [HX HY HZ]  a step with a sample, and where the hand was if not there
 ///   n STEP TIME                               a step without a hand
 ///   fault STEP NAME                           a ForceCut that is a fault began at that step
 ///   overrun STEP SKIPPED LATE USED            the tick of that step overran (Overrun)

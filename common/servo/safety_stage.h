@@ -89,9 +89,9 @@ struct ForceRequest {
   Vec3 force{0.0};                 ///< [N]
   double dt = 0.0;                 ///< [s] since the last step
   double age = 0.0;                ///< [s] of the sample that it rests on
-  double speed = 0.0;              ///< [m/s] of the hand
+  double speed = 0.0;              ///< [m/s] of the hand (hand_speed.h)
   ForceCut cut = ForceCut::kNone;  ///< the caller's own reason for a zero force
-  Vec3 position{0.0};              ///< [m] of the hand
+  Vec3 position{0.0};              ///< [m] of the hand, in the frame of the limits' reach
   std::uint32_t buttons = 0;       ///< bit i: button i is down
 };
 

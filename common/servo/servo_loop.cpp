@@ -46,7 +46,9 @@ ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const st
       device_(&device),
       recorder_(recorder),
       faults_(faults),
-      stepper_(nullptr, device.limits()) {
+      stepper_(nullptr, device.limits()),
+      slept_(options.slept),
+      slept_before_(slept_()) {
   PALPATE_CHECK(device.limits().valid());
   // The first chain too comes in by hand-over, so that it is recorded as any other.
   swap_chain(std::move(chain), description);
@@ -56,7 +58,11 @@ ServoLoop::ServoLoop(Device& device, std::unique_ptr<ProxyChain> chain, const st
 }
 
 ServoLoop::ServoLoop(ReplaySource& replay, const ServoOptions& options)
-    : path_(options.path_capacity), replay_(&replay), stepper_(nullptr, replay.recording().header.limits) {
+    : path_(options.path_capacity),
+      replay_(&replay),
+      stepper_(nullptr, replay.recording().header.limits),
+      slept_(options.slept),
+      slept_before_(slept_()) {
   start(options);
 }
 
@@ -80,6 +86,7 @@ void check_servo_rate(double rate) {
 void ServoLoop::start(const ServoOptions& options) {
   check_servo_rate(options.rate);
   now_.rate = options.rate;
+  stops_seen_ = program_stops();
   period_ = std::llround(1e9 / options.rate);
   if (device_ != nullptr) watchdog_.emplace(*device_);
   thread_ = std::jthread(
@@ -191,6 +198,7 @@ void ServoLoop::take_changes() noexcept {
     if (faults_ != nullptr) faults_->stalled();
     apply(HandSwitch::kRestart);
   }
+  stop_after_sleep();
   take_chain();
   if (ChainSettings settings; settings_.read(settings)) {
     stepper_.apply(settings);
@@ -204,6 +212,19 @@ void ServoLoop::take_changes() noexcept {
     off_seen_ = off;
     apply(HandSwitch::kForceOff);
   }
+}
+
+/// Nobody may lean on an arm that wakes up.
+void ServoLoop::stop_after_sleep() noexcept {
+  constexpr std::int64_t kAsleep = 10'000'000;  // [ns] both clocks are not read at once
+  const std::int64_t slept = slept_();
+  const std::uint64_t stops = program_stops();
+  const bool woken = slept - slept_before_ > kAsleep || stops != stops_seen_;
+  slept_before_ = slept;
+  stops_seen_ = stops;
+  if (!woken) return;
+  ++now_.statistics.stops;
+  apply(HandSwitch::kForceOff);
 }
 
 void ServoLoop::take_chain() noexcept {

@@ -6,7 +6,8 @@
 ///
 /// The thread asks for SCHED_FIFO and for its memory to stay; both may be refused, ServoState::real_time says
 /// what was granted. A Watchdog stops the device if the thread stalls, after which the force grows from zero.
-/// On destruction the device is sent a zero force.
+/// On destruction the device is sent a zero force. After a sleep of the machine, or of the program (Ctrl-Z), there
+/// is none until arm().
 #pragma once
 
 #include <atomic>
@@ -24,6 +25,7 @@
 #include "common/base/triple_buffer.h"
 #include "common/device/device.h"
 #include "common/servo/fault_recorder.h"
+#include "common/servo/force_end.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/real_time.h"
 #include "common/servo/recorder.h"
@@ -62,9 +64,10 @@ class Watchdog {
 };
 
 struct ServoOptions {
-  double rate = 1000.0;                   ///< [Hz] in [kLeastRate, kMostRate]
-  bool real_time = true;                  ///< ask for SCHED_FIFO and locked memory
-  std::size_t path_capacity = 1U << 12U;  ///< steps that wait to be drained: 4 s at 1 kHz
+  double rate = 1000.0;                          ///< [Hz] in [kLeastRate, kMostRate]
+  bool real_time = true;                         ///< ask for SCHED_FIFO and locked memory
+  std::size_t path_capacity = 1U << 12U;         ///< steps that wait to be drained: 4 s at 1 kHz
+  std::int64_t (*slept)() noexcept = &slept_ns;  ///< [ns] for which the machine has slept
 
   static constexpr double kLeastRate = 100.0;
   static constexpr double kMostRate = 10'000.0;
@@ -80,6 +83,7 @@ struct ServoStatistics {
   std::uint64_t overruns = 0;  ///< ticks after which deadlines had passed
   std::uint64_t stalls = 0;    ///< times that the watchdog had to stop the device
   std::uint64_t faults = 0;    ///< times that a ForceCut that is a fault began
+  std::uint64_t stops = 0;     ///< times that the machine slept, or the program was stopped
   TimeHistogram lateness;      ///< from deadline to wake-up
   TimeHistogram update;        ///< processor time of a tick: device, changes, step, command
 };
@@ -156,6 +160,7 @@ class ServoLoop {
   void tick(double now) noexcept;
   void play(double now) noexcept;
   void take_changes() noexcept;
+  void stop_after_sleep() noexcept;
   void take_chain() noexcept;
   void record(const Change& change) noexcept;
   void overran(const Overrun& overrun) noexcept;
@@ -185,6 +190,9 @@ class ServoLoop {
   std::uint32_t off_seen_ = 0;
   std::uint32_t arm_seen_ = 0;
   std::uint64_t stalls_seen_ = 0;
+  std::uint64_t stops_seen_ = 0;
+  std::int64_t (*slept_)() noexcept;
+  std::int64_t slept_before_;   ///< [ns]
   double replay_start_ = -1.0;  ///< [s] negative: not started
   std::jthread thread_;         // it uses all of the above
   std::optional<LastAct> last_act_;

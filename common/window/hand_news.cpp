@@ -14,6 +14,10 @@ void HandNews::follow(const ProbeSession& touch, PanelState& state) {
     fault_ = hand.fault;
     state.fail(fault_);
   }
+  if (const std::uint64_t stalls = hand.servo.statistics.stalls; stalls != stalls_) {
+    if (stalls > stalls_) state.say("the machine was busy: the servo stood still for a moment");
+    stalls_ = stalls;
+  }
   if (hand.device != device_) {
     device_ = hand.device;
     state.say(device_.empty() ? "the device is ready" : device_);

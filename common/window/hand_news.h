@@ -1,6 +1,7 @@
 /// What has happened to hand and device, each said once.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "common/window/panels/panel.h"
@@ -15,6 +16,7 @@ class HandNews {
  private:
   std::string fault_, device_;
   int popped_ = 0;
+  std::uint64_t stalls_ = 0;
 };
 
 }  // namespace palpate

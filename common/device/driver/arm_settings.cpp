@@ -14,6 +14,8 @@ struct ArmNumber {
   double& (*in)(ArmSettings&);
 };
 
+constexpr double kMostReach = 10.0;  // [m] no arm is longer
+
 constexpr std::array kArmNumbers{
     ArmNumber{"middle_x", [](ArmSettings& s) -> double& { return s.frame.middle.x; }},
     ArmNumber{"middle_y", [](ArmSettings& s) -> double& { return s.frame.middle.y; }},
@@ -42,7 +44,8 @@ std::optional<Mat3> axes_from_text(std::string_view text) noexcept {
 
 bool ArmSettings::valid() const noexcept {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
-  return is_finite(frame.middle) && positive(force_cap) && positive(reach);
+  return is_finite(frame.middle) && positive(force_cap) && force_cap <= kMostForceCap && positive(reach) &&
+         reach <= kMostReach;
 }
 
 DeviceLimits ArmSettings::limits() const noexcept {

@@ -34,6 +34,9 @@ struct ArmFrame {
 /// The axes of M that point right, up and towards the user, "yzx" or "xz-y". None for what is not a rotation.
 [[nodiscard]] std::optional<Mat3> axes_from_text(std::string_view text) noexcept;
 
+/// [N] of a cap: no arm at a desk has as much, and a larger one is a slip.
+inline constexpr double kMostForceCap = 100.0;
+
 struct ArmSettings {
   ArmFrame frame;
   double force_cap = 5.0;   ///< [N] whatever is asked for

@@ -3,6 +3,7 @@
 #include "common/calibration/tracker_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -121,6 +122,89 @@ TEST(TrackerFit, HuberWithstandsGrossErrorsAndTheReportNamesThem) {
   for (const std::size_t row : {11U, 91U, 151U})
     EXPECT_NE(std::find(named.begin(), named.end(), row), named.end()) << row;
   EXPECT_LE(named.size(), 8U);
+}
+
+// A seventh of the poses grossly wrong: every method finds the field as if they were not there, Cauchy's loss
+// nearer than Huber's, which never lets go of them.
+TEST(TrackerFit, EveryMethodIsRobust) {
+  auto rows = exact_measurements(300, {1.0, 0.8, 0.6}, cubic);
+  for (std::size_t i = 3; i < rows.size(); i += 7)
+    rows[i].actual.position += Vec3{0.2, i % 2 == 0 ? 0.3 : 0.1, -0.2};
+  const auto error = [&](TrackerMethod method, Loss loss) {
+    const TrackerCorrection fit =
+        fit_tracker(rows, {.method = method, .degree = 3, .loss = loss, .table_nodes = 20});
+    double sum = 0.0;
+    for (const TrackerMeasurement& row : exact_measurements(100, {0.8, 0.6, 0.4}, cubic))
+      sum += glm::distance(fit.corrected(row.reported).position, row.actual.position) / 100.0;
+    return sum;
+  };
+  for (const TrackerMethod method :
+       {TrackerMethod::kPolynomial, TrackerMethod::kTable, TrackerMethod::kSpline, TrackerMethod::kCombined,
+        TrackerMethod::kCombinedSpline}) {
+    const double plain = error(method, Loss::kSquare);
+    EXPECT_GT(plain, 5e-3) << name_of(method);
+    for (const Loss loss : {Loss::kHuber, Loss::kCauchy})
+      EXPECT_LT(error(method, loss), 2e-3)
+          << name_of(method) << (loss == Loss::kHuber ? " huber" : " cauchy");
+  }
+  EXPECT_LT(error(TrackerMethod::kPolynomial, Loss::kCauchy),
+            0.5 * error(TrackerMethod::kPolynomial, Loss::kHuber) + 1e-9);
+}
+
+TEST(TrackerFit, NamesSlipsOfUnitsAndConventions) {
+  using Change = void (*)(TrackerMeasurement&);
+  // Of x, y, z, w the first is read as w.
+  const std::array<std::pair<Change, const char*>, 7> slips{{
+      {[](TrackerMeasurement& row) { row.reported.position *= 1e3; },
+       "reported positions look like millimetres"},
+      {[](TrackerMeasurement& row) { row.actual.position *= 1e3; }, "actual positions look like millimetres"},
+      {[](TrackerMeasurement& row) {
+         row.actual.position *= 1e3;
+         row.reported.position *= 1e3;
+       },
+       "all positions look like millimetres"},
+      {[](TrackerMeasurement& row) { row.reported.position /= 0.0254; },
+       "reported positions look like inches"},
+      {[](TrackerMeasurement& row) {
+         const Quat q = row.reported.orientation;
+         row.reported.orientation = Quat{q.x, q.y, q.z, q.w};
+       },
+       "reported quaternions look like x, y, z, w"},
+      {[](TrackerMeasurement& row) {
+         const Quat q = row.actual.orientation;
+         row.actual.orientation = Quat{q.x, q.y, q.z, q.w};
+       },
+       "actual quaternions look like x, y, z, w"},
+      {[](TrackerMeasurement& row) { row.reported.orientation = glm::conjugate(row.reported.orientation); },
+       "conjugates"},
+  }};
+  for (const auto& [slip, words] : slips) {
+    auto rows = exact_measurements(120, {1.0, 0.8, 0.6}, cubic);
+    for (TrackerMeasurement& row : rows) slip(row);
+    std::string line = "accepted";
+    try {
+      (void)calibrate_tracker({"poses.csv", rows}, {.degree = 2});
+    } catch (const Error& error) {
+      line = error.what();
+    }
+    EXPECT_NE(line.find(words), std::string::npos) << line;
+  }
+}
+
+TEST(TrackerFit, FailsWhereItLeavesAsMuchAsThereWas) {
+  // Errors that have nothing to do with the place.
+  auto rows = exact_measurements(200, {1.0, 0.8, 0.6}, cubic);
+  std::mt19937 random{5};
+  std::normal_distribution<double> normal(0.0, 0.03);
+  for (TrackerMeasurement& row : rows)
+    row.actual.position = row.reported.position + Vec3{normal(random), normal(random), normal(random)};
+  std::string line = "accepted";
+  try {
+    (void)calibrate_tracker({"poses.csv", rows}, {.method = TrackerMethod::kPolynomial, .degree = 3});
+  } catch (const Error& error) {
+    line = error.what();
+  }
+  EXPECT_NE(line.find("leaves"), std::string::npos) << line;
 }
 
 std::string refusal(const std::vector<TrackerMeasurement>& rows, int degree) {

@@ -9,20 +9,27 @@
 #include <gtest/gtest.h>
 
 #include "common/base/output_file.h"
+#include "common/servo/force_end.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
 namespace {
 
-TEST(InterruptGuard, CancelsTheJobOnASignal) {
-  Progress progress;
-  {
+TEST(InterruptGuard, CancelsTheJobOnASignalAndHoldsForcesMeanwhile) {
+  ForceEnd link;
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    Progress progress;
     const InterruptGuard guard(progress, "test");
     EXPECT_FALSE(InterruptGuard::interrupted());
-    std::raise(SIGINT);
+    EXPECT_TRUE(link.may_show());
+    std::raise(number);
     EXPECT_TRUE(progress.cancelled());
     EXPECT_TRUE(InterruptGuard::interrupted());
+    EXPECT_FALSE(link.may_show());
+    std::raise(number);
+    EXPECT_FALSE(link.may_show());
   }
+  EXPECT_TRUE(link.may_show());
   // A second guard starts afresh.
   Progress next;
   const InterruptGuard guard(next, "test");

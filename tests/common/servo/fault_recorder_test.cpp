@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <string>
@@ -209,6 +210,7 @@ TEST_F(FaultRecorderTest, ALatchHoldsIntoTheNextMemory) {
 }
 
 TEST_F(FaultRecorderTest, SavesAStallAndStopsBeforeTheDiskIsFull) {
+  limits_.latch_faults = true;  // it shows force
   SteppedRun run(folder_.path("faults"), limits_);
   run.go(10);
   for (int n = 1; n <= FaultRecorder::kMostFiles; ++n) {
@@ -220,6 +222,39 @@ TEST_F(FaultRecorderTest, SavesAStallAndStopsBeforeTheDiskIsFull) {
   run.go(60);
   EXPECT_EQ(run.faults.faults(), static_cast<std::uint64_t>(FaultRecorder::kMostFiles) + 1);
   EXPECT_FALSE(std::filesystem::exists(file(FaultRecorder::kMostFiles + 1)));
+}
+
+// Nobody is hurt by a mouse on a busy machine; that a sample is no number is another matter.
+TEST_F(FaultRecorderTest, TakesABusyMachineForNoFaultOfAMouse) {
+  SteppedRun run(folder_.path("faults"), limits_);
+  run.go(10);
+  run.faults.stalled();
+  run.go(60);
+  run.change(HandSwitch::kRestart);
+  run.go(60);
+  EXPECT_EQ(run.faults.faults(), 0U);
+  run.step(true, {kNan, 0.0, 0.0});
+  EXPECT_EQ(run.faults.faults(), 1U);
+}
+
+// Of all runs of a program the latest files stay; those of others are theirs.
+TEST_F(FaultRecorderTest, KeepsTheLatestFilesOfAllRuns) {
+  constexpr int kBefore = 30;
+  std::filesystem::create_directories(folder_.path("faults"));
+  for (int n = 1; n <= kBefore; ++n) std::ofstream(file(n)) << n;
+  const auto theirs = {"faults/other-fault-1.rec", "faults/notes.txt", "faults/test-fault-x.rec"};
+  for (const char* each : theirs) std::ofstream(folder_.path(each)) << "theirs";
+  limits_.latch_faults = true;
+  {
+    SteppedRun run(folder_.path("faults"), limits_);
+    run.faults.stalled();
+    run.go(60);
+  }
+  const int kept = static_cast<int>(FaultRecorder::kKept);
+  EXPECT_TRUE(std::filesystem::exists(file(kBefore + 1))) << "after the last one, not in a gap";
+  for (int n = 1; n <= kBefore + 1; ++n)
+    EXPECT_EQ(std::filesystem::exists(file(n)), n > kBefore + 1 - kept) << n;
+  for (const char* each : theirs) EXPECT_TRUE(std::filesystem::exists(folder_.path(each))) << each;
 }
 
 TEST_F(FaultRecorderTest, SaysWhereNothingCanBeWritten) {

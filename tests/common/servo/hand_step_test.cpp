@@ -211,11 +211,93 @@ TEST(HandStepper, SwitchesForceOff) {
 TEST(HandStepper, LatchesWhenTheHandPassesTheVelocityGate) {
   double t = 0.0;
   HandStepper stepper = held(t, {.velocity_gate = 1.0});
-  EXPECT_EQ(stepper.step(at(t + 0.001, kNear + Vec3{0.0009, 0, 0})).cut, ForceCut::kNone);
-  const HandStep fast = stepper.step(at(t + 0.002, kNear + Vec3{0.003, 0, 0}));
+  const auto moved = [&](double seconds, double way) {
+    return stepper.step(at(t + seconds, kNear + Vec3{way, 0, 0}));
+  };
+  // 0.9 m/s for long, then 1.2 m/s: over the window that is seen within the window.
+  int n = 1;
+  for (; n <= 50; ++n) ASSERT_NE(moved(0.001 * n, 0.0009 * n).cut, ForceCut::kTooFast) << n;
+  HandStep fast;
+  const int began = n;
+  for (; n < began + 12 && fast.cut != ForceCut::kTooFast; ++n) {
+    fast = moved(0.001 * n, 0.0009 * began + 0.0012 * (n - began));
+  }
   EXPECT_EQ(fast.cut, ForceCut::kTooFast);
   EXPECT_EQ(fast.state, HoldState::kFault);
-  EXPECT_EQ(stepper.step(at(t + 0.003, kNear + Vec3{0.003, 0, 0})).cut, ForceCut::kTooFast);
+  EXPECT_EQ(moved(0.001 * n, 0.0).cut, ForceCut::kTooFast);
+  for (int rest = 1; rest <= 12; ++rest) (void)moved(0.001 * (n + rest), 0.0);
+  stepper.apply(HandSwitch::kArm);
+  EXPECT_EQ(moved(0.001 * (n + 12.5), 0.0).cut, ForceCut::kStart);
+  EXPECT_EQ(moved(0.001 * (n + 13), 0.0).cut, ForceCut::kNone);
+}
+
+// Two packets that come together are no speed, a step of an encoder is none, a leap is one at once.
+TEST(HandStepper, JudgesTheSpeedOverAWindow) {
+  constexpr double kGate = 1.5;
+  for (const double apart : {0.00001, 0.00067, 0.001}) {
+    double t = 0.0;
+    HandStepper stepper = held(t, {.velocity_gate = kGate});
+    // Half a metre a second, sent in pairs.
+    for (int n = 1; n <= 100; ++n) {
+      const double pair = t + 0.002 * n;
+      ASSERT_NE(stepper.step(at(pair, kNear + Vec3{0.001 * n, 0, 0})).cut, ForceCut::kTooFast) << apart;
+      ASSERT_NE(stepper.step(at(pair + apart, kNear + Vec3{0.001 * n + 0.001, 0, 0})).cut,
+                ForceCut::kTooFast);
+    }
+  }
+  for (const auto& [leap, fast] : {std::pair{0.0149, false}, std::pair{0.0151, true}}) {
+    double t = 0.0;
+    HandStepper stepper = held(t, {.velocity_gate = kGate});
+    EXPECT_EQ(stepper.step(at(t + 0.001, kNear + Vec3{leap, 0, 0})).cut == ForceCut::kTooFast, fast) << leap;
+  }
+  // A tracker that is slower than the window: from sample to sample.
+  for (const auto& [step, fast] : {std::pair{0.024, false}, std::pair{0.026, true}}) {
+    double t = 0.0;
+    HandStepper stepper = held(t, {.velocity_gate = kGate});
+    HandStep last;
+    for (int n = 1; n <= 3; ++n) last = stepper.step(at(t + n / 60.0, kNear + Vec3{step * n, 0, 0}));
+    EXPECT_EQ(last.cut == ForceCut::kTooFast, fast) << step;
+  }
+  // A clock that was set forward and back does not close the eye of the gate.
+  double t = 0.0;
+  HandStepper stepper = held(t, {.velocity_gate = kGate});
+  HandInput ahead = at(t + 0.001, kNear);
+  ahead.sample.time = 1e9;
+  (void)stepper.step(ahead);
+  HandStep last;
+  for (int n = 2; n <= 20; ++n) last = stepper.step(at(t + 0.001 * n, kNear + Vec3{0.002 * n, 0, 0}));
+  EXPECT_EQ(last.cut, ForceCut::kTooFast);
+}
+
+// Reach and gate are the device's, in its own frame, wherever and how large it is laid over the workspace.
+TEST(HandStepper, JudgesTheHandInItsOwnFrame) {
+  const DeviceLimits limits{
+      .velocity_gate = 1.0, .reach_lower = Vec3{-0.05}, .reach_upper = Vec3{0.05}, .edge_stiffness = 0.0};
+  for (const double scale : {0.1, 10.0}) {
+    HandStepper stepper(sphere_chain(kRadius), limits);
+    const auto cut_after = [&](double start, double speed) {
+      HandStep step;
+      for (int n = 0; n < 30; ++n) {
+        const Vec3 hand{-0.02 + speed * 0.001 * n, 0.0, 0.0};
+        HandInput input = at(start + 0.001 * n, kNear + scale * hand);
+        input.sample.hand = hand;
+        step = stepper.step(input);
+      }
+      (void)stepper.step({.time = start + 0.05});
+      return step.cut;
+    };
+    EXPECT_EQ(cut_after(0.0, 0.9), ForceCut::kNone) << scale;
+    EXPECT_EQ(cut_after(0.1, 1.1), ForceCut::kTooFast) << scale;
+    stepper.apply(HandSwitch::kArm);
+    HandInput outside = at(0.2, kNear);
+    outside.sample.hand = Vec3{0.051, 0.0, 0.0};
+    EXPECT_EQ(stepper.step(outside).cut, ForceCut::kStart) << "the first step has none anyway";
+    outside.time = outside.sample.time = 0.201;
+    EXPECT_EQ(stepper.step(outside).cut, ForceCut::kOutOfReach) << scale;
+    outside.time = outside.sample.time = 0.202;
+    outside.sample.hand->x = std::nan("");
+    EXPECT_EQ(stepper.step(outside).cut, ForceCut::kNotFinite) << scale;
+  }
 }
 
 /// A chain that gives what is no number after a while.

@@ -79,6 +79,7 @@ std::vector<HandStep> record_run(const std::string& file, int steps, std::size_t
     if (i % 250 == 249) recorder.event(stepper.next_number(), static_cast<std::uint64_t>(i), "key G\ndown");
     HandInput input{.time = t, .present = i % 400 < 380, .sample = {t - 1e-4, x, i % 2 == 0 ? 1U : 0U}};
     if (i % 97 == 96) input.sample.position.y = kNan;
+    if (i % 3 == 0) input.sample.hand = 0.3 * x;
     if (i % 89 == 88) input.time = t - 1.0;
     made.push_back(stepper.step(input));
     recorder.step(input, made.back());
@@ -253,7 +254,10 @@ TEST_F(RecordingTest, NamesTheLineOfAnythingElse) {
   EXPECT_EQ(of("palpate-recording 1\nlimits 1 1 -1 1 1 0 1 1 0 0 0 1 1 1 0 0 -1 0\n"),
             "line 2: limits that no device can have; expected positive numbers");
   EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2\n"), "line 3: ends too early; expected a coordinate");
-  EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2 3 0 7\n"), "line 3: goes on with '7'; expected the end of the line");
+  EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2 3 0 7\n"),
+            "line 3: ends too early; expected a coordinate of the hand");
+  EXPECT_EQ(of(head + "s 0 0.1 0.1 1 2 3 0 7 8 9 4\n"),
+            "line 3: goes on with '4'; expected the end of the line");
   EXPECT_EQ(of(head + "s 0 0.1 0.1 1 up 3 0\n"), "line 3: 'up' cannot be read; expected a coordinate");
   EXPECT_EQ(of(head + "n -1 0.1\n"), "line 3: '-1' cannot be read; expected the number of a step");
   EXPECT_EQ(of(head + "n 99999999999999999999 0.1\n").substr(0, 30), "line 3: '99999999999999999999'");

@@ -15,14 +15,19 @@ constexpr const char* kDhdRemedy =
 constexpr int kOldestDhd = 3;
 
 // Forces and radii are those that open drivers use; the makers' sheets give no more than that for any.
-constexpr std::array kDhdModels{
-    DhdModel{33, "omega.3", 12.0, 0.075},        DhdModel{34, "omega.6", 12.0, 0.075},
-    DhdModel{36, "omega.6, left", 12.0, 0.075},  DhdModel{35, "omega.7", 12.0, 0.075},
-    DhdModel{37, "omega.7, left", 12.0, 0.075},  DhdModel{63, "delta.3", 20.0, 0.15},
-    DhdModel{206, "sigma.3", 12.0, 0.075},       DhdModel{104, "sigma.7", 12.0, 0.075},
-    DhdModel{105, "sigma.7, left", 12.0, 0.075}, DhdModel{203, "lambda.3", 12.0, 0.075},
-    DhdModel{108, "lambda.7", 12.0, 0.075},      DhdModel{109, "lambda.7, left", 12.0, 0.075},
-    DhdModel{60, "Novint Falcon", 8.0, 0.04}};
+constexpr std::array kDhdModels{DhdModel{33, "omega.3", 12.0, 0.075},
+                                DhdModel{34, "omega.6", 12.0, 0.075},
+                                DhdModel{36, "omega.6, left", 12.0, 0.075},
+                                DhdModel{35, "omega.7", 12.0, 0.075, true},
+                                DhdModel{37, "omega.7, left", 12.0, 0.075, true},
+                                DhdModel{63, "delta.3", 20.0, 0.15},
+                                DhdModel{206, "sigma.3", 12.0, 0.075},
+                                DhdModel{104, "sigma.7", 12.0, 0.075, true},
+                                DhdModel{105, "sigma.7, left", 12.0, 0.075, true},
+                                DhdModel{203, "lambda.3", 12.0, 0.075},
+                                DhdModel{108, "lambda.7", 12.0, 0.075, true},
+                                DhdModel{109, "lambda.7, left", 12.0, 0.075, true},
+                                DhdModel{60, "Novint Falcon", 8.0, 0.04}};
 
 // Places in the status of a device.
 constexpr std::size_t kDhdPower = 0, kDhdReset = 3, kDhdForce = 5, kDhdError = 9, kDhdForceOff = 14;
@@ -60,6 +65,7 @@ DhdFunctions open_dhd_library(const std::string& file) {
   library.require(dhd.last_error, "dhdErrorGetLastStr");
   library.want(dhd.enable_expert, "dhdEnableExpertMode");
   library.want(dhd.set_watchdog, "dhdSetWatchdog");
+  library.want(dhd.emulate_button, "dhdEmulateButton");
   return dhd;
 }
 
@@ -128,6 +134,8 @@ std::string DhdLink::advice() const {
         return "its force is switched off: press its force button";
       if (off_ || rearm_.tripped())
         return "it switched its force off: let go of the switch, then hold it again";
+      if (no_button_)
+        return "its library makes no button of its gripper: name another switch, such as enable=pedal";
       break;
     case LinkPhase::kNeedsFirmware:
     case LinkPhase::kLoading:
@@ -139,6 +147,15 @@ std::string DhdLink::advice() const {
 std::string DhdLink::place() const { return open_ ? "dhd " + std::to_string(int{id_}) + " " + name_ : ""; }
 
 bool DhdLink::round(const Vec3& force) noexcept {
+  try {
+    return work(force);
+  } catch (...) {
+    give_up();
+    return false;
+  }
+}
+
+bool DhdLink::work(const Vec3& force) {
   if (!open_) {
     search();
     return false;
@@ -148,7 +165,7 @@ bool DhdLink::round(const Vec3& force) noexcept {
   return exchange(force);
 }
 
-void DhdLink::search() noexcept {
+void DhdLink::search() {
   if (dhd_.device_count() <= 0) {
     status_.phase = LinkPhase::kAbsent;
     clock_.sleep(kDhdLookPause);
@@ -170,6 +187,7 @@ void DhdLink::search() noexcept {
   if (dhd_.enable_expert != nullptr && dhd_.set_watchdog != nullptr && dhd_.enable_expert() >= 0) {
     (void)dhd_.set_watchdog(kWatchdog, id_);  // a device without one says so: the link's own rules remain
   }
+  no_button_ = model.gripper && (dhd_.emulate_button == nullptr || dhd_.emulate_button(1, id_) < 0);
   status_.phase = LinkPhase::kNeedsHoming;
   misses_ = 0;
   looked_ = -1.0;
@@ -179,7 +197,7 @@ void DhdLink::search() noexcept {
   if (!show(Vec3{0.0}) || dhd_.enable_force(1, id_) < 0) give_up();
 }
 
-bool DhdLink::look() noexcept {
+bool DhdLink::look() {
   DhdFunctions::Status state{};
   if (dhd_.status(state.data(), id_) < 0) return false;
   looked_ = clock_.now();
@@ -187,7 +205,7 @@ bool DhdLink::look() noexcept {
   return state[kDhdError] == 0;
 }
 
-bool DhdLink::exchange(const Vec3& force) noexcept {
+bool DhdLink::exchange(const Vec3& force) {
   bool sound = true;
   if (looked_ < 0.0 || clock_.now() - looked_ > kDhdStatusPause) sound = look();
   const bool usable = state_[kDhdPower] != 0 && state_[kDhdReset] != 0;
@@ -226,7 +244,7 @@ bool DhdLink::exchange(const Vec3& force) noexcept {
   return false;
 }
 
-bool DhdLink::take_sample(double now) noexcept {
+bool DhdLink::take_sample(double now) {
   Vec3 x{0.0};
   // Where it repeats an earlier position, because not enough time has passed, that is no fault.
   if (dhd_.position(&x.x, &x.y, &x.z, id_) < 0) {
@@ -249,8 +267,8 @@ bool DhdLink::take_sample(double now) noexcept {
   return true;
 }
 
-bool DhdLink::show(const Vec3& force) noexcept {
-  const Vec3 f = settings_.arm.frame.force_for_maker(force_within(force, cap_));
+bool DhdLink::show(const Vec3& force) {
+  const Vec3 f = settings_.arm.frame.force_for_maker(shown_.next(force_within(force, cap_), clock_.now()));
   return dhd_.set_force(f.x, f.y, f.z, id_) >= 0;
 }
 
@@ -262,9 +280,17 @@ void DhdLink::give_up() noexcept {
 
 void DhdLink::close() noexcept {
   if (!open_) return;
-  for (int n = 0; n < kLastZeros; ++n) (void)show(Vec3{0.0});
-  (void)dhd_.enable_force(0, id_);
-  (void)dhd_.close(id_);
+  // Whatever one of them throws, the next is done.
+  const auto try_to = [](const auto& call) {
+    try {
+      call();
+    } catch (...) {
+      return;
+    }
+  };
+  for (int n = 0; n < kLastZeros; ++n) try_to([this] { (void)show(Vec3{0.0}); });
+  try_to([this] { (void)dhd_.enable_force(0, id_); });
+  try_to([this] { (void)dhd_.close(id_); });
   open_ = false;
   name_.clear();
 }

@@ -5,8 +5,8 @@
 /// call that never comes back leaves no force.
 ///
 /// The last command on any fault is zero. A device that switched its force off by itself gets force again
-/// once none was asked for (ForceRearm). Where the calls of the library fail it is closed and looked for
-/// again.
+/// once none was asked for (ForceRearm). Where the calls of the library fail, or one throws, it is closed and
+/// looked for again.
 #pragma once
 
 #include <array>
@@ -15,6 +15,7 @@
 
 #include "common/device/driver/arm_settings.h"
 #include "common/device/driver/link_clock.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver_link.h"
 
 namespace palpate {
@@ -43,6 +44,7 @@ struct DhdFunctions {
   // Not in every version: null where they are missing.
   int (*enable_expert)() = nullptr;
   int (*set_watchdog)(unsigned char eighths_of_ms, char id) = nullptr;  ///< 0: none
+  int (*emulate_button)(unsigned char on, char id) = nullptr;  ///< button 0 is a gripper that is closed
 };
 
 /// Opens the library by `file`, or by its usual names where that is empty, and finds its functions.
@@ -53,8 +55,9 @@ struct DhdFunctions {
 struct DhdModel {
   int type = 0;
   const char* name = "";
-  double force = 0.0;  ///< [N] that open drivers use as its peak
-  double reach = 0.0;  ///< [m] radius of its workspace
+  double force = 0.0;    ///< [N] that open drivers use as its peak
+  double reach = 0.0;    ///< [m] radius of its workspace
+  bool gripper = false;  ///< in place of a button
 };
 /// The Omega's numbers for a type that is not known.
 [[nodiscard]] const DhdModel& dhd_model(int type) noexcept;
@@ -88,15 +91,19 @@ class DhdLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
-  void search() noexcept;
-  bool exchange(const Vec3& force) noexcept;
+  // What calls the library, which may be of C++ and throw.
+  bool work(const Vec3& force);
+  void search();
+  bool exchange(const Vec3& force);
   /// Reads what the device says of itself; false: the call failed.
-  bool look() noexcept;
-  bool take_sample(double now) noexcept;
-  bool show(const Vec3& force) noexcept;
+  bool look();
+  bool take_sample(double now);
+  bool show(const Vec3& force);
+
   void give_up() noexcept;
   void close() noexcept;
 
@@ -104,6 +111,7 @@ class DhdLink final : public DriverLink {
   LinkClock& clock_;
   DhdSettings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 
@@ -112,9 +120,10 @@ class DhdLink final : public DriverLink {
   std::string name_;  ///< "omega.3"
   double cap_ = 0.0;  ///< [N] of the device that is open
   DhdFunctions::Status state_{};
-  double looked_ = -1.0;  ///< [s]
-  double round_ = 0.0;    ///< [s] when the last one began
-  bool off_ = false;      ///< it has switched its force off
+  double looked_ = -1.0;    ///< [s]
+  double round_ = 0.0;      ///< [s] when the last one began
+  bool off_ = false;        ///< it has switched its force off
+  bool no_button_ = false;  ///< it has a gripper, and no button
   ForceRearm rearm_;
   int misses_ = 0;  ///< in a row
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <fstream>
 #include <string_view>
 #include <utility>
@@ -154,7 +155,7 @@ std::string falcon_help() {
 bool FalconSettings::valid() const noexcept {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0.0; };
   return geometry.valid() && positive(gain) && std::isfinite(zero_angle) && positive(count_angle) &&
-         positive(force_cap) &&
+         positive(force_cap) && force_cap <= kMostForceCap &&
          (firmware.empty() || (firmware.size() >= kLeastFirmware && firmware.size() <= kMostFirmware));
 }
 
@@ -206,6 +207,10 @@ std::string FalconLink::advice() const {
     case LinkPhase::kNeedsHoming:
       return "pull the grip out as far as it goes, then push it in";
     case LinkPhase::kReady:
+      if (!guarded_) {
+        return "palpate-guardian cannot be started: keep the Falcon's switch at hand, its force may stay where "
+               "this program is killed";
+      }
       break;
   }
   return {};
@@ -229,6 +234,7 @@ void FalconLink::probe() noexcept {
     if (ask({}) || ask({})) {  // the first one may fall into what was left of another packet
       uploads_in_a_row_ = 0;
       misses_ = 0;
+      guarded_ = leave_last_word();
       status_.phase = LinkPhase::kNeedsHoming;
       stage_ = Stage::kRun;
       return;
@@ -236,6 +242,14 @@ void FalconLink::probe() noexcept {
     if (!connection_) return;
   }
   stage_ = Stage::kLoad;
+}
+
+bool FalconLink::leave_last_word() noexcept {
+  try {
+    return connection_ && connection_->leave_last_word(kOut, encode({.lights = kFalconRed}));
+  } catch (const std::exception&) {  // no memory
+    return false;
+  }
 }
 
 void FalconLink::load() noexcept {
@@ -386,20 +400,16 @@ bool FalconLink::exchange(const Vec3& force) noexcept {
 
 FalconCounts FalconLink::motors_for(const Vec3& force) noexcept {
   const double now = transport_.now();
-  Vec3 held = is_finite(force) ? force : Vec3{0.0};
-  // In units of the largest component: its square neither overflows nor vanishes.
-  const double largest = std::max({std::abs(held.x), std::abs(held.y), std::abs(held.z)});
-  const double length = largest > 0.0 ? largest * glm::length(held / largest) : 0.0;
-  if (length > settings_.force_cap) held *= settings_.force_cap / length;
-  FalconCounts counts{};
-  if (length > 0.0) {
-    counts = motor_commands(delta_torques(rates_, held), settings_.gain);
-    const std::array<double, 3> wanted{1.0 * counts[0], 1.0 * counts[1], 1.0 * counts[2]};
-    if (const double factor = heat_.factor(wanted); factor < 1.0) {
-      for (std::int16_t& count : counts) count = static_cast<std::int16_t>(std::trunc(factor * count));
-    }
-  }
-  heat_.add({1.0 * counts[0], 1.0 * counts[1], 1.0 * counts[2]}, std::min(now - commanded_, 1.0));
+  const auto commands_for = [this](const Vec3& asked) {
+    return asked == Vec3{0.0} ? FalconCounts{} : motor_commands(delta_torques(rates_, asked), settings_.gain);
+  };
+  const auto plain = [](const FalconCounts& counts) {
+    return std::array<double, 3>{1.0 * counts[0], 1.0 * counts[1], 1.0 * counts[2]};
+  };
+  const Vec3 wanted = force_within(force, limits_.force_cap);
+  const Vec3 held = shown_.next(heat_.factor(plain(commands_for(wanted))) * wanted, now);
+  const FalconCounts counts = commands_for(held);
+  heat_.add(plain(counts), std::min(now - commanded_, 1.0));
   commanded_ = now;
   return counts;
 }

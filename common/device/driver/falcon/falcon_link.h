@@ -6,7 +6,8 @@
 /// command is answered by the encoders; one is under way at a time.
 ///
 /// The last command on any fault is zero: sent kLastZeros times, as it is not known whether the firmware
-/// stops its motors when the host falls silent. After a fault the link opens the device again by itself;
+/// stops its motors when the host falls silent. So a small process waits beside this one, and sends it where this
+/// one is killed (UsbConnection::leave_last_word()). After a fault the link opens the device again by itself;
 /// whether there is force again is for the safety stage to say.
 ///
 /// Motor command = -gain * tau. What the gain of a device is nobody has published: 3500 is the lower of what
@@ -22,6 +23,7 @@
 
 #include "common/device/driver/falcon/falcon_packet.h"
 #include "common/device/driver/motor_heat.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/usb.h"
 #include "common/device/driver_link.h"
 #include "common/kinematics/delta_arm.h"
@@ -59,6 +61,7 @@ class FalconLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -84,6 +87,8 @@ class FalconLink final : public DriverLink {
   [[nodiscard]] bool plausible(const FalconReply& reply, double now) const noexcept;
   [[nodiscard]] Vec3 angles_of(const FalconCounts& counts) const noexcept;
 
+  /// Of a command without force, once this program is gone.
+  bool leave_last_word() noexcept;
   void send_zeros() noexcept;
   void give_up() noexcept;
   void close() noexcept;
@@ -92,6 +97,7 @@ class FalconLink final : public DriverLink {
   FalconSettings settings_;
   DeltaArm arm_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 
@@ -99,6 +105,7 @@ class FalconLink final : public DriverLink {
   std::string path_;
   TransferStatus refused_ = TransferStatus::kOk;  ///< why it could not be opened
   Stage stage_ = Stage::kSearch;
+  bool guarded_ = true;  ///< nothing else is known yet
   int uploads_in_a_row_ = 0;
   std::size_t uploaded_ = 0;  ///< [bytes] of the image, echoed
 

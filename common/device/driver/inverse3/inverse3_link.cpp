@@ -81,6 +81,14 @@ Inverse3Link::Inverse3Link(WebTransport& transport, const Inverse3Settings& sett
 Inverse3Link::~Inverse3Link() { close(); }
 
 std::string Inverse3Link::advice() const {
+  if (status_.phase == LinkPhase::kNeedsHoming) {
+    return powered_
+               ? "the Inverse3 is not calibrated: put its arm as its manual says, until its light is steady"
+               : "plug in the power supply of the Inverse3";
+  }
+  if (status_.phase == LinkPhase::kReady && !grip_ && !felt_) {
+    return "the Inverse3 has no grip, whose button gives it force: name another switch, such as enable=pedal";
+  }
   if (status_.phase == LinkPhase::kReady || status_.phase == LinkPhase::kLoading) return {};
   const std::string at = settings_.service.host + ":" + std::to_string(settings_.service.port);
   if (alone_) {
@@ -141,6 +149,9 @@ void Inverse3Link::meet() noexcept {
   if (got == TransferStatus::kOk && read_haply_state(heard_, settings_.device, state) && state.device) {
     device_ = state.device;
     alone_ = false;
+    calibrated_ = powered_ = true;
+    grip_ = felt_ = false;
+    learn(state);
     return;
   }
   const bool none = got == TransferStatus::kOk;
@@ -163,7 +174,15 @@ bool Inverse3Link::exchange(const Vec3& force) noexcept {
     return false;
   }
   if (!heard) ++status_.lost;
+  felt_ = felt_ || (ready && force != Vec3{0.0});
   if (heard && take(state, now)) {
+    if (!calibrated_ || !powered_) {
+      // What it says of its position means nothing.
+      if (status_.phase == LinkPhase::kReady) ++status_.faults;
+      status_.phase = LinkPhase::kNeedsHoming;
+      misses_ = 0;
+      return false;
+    }
     status_.phase = LinkPhase::kReady;
     ++status_.rounds;
     misses_ = 0;
@@ -174,7 +193,7 @@ bool Inverse3Link::exchange(const Vec3& force) noexcept {
 }
 
 bool Inverse3Link::send(const Vec3& force) noexcept {
-  const Vec3 held = force_within(force, settings_.arm.force_cap);
+  const Vec3 held = shown_.next(force, transport_.now());
   try {
     write_haply_force(sent_, *device_, settings_.arm.frame.force_for_maker(held), spelling_);
   } catch (const std::exception&) {  // no memory
@@ -209,8 +228,15 @@ bool Inverse3Link::hear(HaplyState& state) noexcept {
   return any;
 }
 
+void Inverse3Link::learn(const HaplyState& state) noexcept {
+  calibrated_ = state.calibrated.value_or(calibrated_);
+  powered_ = state.powered.value_or(powered_);
+  grip_ = grip_ || state.grip;
+}
+
 bool Inverse3Link::take(const HaplyState& state, double now) noexcept {
   const bool same = state.device && state.device->view() == device_->view();
+  if (same) learn(state);
   if (!same || !state.position) {
     ++status_.implausible;
     return false;

@@ -27,7 +27,10 @@ enum class HaplyKey : std::uint8_t {
   kButton0,
   kButton1,
   kButton2,
-  kButton3
+  kButton3,
+  kStatus,
+  kCalibrated,
+  kPowered
 };
 
 struct HaplyWord {
@@ -51,7 +54,10 @@ constexpr std::array kHaplyWords{HaplyWord{"inverse3", HaplyKey::kDevices},
                                  HaplyWord{"button_0", HaplyKey::kButton0},
                                  HaplyWord{"button_1", HaplyKey::kButton1},
                                  HaplyWord{"button_2", HaplyKey::kButton2},
-                                 HaplyWord{"button_3", HaplyKey::kButton3}};
+                                 HaplyWord{"button_3", HaplyKey::kButton3},
+                                 HaplyWord{"status", HaplyKey::kStatus},
+                                 HaplyWord{"calibrated", HaplyKey::kCalibrated},
+                                 HaplyWord{"power_supply", HaplyKey::kPowered}};
 
 HaplyKey haply_key(std::string_view text) noexcept {
   const auto* const found = std::find_if(kHaplyWords.begin(), kHaplyWords.end(),
@@ -64,6 +70,7 @@ struct HaplyEntry {
   std::optional<HaplyId> id;
   std::array<std::optional<double>, 3> position;
   std::uint32_t buttons = 0;
+  std::optional<bool> calibrated, powered;
 };
 
 /// Follows the parser through a message: no tree of it is built.
@@ -76,7 +83,11 @@ class HaplyReader {
   bool null() noexcept { return rooted(); }
   bool boolean(bool value) noexcept {
     const HaplyKey key = key_;
-    if (within(HaplyKey::kButtons) && key >= HaplyKey::kButton0) {
+    if (depth_ == 4 && path_[3] == HaplyKey::kStatus) {
+      if (key == HaplyKey::kCalibrated) entry_.calibrated = value;
+      if (key == HaplyKey::kPowered) entry_.powered = value;
+    }
+    if (within(HaplyKey::kButtons) && key >= HaplyKey::kButton0 && key <= HaplyKey::kButton3) {
       const auto bit = static_cast<unsigned>(key) - static_cast<unsigned>(HaplyKey::kButton0);
       if (value) entry_.buttons |= 1U << bit;
     }
@@ -146,11 +157,13 @@ class HaplyReader {
       const bool asked = entry_.id && (wanted_.empty() || entry_.id->view() == wanted_);
       if (!asked || state_.device) return;
       state_.device = entry_.id;
+      state_.calibrated = entry_.calibrated;
+      state_.powered = entry_.powered;
       const auto& [x, y, z] = entry_.position;
       if (x && y && z && is_finite({*x, *y, *z})) state_.position = Vec3{*x, *y, *z};
     } else if (room() == HaplyKey::kGrips) {
       if (grip_) return;
-      grip_ = true;
+      grip_ = state_.grip = true;
       state_.buttons = entry_.buttons;
     }
   }

@@ -40,6 +40,9 @@ struct HaplyState {
   std::optional<HaplyId> device;  ///< none: the message has no such device
   std::optional<Vec3> position;   ///< [m] in the maker's frame
   std::uint32_t buttons = 0;      ///< a, b, c or button_0 to button_3 as bits 0 to 3
+  bool grip = false;              ///< it has one
+  /// Of the device's status, where the message has it: not every one does.
+  std::optional<bool> calibrated, powered;
 };
 
 inline constexpr std::size_t kHaplyDeepest = 16;  ///< levels of nesting

@@ -21,6 +21,15 @@ constexpr double kHdPoll = 0.0002;       // [s] between two looks for a callback
 constexpr double kHdEndTime = 0.020;     // [s] that the last callback has
 constexpr double kHdHeatingTime = 2.0;   // [s] nobody has published it
 constexpr double kHdFarthest = 2.0;      // [m] none of them reaches so far
+/// Whatever it throws, what comes next is done.
+void try_to(const auto& call) noexcept {
+  try {
+    call();
+  } catch (...) {
+    return;
+  }
+}
+
 constexpr unsigned kHdWarm = 0x0200, kHdTooFast = 0x0203, kHdDeviceFault = 0x0300, kHdLost = 0x0302;
 
 }  // namespace
@@ -116,8 +125,21 @@ std::string HdLink::place() const {
 }
 
 bool HdLink::round(const Vec3& force) noexcept {
+  try {
+    return work(force);
+  } catch (...) {
+    give_up();
+    return false;
+  }
+}
+
+bool HdLink::work(const Vec3& force) {
   if (device_ == HdFunctions::kNoDevice) {
     search();
+    return false;
+  }
+  if (ended_.load(std::memory_order_acquire)) {  // a callback threw
+    give_up();
     return false;
   }
   const bool ready = status_.phase == LinkPhase::kReady && misses_ == 0;
@@ -140,7 +162,7 @@ bool HdLink::round(const Vec3& force) noexcept {
   return false;
 }
 
-void HdLink::search() noexcept {
+void HdLink::search() {
   const unsigned device = hd_.init(settings_.name.empty() ? nullptr : settings_.name.c_str());
   const HdError error = hd_.error();
   if (device == HdFunctions::kNoDevice || error.code != 0) {
@@ -185,7 +207,23 @@ void HdLink::search() noexcept {
   if (hd_.error().code != 0) give_up();
 }
 
-unsigned HdLink::tick() noexcept {
+unsigned HdLink::called(void* link) noexcept {
+  auto* const self = static_cast<HdLink*>(link);
+  try {
+    return self->tick();
+  } catch (...) {
+    // Whatever it was, the force that was set last is not to stay.
+    try_to([self] {
+      constexpr std::array<double, 3> kZero{};
+      self->hd_.set_doubles(HdFunctions::kForce, kZero.data());
+      self->hd_.end_frame(self->device_);
+    });
+    self->ended_.store(true, std::memory_order_release);
+    return HdFunctions::kDone;
+  }
+}
+
+unsigned HdLink::tick() {
   const double now = clock_.now();
   const bool ending = ending_.load(std::memory_order_acquire);
   hd_.begin_frame(device_);
@@ -205,8 +243,8 @@ unsigned HdLink::tick() noexcept {
   }
   (void)orders_.read(order_);
   const bool fresh = now - order_.time <= kFreshFor && !ending && frame_.error == 0;
-  Vec3 force = force_within(fresh ? order_.force : Vec3{0.0}, cap_);
-  force *= heat_.factor({force.x, force.y, force.z});
+  const Vec3 wanted = force_within(fresh ? order_.force : Vec3{0.0}, cap_);
+  const Vec3 force = shown_.next(heat_.factor({wanted.x, wanted.y, wanted.z}) * wanted, now);
   heat_.add({force.x, force.y, force.z}, std::min(now - frame_.time, 1.0));
   const Vec3 f = settings_.arm.frame.force_for_maker(force);
   const std::array<double, 3> sent{f.x, f.y, f.z};
@@ -273,10 +311,10 @@ void HdLink::close() noexcept {
        !ended_.load(std::memory_order_acquire) && clock_.now() < until;) {
     clock_.sleep(kHdPoll);
   }
-  hd_.disable(HdFunctions::kForceOutput);
-  hd_.unschedule(handle_);
-  hd_.stop_scheduler();
-  hd_.disable_device(device_);
+  try_to([this] { hd_.disable(HdFunctions::kForceOutput); });
+  try_to([this] { hd_.unschedule(handle_); });
+  try_to([this] { hd_.stop_scheduler(); });
+  try_to([this] { hd_.disable_device(device_); });
   device_ = HdFunctions::kNoDevice;
   model_.clear();
 }

@@ -5,8 +5,8 @@
 /// waits, and the callback is a watchdog of its own: an order older than kFreshFor is a force of zero.
 ///
 /// The last command on any fault is zero. After the library reported an error (warm motors, too fast, too
-/// much force) there is force again once none was asked for (ForceRearm). Where its callbacks stop coming the
-/// device is closed and looked for again.
+/// much force) there is force again once none was asked for (ForceRearm). Where its callbacks stop coming, or
+/// one of its functions throws, the device is closed and looked for again.
 #pragma once
 
 #include <array>
@@ -18,6 +18,7 @@
 #include "common/device/driver/arm_settings.h"
 #include "common/device/driver/link_clock.h"
 #include "common/device/driver/motor_heat.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver_link.h"
 
 namespace palpate {
@@ -96,6 +97,7 @@ class HdLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -113,11 +115,14 @@ class HdLink final : public DriverLink {
     unsigned calibration = 0;
   };
 
-  static unsigned called(void* link) noexcept { return static_cast<HdLink*>(link)->tick(); }
-  /// One callback, on the library's thread.
-  unsigned tick() noexcept;
+  static unsigned called(void* link) noexcept;
 
-  void search() noexcept;
+  // What calls the library, which may be of C++ and throw.
+  /// One callback, on the library's thread.
+  unsigned tick();
+  bool work(const Vec3& force);
+  void search();
+
   bool take_frame(const Frame& frame) noexcept;
   void give_up() noexcept;
   void close() noexcept;
@@ -126,6 +131,7 @@ class HdLink final : public DriverLink {
   LinkClock& clock_;
   HdSettings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <utility>
@@ -30,6 +31,9 @@ constexpr double kSendTime = 0.060;    // [s] that a command may take
 constexpr int kMostDrains = 40;        // reads until it counts as never falling silent
 constexpr int kMostDumb = 2;           // set-ups without an answer until the user is told
 constexpr std::size_t kReadBytes = 512;
+// What a serial line carries of each station, with a start and a stop bit.
+constexpr double kSlowStations = 4.0, kBitsAByte = 10.0, kFastrakBytes = 34.0, kLibertyBytes = 52.0;
+constexpr double kSlowest = 0.09;  // [s] who reads poses takes older ones for lost
 
 // The button last: bytes that were lost within a record make it none.
 constexpr std::array kLibertyOrder{LibertyItem::kTime,       LibertyItem::kFrame,
@@ -69,8 +73,8 @@ bool TrackerStations::take(double now, const Report& report) noexcept {
                       .station = pose.station,
                       .valid = true};
   // The first one after a while has none to be compared with, and is as likely to be damaged.
-  const bool expected = pose.valid && now - pose.time <= kGap && follows(pose, said);
-  const bool confirmed = doubtful.waits && now - doubtful.pose.time <= kGap && follows(doubtful.pose, said);
+  const bool expected = pose.valid && now - pose.time <= gap_ && follows(pose, said);
+  const bool confirmed = doubtful.waits && now - doubtful.pose.time <= gap_ && follows(doubtful.pose, said);
   doubtful = {said, !expected && !confirmed};
   if (doubtful.waits) return false;
   pose = said;
@@ -80,7 +84,7 @@ bool TrackerStations::take(double now, const Report& report) noexcept {
 bool TrackerStations::expire(double now) noexcept {
   bool any = false;
   for (PoseAtom& pose : poses_.stations) {
-    if (!pose.valid || now - pose.time <= kSilence) continue;
+    if (!pose.valid || now - pose.time <= silence_) continue;
     pose.valid = false;
     pose.buttons = 0;
     any = true;
@@ -96,6 +100,12 @@ void TrackerStations::lose_all() noexcept {
   doubtful_ = {};
 }
 
+void TrackerStations::set_pace(double seconds) noexcept {
+  constexpr double kUneven = 1.6, kTwoMissed = 3.2;
+  gap_ = std::max(kGap, kUneven * seconds);
+  silence_ = std::max(kSilence, kTwoMissed * seconds);
+}
+
 std::uint32_t TrackerStations::buttons() const noexcept {
   std::uint32_t buttons = 0;
   for (const PoseAtom& pose : poses_.stations) {
@@ -105,7 +115,12 @@ std::uint32_t TrackerStations::buttons() const noexcept {
 }
 
 PolhemusLink::PolhemusLink(std::unique_ptr<PolhemusPort> port, const PolhemusSettings& settings)
-    : port_(std::move(port)), settings_(settings), parser_(LibertyParser(kLibertyOrder)) {}
+    : port_(std::move(port)), settings_(settings), parser_(LibertyParser(kLibertyOrder)) {
+  if (settings_.port.empty()) return;
+  const double bytes = settings_.family == PolhemusFamily::kFastrak ? kFastrakBytes : kLibertyBytes;
+  pace_ = kSlowStations * kBitsAByte * bytes / settings_.baud;
+  stations_.set_pace(pace_);
+}
 
 PolhemusLink::~PolhemusLink() {
   if (opened_.commands) (void)send(opened_.family == PolhemusFamily::kFastrak ? "c" : "P");
@@ -129,6 +144,11 @@ std::string PolhemusLink::advice() const {
                ? "the tracker does not answer; switch it off and on again"
                : "nothing that makes sense comes from " + settings_.port +
                      "; check the cable, the tracker's switches for its rate (baud=), and model=";
+  }
+  if (pace_ > kSlowest) {
+    return std::to_string(settings_.baud) + " baud carry a station of four " +
+           std::to_string(std::lround(1.0 / pace_)) +
+           " times a second, too slow for a hand: set the tracker's switches to more, and baud=";
   }
   if (poor_station_ != 0) {
     return "station " + std::to_string(poor_station_) + " reports '" + poor_code_ +

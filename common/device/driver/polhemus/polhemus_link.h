@@ -49,12 +49,15 @@ class TrackerStations {
   /// Stations that have fallen silent are not seen any more. @return whether there are such.
   bool expire(double now) noexcept;
   void lose_all() noexcept;
+  /// At a slow line one station is heard each `seconds` at best: gap and silence are longer then.
+  void set_pace(double seconds) noexcept;
 
   [[nodiscard]] const PoseAtoms& poses() const noexcept { return poses_; }
   /// Bit i: the button of station i + 1 is down.
   [[nodiscard]] std::uint32_t buttons() const noexcept;
 
  private:
+  double gap_ = kGap, silence_ = kSilence;  ///< [s]
   PoseAtoms poses_;
   struct Doubtful {
     PoseAtom pose;
@@ -102,6 +105,7 @@ class PolhemusLink final : public DriverLink {
   LinkStatus status_;
   DeviceAtoms atoms_;
   TrackerStations stations_;
+  double pace_ = 0.0;  ///< [s] between two records of a station that its line allows
   PolhemusOpened opened_;
   std::variant<LibertyParser, FastrakParser> parser_;
   std::uint64_t dropped_before_ = 0;  ///< by the parser, when it was new

@@ -11,6 +11,7 @@
 #include <sys/time.h>
 
 #include "common/base/index.h"
+#include "common/device/driver/transport/guardian.h"
 
 namespace palpate {
 namespace {
@@ -92,7 +93,10 @@ class LibusbConnection final : public UsbConnection {
   /// @pre `interface` of `handle` is claimed.
   LibusbConnection(Context context, Handle handle, int interface)
       : context_(std::move(context)), handle_(std::move(handle)), interface_(interface) {}
-  ~LibusbConnection() override { libusb_release_interface(handle_.get(), interface_); }
+  ~LibusbConnection() override {
+    guardian_ = {};  // while the interface is not free yet
+    libusb_release_interface(handle_.get(), interface_);
+  }
 
   TransferResult control(const UsbControl& setup, std::span<const std::uint8_t> data,
                          double seconds) noexcept override {
@@ -113,6 +117,20 @@ class LibusbConnection final : public UsbConnection {
   TransferResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
                       double seconds) noexcept override {
     return transfer(endpoint, data.data(), data.size(), seconds);
+  }
+
+  bool leave_last_word(const UsbEndpoint& endpoint, std::span<const std::uint8_t> word) override {
+    constexpr int kTimes = 3;
+    libusb_device* const device = libusb_get_device(handle_.get());
+    const auto three = [](int number) {
+      const std::string digits = std::to_string(number);
+      return std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
+    };
+    const std::string node = "/dev/bus/usb/" + three(libusb_get_bus_number(device)) + "/" +
+                             three(libusb_get_device_address(device));
+    guardian_ =
+        Guardian({"usb", node, std::to_string(interface_), std::to_string(endpoint.address)}, word, kTimes);
+    return guardian_.watches();
   }
 
  private:
@@ -138,6 +156,7 @@ class LibusbConnection final : public UsbConnection {
   Context context_;
   Handle handle_;
   int interface_;
+  Guardian guardian_;
 };
 
 class LibusbTransport final : public UsbTransport {

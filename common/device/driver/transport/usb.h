@@ -93,6 +93,9 @@ class UsbConnection {
                                double seconds) noexcept = 0;
   virtual TransferResult read(const UsbEndpoint& endpoint, std::span<std::uint8_t> data,
                               double seconds) noexcept = 0;
+  /// From now on and until this is deleted, however the program ends: `word` is written to `endpoint` after it
+  /// (guardian.h). False where nobody could be found to do so.
+  virtual bool leave_last_word(const UsbEndpoint& endpoint, std::span<const std::uint8_t> word) = 0;
 };
 
 struct UsbOpened {

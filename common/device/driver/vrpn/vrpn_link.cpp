@@ -169,6 +169,7 @@ void VrpnLink::search() noexcept {
   parser_.reset();
   names_.reset();
   local_.reset();
+  clock_.reset();
   rearm_.trip();
   greeted_ = pressing_ = false;
   misses_ = 0;
@@ -210,7 +211,7 @@ void VrpnLink::speak(const Vec3& force) noexcept {
     const bool ready = status_.phase == LinkPhase::kReady && atoms_.has_position && misses_ == 0 &&
                        now - posed_ <= kFreshPose;
     const Vec3 allowed = rearm_.allowed(is_finite(force) ? force : Vec3{0.0});
-    const Vec3 shown = ready ? allowed : Vec3{0.0};
+    const Vec3 shown = shown_.next(ready ? allowed : Vec3{0.0}, now);
     local_.add(atoms_.position, shown);
     const bool presses = shown != Vec3{0.0};
     // A force that ends does so at once; one that lasts is renewed no more often than it is worth.
@@ -279,6 +280,7 @@ bool VrpnLink::take(const VrpnMessage& message, double now) noexcept {
       if (station) status_.phase = LinkPhase::kReady;
       if (!pose || pose->sensor != settings_.sensor) return station;
       news = take_pose(*pose, now);
+      if (news) atoms_.time = clock_.local(message.time, now);
       break;
     }
     case VrpnType::kButtonChange:
@@ -313,8 +315,7 @@ bool VrpnLink::take(const VrpnMessage& message, double now) noexcept {
   ++status_.rounds;
   status_.phase = LinkPhase::kReady;
   // A button that is pressed makes no pose younger.
-  const bool of_pose = names_.type(message.type) == VrpnType::kPosQuat;
-  if (of_pose || !atoms_.has_position) atoms_.time = now;
+  if (!atoms_.has_position) atoms_.time = now;
   return true;
 }
 

@@ -20,6 +20,8 @@
 #include <string_view>
 
 #include "common/device/driver/arm_settings.h"
+#include "common/device/driver/sender_clock.h"
+#include "common/device/driver/shown_force.h"
 #include "common/device/driver/transport/byte_stream.h"
 #include "common/device/driver/vrpn/local_field.h"
 #include "common/device/driver/vrpn/vrpn_message.h"
@@ -76,6 +78,7 @@ class VrpnLink final : public DriverLink {
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  void restrain(const DeviceLimits& asked) noexcept override { shown_.restrain(asked); }
   [[nodiscard]] std::string place() const override;
 
  private:
@@ -95,6 +98,7 @@ class VrpnLink final : public DriverLink {
   std::unique_ptr<StreamPlace> place_;
   VrpnSettings settings_;
   DeviceLimits limits_;
+  ShownForce shown_{limits_};
   LinkStatus status_;
   DeviceAtoms atoms_;
   PoseAtoms poses_;
@@ -102,6 +106,7 @@ class VrpnLink final : public DriverLink {
   std::unique_ptr<ByteStream> stream_;
   VrpnParser parser_;
   VrpnNames names_;
+  SenderClock clock_;  ///< of the poses
   LocalField local_;
   ForceRearm rearm_;
   bool greeted_ = false;

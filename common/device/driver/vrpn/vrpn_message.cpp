@@ -70,6 +70,7 @@ VrpnParser::Found VrpnParser::push(std::span<const std::uint8_t>& bytes, VrpnMes
         const bool kept = payload_ <= kVrpnKept;
         message.sender = big_i32(kept_, 12);
         message.type = big_i32(kept_, 16);
+        message.time = big_i32(kept_, 4) + 1e-6 * big_i32(kept_, 8);
         message.payload = std::span<const std::uint8_t>(kept_).subspan(kVrpnHeader, kept ? payload_ : 0);
         size_ = skipped_ = 0;
         wanted_ = kVrpnHeader;

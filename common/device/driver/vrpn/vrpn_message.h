@@ -32,6 +32,7 @@ inline constexpr std::int32_t kVrpnSenders = -1, kVrpnTypes = -2;  ///< types of
 struct VrpnMessage {
   std::int32_t sender = 0;
   std::int32_t type = 0;
+  double time = 0.0;                      ///< [s] of the sender's clock, when it was made
   std::span<const std::uint8_t> payload;  ///< until the next push(); empty where it was too long to keep
 };
 

@@ -69,6 +69,29 @@ class ArmInHand {
   double largest_ = 0.0;
 };
 
+/// Every force that a device is told: by how much one grows or turns more than a slew limit allows.
+class ForceWitness {
+ public:
+  explicit ForceWitness(double slew = 200.0) : slew_(slew) {}
+
+  void told(double now, const Vec3& force) {
+    // Falling is free.
+    const double square = glm::dot(force_, force_);
+    const double left = square > 0.0 ? std::clamp(glm::dot(force, force_) / square, 0.0, 1.0) : 0.0;
+    excess_ = std::max(excess_, glm::distance(force, left * force_) - slew_ * (now - time_));
+    largest_ = std::max(largest_, glm::length(force));
+    time_ = now;
+    force_ = force;
+  }
+  [[nodiscard]] double excess() const { return excess_; }    ///< [N] the most so far
+  [[nodiscard]] double largest() const { return largest_; }  ///< [N] so far
+
+ private:
+  double slew_;  ///< [N/s]
+  double time_ = 0.0, excess_ = 0.0, largest_ = 0.0;
+  Vec3 force_{0.0};
+};
+
 /// Where a hand that wanders by itself wants to be after `t` seconds.
 inline Vec3 wandering(double t) {
   const auto wave = [t](double period) { return std::sin(2.0 * std::numbers::pi * t / period); };

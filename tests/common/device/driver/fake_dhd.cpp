@@ -37,6 +37,10 @@ int call(char id) {
     --dhd.failing_calls;
     return -1;
   }
+  if (dhd.throwing_calls > 0) {
+    --dhd.throwing_calls;
+    throw 42;
+  }
   if (dhd.repeated_calls > 0) {
     --dhd.repeated_calls;
     return 1;
@@ -91,6 +95,7 @@ int dhdOpenSerial(int serial) { return serial == 4711 ? palpate::test::open_it()
 
 PALPATE_FAKE_API int dhdClose(char id);
 int dhdClose(char id) {
+  fake().throwing_calls = 0;
   (void)call(id);
   fake().switch_force_off(0);
   fake().open = false;
@@ -132,7 +137,17 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
 }
 
 PALPATE_FAKE_API unsigned dhdGetButtonMask(char id);
-unsigned dhdGetButtonMask(char /*id*/) { return fake().buttons; }
+unsigned dhdGetButtonMask(char /*id*/) {
+  const auto& dhd = fake();
+  return dhd.buttons | (dhd.gripper_is_button && dhd.closed_gripper ? 1U : 0U);
+}
+
+PALPATE_FAKE_API int dhdEmulateButton(unsigned char on, char id);
+int dhdEmulateButton(unsigned char on, char id) {
+  const int done = call(id);
+  if (done >= 0) fake().gripper_is_button = on != 0;
+  return done;
+}
 
 PALPATE_FAKE_API int dhdEnableForce(unsigned char on, char id);
 int dhdEnableForce(unsigned char on, char id) {
@@ -153,6 +168,7 @@ int dhdSetForce(double x, double y, double z, char id) {
   ++dhd.commands;
   dhd.last = {y, z, x};
   dhd.last_time = dhd.arm.time();
+  dhd.wire.told(dhd.last_time, dhd.last);
   if (dhd.force_on && !dhd.deaf) dhd.arm.push(dhd.last);
   return done;
 }

@@ -25,9 +25,11 @@ struct FakeDhd {
   double max_force = 0.0;  ///< [N] that its maker's software allows; 0: not told
   bool powered = true, has_zero = true, broken = false;
   unsigned buttons = 0;
+  bool closed_gripper = false;
   int failing_calls = 0;   ///< so many of the next ones return an error
   int repeated_calls = 0;  ///< so many return that they repeat themselves: no fault
   bool nonsense = false;   ///< positions are no numbers
+  int throwing_calls = 0;  ///< so many of the next ones throw
   bool has_watchdog = true;
   bool deaf = false;  ///< a command is taken, and does nothing
 
@@ -36,9 +38,11 @@ struct FakeDhd {
   int force_off_cause = 0;
   int opened = 0, closed = 0;
   std::uint64_t commands = 0;
-  Vec3 last{0.0};          ///< force of the last command, frame D
+  Vec3 last{0.0};  ///< force of the last command, frame D
+  ForceWitness wire;
   double last_time = 0.0;  ///< [s] of it
   int watchdog = 0;        ///< [1/8 ms] that was asked for
+  bool gripper_is_button = false;
 
   void switch_force_off(int cause) {
     force_on = false;

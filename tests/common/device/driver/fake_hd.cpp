@@ -168,6 +168,10 @@ void hdGetDoublev(unsigned what, double* values) {
   FakeHd& hd = fake();
   if (what == 0x2050) {
     hd.out_of_frame = hd.out_of_frame || !hd.in_frame;
+    if (hd.throwing_calls > 0) {
+      --hd.throwing_calls;
+      throw 42;
+    }
     const Vec3 p = hd.encoders_off == std::array<double, 3>{} ? hd.arm.position() : tip_of(encoders());
     values[0] = hd.nonsense ? std::nan("") : 1000.0 * p.x;
     values[1] = 1000.0 * p.y;
@@ -200,6 +204,7 @@ void hdSetDoublev(unsigned what, const double* values) {
   FakeHd& hd = fake();
   hd.out_of_frame = hd.out_of_frame || !hd.in_frame;
   hd.last = {values[0], values[1], values[2]};
+  hd.wire.told(hd.arm.time(), hd.last);
   hd.arm.push(hd.force_output && hd.calibrated ? hd.last : Vec3{0.0});
 }
 

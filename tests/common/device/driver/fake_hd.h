@@ -24,7 +24,8 @@ struct FakeHd {
   bool updates_calibration = false;  ///< it becomes calibrated when it is asked to
   bool hung = false;                 ///< its scheduler stands still
   bool nonsense = false;
-  unsigned error = 0;  ///< of the next calls that are asked for it, until it is cleared
+  int throwing_calls = 0;  ///< so many of the next positions that are asked for throw
+  unsigned error = 0;      ///< of the next calls that are asked for it, until it is cleared
   int buttons = 0;
   /// By how much its encoders of the base, thigh and shin are off [rad]. With any, the library reports the
   /// position that its own model of the arm makes of what they say, as it does on a real one.
@@ -37,6 +38,7 @@ struct FakeHd {
   bool out_of_frame = false;  ///< something was set or read outside of a frame
   std::uint64_t ticks = 0;
   Vec3 last{0.0};  ///< [N] that was set last
+  ForceWitness wire;
 
   /// Lives on until `now`, and calls back.
   void (*tick)(double now) = nullptr;

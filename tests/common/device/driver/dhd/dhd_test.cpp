@@ -91,6 +91,8 @@ TEST(DhdOptions, AreChecked) {
   EXPECT_EQ(settings.arm.limits().force_cap, 3.0);
   for (const auto& [name, value] : DriverOptions{{"cap", "0"},
                                                  {"cap", "x"},
+                                                 {"cap", "1e300"},
+                                                 {"reach", "1e300"},
                                                  {"reach", "-1"},
                                                  {"serial", "1.5"},
                                                  {"serial", "70000"},
@@ -121,7 +123,7 @@ TEST_F(DhdLinkTest, TurnsPositionsAndForcesBetweenTheFrames) {
 
 TEST_F(DhdLinkTest, HoldsEveryForceToTheCapOfUserModelAndMaker) {
   get_ready();
-  run(0.01, {100.0, 0.0, 0.0});
+  run(0.05, {100.0, 0.0, 0.0});
   EXPECT_NEAR(glm::length(fake_.last), 8.0, 1e-12);
   run(0.01, {0.0, HUGE_VAL, 0.0});
   EXPECT_EQ(fake_.last, Vec3(0.0));
@@ -132,7 +134,7 @@ TEST_F(DhdLinkTest, HoldsEveryForceToTheCapOfUserModelAndMaker) {
   fake_.plugged = true;
   fake_.max_force = 2.0;
   get_ready();
-  run(0.01, {0.0, 3.0, -4.0});
+  run(0.05, {0.0, 3.0, -4.0});
   EXPECT_NEAR(glm::distance(fake_.last, {0.0, 1.2, -1.6}), 0.0, 1e-12);
 }
 
@@ -188,7 +190,7 @@ TEST_F(DhdLinkTest, AsksForTheWatchdogAndIsGuardedByIt) {
 
 TEST_F(DhdLinkTest, TheLastCommandOnAnyFaultIsZero) {
   using Fault = void (*)(FakeDhd&);
-  const std::array<std::pair<const char*, Fault>, 6> faults{{
+  const std::array<std::pair<const char*, Fault>, 7> faults{{
       {"errors", [](FakeDhd& dhd) { dhd.failing_calls = 3; }},
       {"nonsense", [](FakeDhd& dhd) { dhd.nonsense = true; }},
       {"jump",
@@ -197,6 +199,7 @@ TEST_F(DhdLinkTest, TheLastCommandOnAnyFaultIsZero) {
        }},
       {"lost its zero", [](FakeDhd& dhd) { dhd.has_zero = false; }},
       {"no power", [](FakeDhd& dhd) { dhd.powered = false; }},
+      {"throws", [](FakeDhd& dhd) { dhd.throwing_calls = 2; }},
       {"broken", [](FakeDhd& dhd) { dhd.broken = true; }},
   }};
   for (const auto& [name, fault] : faults) {
@@ -217,6 +220,34 @@ TEST_F(DhdLinkTest, TheLastCommandOnAnyFaultIsZero) {
     }
     EXPECT_TRUE(silenced) << name;
   }
+}
+
+// An omega.7 has no button, but a gripper that closes: the switch of its force.
+TEST_F(DhdLinkTest, AClosedGripperIsTheFirstButton) {
+  const auto after = [this](int type) {
+    fake_.plugged = false;
+    run(0.3, Vec3{0.0});
+    fake_.plugged = true;
+    fake_.gripper_is_button = false;
+    fake_.type = type;
+    get_ready();
+    return fake_.gripper_is_button;
+  };
+  for (const int type : {35, 37, 104, 105, 108, 109}) EXPECT_TRUE(after(type)) << type;
+  for (const int type : {33, 34, 63, 203, 206, 60}) EXPECT_FALSE(after(type)) << type;
+  ASSERT_TRUE(after(35));
+  EXPECT_EQ(link_->atoms().buttons, 0U);
+  fake_.closed_gripper = true;
+  run(0.01, Vec3{0.0});
+  EXPECT_EQ(link_->atoms().buttons, 1U);
+  EXPECT_EQ(link_->advice(), "");
+  // A library that is too old for that says so.
+  functions_.emulate_button = nullptr;
+  link_ = nullptr;
+  link_ = std::make_unique<DhdLink>(functions_, clock_, settings_);
+  fake_.type = 104;
+  get_ready();
+  EXPECT_NE(link_->advice().find("enable=pedal"), std::string::npos) << link_->advice();
 }
 
 TEST_F(DhdLinkTest, TimeGuardAndSaturationAreNoFaults) {
@@ -285,6 +316,7 @@ TEST_F(DhdLinkTest, BearsEveryFaultForLong) {
     if (soak.chance(0.2)) fake_.repeated_calls = static_cast<int>(soak.below(50));
     if (soak.chance(0.1)) fake_.switch_force_off(static_cast<int>(1 + soak.below(6)));
     if (soak.chance(0.1)) fake_.arm.put(soak.within(0.16));
+    if (soak.chance(0.05)) fake_.throwing_calls = static_cast<int>(soak.below(4));
     fake_.nonsense = soak.chance(0.05);
     fake_.broken = soak.chance(0.05);
     fake_.powered = !soak.chance(0.05);
@@ -296,12 +328,13 @@ TEST_F(DhdLinkTest, BearsEveryFaultForLong) {
         *link_, [&] { return clock_.now(); }, 0.3, soak.force(20.0),
         [&] { return fake_.opened - fake_.closed; });
     ASSERT_LE(fake_.arm.largest_force(), 8.0 + 1e-9);
+    ASSERT_LE(fake_.wire.excess(), 1e-9);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(100.0 * seconds));
   EXPECT_GT(link_->status().faults, 10U);
   fake_.nonsense = fake_.broken = fake_.busy = false;
   fake_.powered = fake_.has_zero = fake_.plugged = true;
-  fake_.failing_calls = 0;
+  fake_.failing_calls = fake_.throwing_calls = 0;
   run(1.0, Vec3{0.0});
   get_ready();
   link_.reset();

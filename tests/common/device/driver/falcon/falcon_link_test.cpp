@@ -118,6 +118,23 @@ TEST_F(FalconLinkTest, SaysThatFirmwareIsMissing) {
   EXPECT_EQ(link_->status().uploads, static_cast<std::uint64_t>(FalconLink::kMostUploads));
 }
 
+// What is written where this program is killed: a command of no force.
+TEST_F(FalconLinkTest, LeavesACommandOfZeroBehind) {
+  plug({.loaded = true, .homed = true, .start = FalconEmulator::kMiddle});
+  ASSERT_TRUE(run_until(LinkPhase::kReady, 5.0));
+  const auto& [endpoint, word] = bus_.last_word();
+  EXPECT_EQ(endpoint, 0x02);
+  ASSERT_EQ(word.size(), 16U);
+  EXPECT_EQ(word.front(), 0x3C);
+  EXPECT_EQ(word.back(), 0x3E);
+  for (std::size_t i = 1; i <= 12; ++i) EXPECT_EQ(word[i], 0x41) << i;
+  EXPECT_EQ(link_->advice(), "");
+  bus_.set_guardian(false);
+  plug({.loaded = true, .homed = true, .start = FalconEmulator::kMiddle});
+  ASSERT_TRUE(run_until(LinkPhase::kReady, 5.0));
+  EXPECT_NE(link_->advice().find("guardian"), std::string::npos);
+}
+
 TEST_F(FalconLinkTest, ShowsNoForceBeforeAllEncodersHaveTheirZero) {
   plug({.loaded = true});
   falcon_->home_by_itself(false);
@@ -168,7 +185,7 @@ TEST_F(FalconLinkTest, ShowsTheForceThatIsAskedFor) {
 TEST_F(FalconLinkTest, ShortensWhatIsTooMuchAndKeepsItsDirection) {
   plug_ready();
   const Vec3 huge{0.0, 0.0, -500.0};
-  run(0.02, [&](const DeviceAtoms&) { return huge; });
+  run(0.05, [&](const DeviceAtoms&) { return huge; });
   EXPECT_LE(glm::length(falcon_->motor_force()), 8.0 + 0.02);
   EXPECT_GT(glm::length(falcon_->motor_force()), 7.0);
   EXPECT_LT(glm::dot(glm::normalize(falcon_->motor_force()), glm::normalize(huge)) - 1.0, 1e-3);

@@ -62,6 +62,7 @@ std::string HaplyEmulator::take(double now, const std::string& message) {
     heard_ = now;
     // x right, y forward, z up.
     last = {x, z, -y};
+    wire.told(now, last);
     arm.push(plugged ? last : Vec3{0.0});
   } else {
     strange = message;
@@ -75,9 +76,13 @@ std::string HaplyEmulator::state(bool all) const {
     const Vec3 p = arm.position(), v = arm.velocity();
     text += R"({"device_id":")" + device + "\",";
     if (all) {
-      text +=
-          R"("config":{"type":"inverse3","handedness":"right","device_info":{"id":")" + device +
-          R"(","major_version":7},"mount":{"position":{"x":9,"y":9,"z":9}}},"status":{"calibrated":true},)";
+      text += R"("config":{"type":"inverse3","handedness":"right","device_info":{"id":")" + device +
+              R"(","major_version":7},"mount":{"position":{"x":9,"y":9,"z":9}}},)";
+    }
+    if (all || tells_status) {
+      const auto word = [](bool value) { return std::string(value ? "true" : "false"); };
+      text += R"("status":{"calibrated":)" + word(calibrated) + R"(,"in_use":false,"power_supply":)" +
+              word(powered) + R"(,"ready":true},)";
     }
     text += R"("state":{"cursor_velocity":{"x":)" + digits(v.x) + ",\"y\":" + digits(-v.z) +
             ",\"z\":" + digits(v.y) + R"(},"cursor_position":{"x":)" + digits(kMiddle.x + p.x) +

@@ -21,7 +21,9 @@ class HaplyEmulator {
   std::string device = "049D";
   bool plugged = true;
   bool grip = true;
-  bool old_buttons = false;  ///< button_0 to button_3
+  bool calibrated = true, powered = true;
+  bool tells_status = false;  ///< with each state, not in the snapshot alone
+  bool old_buttons = false;   ///< button_0 to button_3
   unsigned buttons = 0;
   ArmInHand arm;
 
@@ -30,6 +32,7 @@ class HaplyEmulator {
   std::uint64_t understood = 0;  ///< forces
   std::string strange;           ///< the last message that was not understood; empty: none
   Vec3 last{0.0};                ///< [N] that was understood last, frame D
+  ForceWitness wire;
 
   /// All that it has, as it is pushed to a new client.
   [[nodiscard]] std::string snapshot(double now);

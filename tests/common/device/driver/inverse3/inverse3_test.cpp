@@ -185,7 +185,7 @@ TEST_F(Inverse3LinkTest, SendsOneCommandForEachState) {
 
 TEST_F(Inverse3LinkTest, HoldsEveryForceToTheCap) {
   get_ready();
-  run(0.01, {30.0, 0.0, -40.0});
+  run(0.05, {30.0, 0.0, -40.0});
   EXPECT_NEAR(glm::distance(service_.last, {3.0, 0.0, -4.0}), 0.0, 1e-6);
   run(0.01, {std::nan(""), 0.0, 1.0});
   EXPECT_EQ(service_.last, Vec3(0.0));
@@ -224,6 +224,51 @@ TEST_F(Inverse3LinkTest, TheLastCommandOnAnyFaultIsZero) {
     EXPECT_TRUE(silenced) << name;
     EXPECT_LE(web_.connections(), 1) << name;
   }
+}
+
+// By the status in the snapshot, or in any state after it.
+TEST_F(Inverse3LinkTest, ShowsNoForceUncalibratedOrWithoutPower) {
+  for (bool* const lacking : {&service_.calibrated, &service_.powered}) {
+    service_.tells_status = true;
+    get_ready();
+    run(0.1, {1.0, 0.0, 0.0});
+    ASSERT_NEAR(service_.last.x, 1.0, 1e-6);
+    *lacking = false;
+    run(0.05, {1.0, 0.0, 0.0});
+    EXPECT_EQ(service_.last, Vec3(0.0));
+    EXPECT_EQ(link_.status().phase, LinkPhase::kNeedsHoming);
+    EXPECT_NE(link_.advice().find(lacking == &service_.calibrated ? "not calibrated" : "power supply"),
+              std::string::npos)
+        << link_.advice();
+    *lacking = true;
+    run(0.1, {1.0, 0.0, 0.0});
+    EXPECT_EQ(link_.status().phase, LinkPhase::kReady);
+    // The snapshot alone says it, to a client that comes anew.
+    service_.tells_status = false;
+    *lacking = false;
+    web_.listens = false;
+    run(0.5, Vec3{0.0});
+    web_.listens = true;
+    run(1.0, {1.0, 0.0, 0.0});
+    EXPECT_EQ(service_.last, Vec3(0.0));
+    EXPECT_EQ(link_.status().phase, LinkPhase::kNeedsHoming);
+    *lacking = true;
+    web_.listens = false;
+    run(0.5, Vec3{0.0});
+    web_.listens = true;
+    get_ready();
+  }
+}
+
+TEST_F(Inverse3LinkTest, SaysThatNothingCanBeHeldWithoutAGrip) {
+  service_.grip = false;
+  get_ready();
+  EXPECT_NE(link_.advice().find("enable=pedal"), std::string::npos) << link_.advice();
+  run(0.1, {1.0, 0.0, 0.0});
+  EXPECT_EQ(link_.advice(), "") << "another switch is held";
+  service_.grip = true;
+  get_ready();
+  EXPECT_EQ(link_.advice(), "");
 }
 
 TEST_F(Inverse3LinkTest, FallsSilentWhereTheProgramDoes) {
@@ -276,6 +321,7 @@ TEST_F(Inverse3LinkTest, BearsEveryFaultForLong) {
     fresh += soak.work(
         link_, [&] { return web_.now(); }, 0.3, soak.force(15.0), [&] { return web_.connections(); });
     ASSERT_LE(service_.arm.largest_force(), 5.0 + 1e-5);
+    ASSERT_LE(service_.wire.excess(), 1e-5);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(100.0 * seconds));
   EXPECT_GT(web_.opened(), 3);

@@ -101,7 +101,7 @@ TEST_F(HdLinkTest, ReadsMillimetresAndPushesInsideOfFrames) {
 // 3.3 N at most, 0.88 N for any time.
 TEST_F(HdLinkTest, HoldsForcesToTheMakersPeakAndThenToWhatTheMotorsStand) {
   get_ready();
-  run(0.003, {100.0, 0.0, 0.0});
+  run(0.020, {100.0, 0.0, 0.0});
   EXPECT_NEAR(fake_.last.x, 3.3, 0.1);
   EXPECT_LE(fake_.arm.largest_force(), 3.3);
   run(20.0, {100.0, 0.0, 0.0});
@@ -130,7 +130,8 @@ TEST_F(HdLinkTest, AForceThatIsNotRenewedIsNone) {
 
 TEST_F(HdLinkTest, TheLastCommandOnAnyFaultIsZero) {
   using Fault = void (*)(FakeHd&);
-  const std::array<std::pair<const char*, Fault>, 6> faults{{
+  const std::array<std::pair<const char*, Fault>, 7> faults{{
+      {"throws", [](FakeHd& hd) { hd.throwing_calls = 1; }},
       {"warm motors", [](FakeHd& hd) { hd.error = 0x0200; }},
       {"too fast", [](FakeHd& hd) { hd.error = 0x0203; }},
       {"lost", [](FakeHd& hd) { hd.error = 0x0302; }},
@@ -245,18 +246,21 @@ TEST_F(HdLinkTest, BearsEveryFaultForLong) {
     fake_.plugged = !soak.chance(0.05);
     fake_.busy = soak.chance(0.05);
     fake_.nonsense = soak.chance(0.05);
+    if (soak.chance(0.05)) fake_.throwing_calls = static_cast<int>(soak.below(3));
     if (soak.chance(0.1)) fake_.arm.put(soak.within(0.16));
     fake_.arm.set_target(soak.within(0.04));
     fresh += soak.work(
         *link_, [&] { return clock_.now(); }, 0.3, soak.force(20.0),
         [&] { return fake_.opened - fake_.closed; });
     ASSERT_LE(fake_.arm.largest_force(), 3.3 + 1e-9);
+    ASSERT_LE(fake_.wire.excess(), 1e-9);
     ASSERT_FALSE(fake_.out_of_frame);
   }
   EXPECT_GT(fresh, static_cast<std::uint64_t>(50.0 * seconds));
   EXPECT_GT(link_->status().faults, 10U);
   fake_.error = 0;
   fake_.hung = fake_.busy = fake_.nonsense = false;
+  fake_.throwing_calls = 0;
   fake_.calibrated = fake_.plugged = true;
   run(2.0, Vec3{0.0});
   get_ready();

@@ -255,7 +255,9 @@ TEST_F(PolhemusOnUsbTest, BearsEveryFaultForTwoHours) {
 
 class FastrakAtALine : public ::testing::Test {
  protected:
-  FastrakAtALine() {
+  FastrakAtALine() { begin(); }
+  /// A link of its own, at a line of its own.
+  void begin() {
     auto line = std::make_unique<FakeLine>();
     line_ = line.get();
     settings_.port = line_->name();
@@ -304,6 +306,27 @@ TEST_F(FastrakAtALine, IsFoundSetUpAndFollowed) {
   EXPECT_LT(line_->now() - pulled, 0.1);
   EXPECT_FALSE(pose(1).valid);
   EXPECT_EQ(line_->open_streams(), 0);
+}
+
+// Four stations of 34 bytes at 19200 baud: each comes 14 times a second, and two are seen.
+TEST_F(FastrakAtALine, IsFollowedAtASlowLine) {
+  settings_.baud = 19200;
+  tracker_ = std::make_shared<PolhemusEmulator>(EmulatedPolhemus{.fastrak = true, .rate = 28.0});
+  begin();
+  line_->plug(tracker_);
+  run(2.0);
+  ASSERT_EQ(link_->status().phase, LinkPhase::kReady) << link_->advice();
+  EXPECT_EQ(link_->advice(), "");
+  for (int n = 0; n < 200; ++n) {
+    run(0.01);
+    ASSERT_TRUE(pose(1).valid && pose(2).valid) << n;
+  }
+  // What no hand can be led by is said.
+  settings_.baud = 9600;
+  begin();
+  line_->plug(tracker_);
+  run(2.0);
+  EXPECT_NE(link_->advice().find("too slow"), std::string::npos) << link_->advice();
 }
 
 TEST_F(FastrakAtALine, SaysWhatToLookAtWhereNothingMakesSense) {

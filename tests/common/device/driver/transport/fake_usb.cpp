@@ -45,6 +45,11 @@ class FakeUsb::Connection final : public UsbConnection {
     return {TransferStatus::kOk, bytes};
   }
 
+  bool leave_last_word(const UsbEndpoint& endpoint, std::span<const std::uint8_t> word) override {
+    bus_.last_word_ = {endpoint.address, {word.begin(), word.end()}};
+    return bus_.has_guardian_;
+  }
+
   TransferResult write(const UsbEndpoint& endpoint, std::span<const std::uint8_t> data,
                        double seconds) noexcept override {
     if (bus_.transfer(path_, device_) == nullptr) return {TransferStatus::kGone, 0};

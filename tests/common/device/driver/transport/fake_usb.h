@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/device/driver/transport/usb.h"
@@ -64,6 +65,9 @@ class FakeUsb final : public UsbTransport {
   void unplug_at_transfer(std::uint64_t count) { unplug_after_ = count; }
   [[nodiscard]] std::uint64_t transfers() const { return transfers_; }
   [[nodiscard]] int open_connections() const { return open_; }
+  void set_guardian(bool there) { has_guardian_ = there; }
+  /// Endpoint and bytes that were left to be written after the program.
+  [[nodiscard]] const std::pair<int, std::vector<std::uint8_t>>& last_word() const { return last_word_; }
 
   std::vector<UsbDevice> devices() override;
   UsbOpened open(const std::string& path, int interface) override;
@@ -88,6 +92,8 @@ class FakeUsb final : public UsbTransport {
   std::uint64_t transfers_ = 0;
   std::uint64_t unplug_after_ = 0;
   int open_ = 0;
+  bool has_guardian_ = true;
+  std::pair<int, std::vector<std::uint8_t>> last_word_;
 };
 
 }  // namespace palpate::test

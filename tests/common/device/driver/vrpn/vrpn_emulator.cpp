@@ -36,8 +36,9 @@ double float_at(const Bytes& bytes, std::size_t at) {
 
 void VrpnEmulator::put(std::int32_t sender, std::int32_t type, const Bytes& payload) {
   add_int(said_, 24 + static_cast<std::int64_t>(payload.size()));
-  add_int(said_, static_cast<std::int64_t>(time_));
-  add_int(said_, 0);
+  const double stamp = time_ + clock_ahead, seconds = std::floor(stamp);
+  add_int(said_, static_cast<std::int64_t>(seconds));
+  add_int(said_, exact_stamps ? static_cast<std::int64_t>(1e6 * (stamp - seconds)) : 0);
   add_int(said_, sender);
   add_int(said_, type);
   add_int(said_, 77);

@@ -22,10 +22,12 @@ class VrpnEmulator {
   double rate = 500.0;       ///< [Hz] of poses; 0: none
   double analog_rate = 0.0;  ///< [Hz] of channels
   std::vector<double> channels;
-  int sensor = 0;         ///< of the arm; another sensor is sent, too
-  bool answers = true;    ///< pings
-  bool silent = false;    ///< it says nothing at all
-  bool nonsense = false;  ///< poses are no numbers
+  bool exact_stamps = false;  ///< else whole seconds
+  double clock_ahead = 0.0;   ///< [s] of its clock before ours
+  int sensor = 0;             ///< of the arm; another sensor is sent, too
+  bool answers = true;        ///< pings
+  bool silent = false;        ///< it says nothing at all
+  bool nonsense = false;      ///< poses are no numbers
   ArmInHand arm;
 
   // What became of it.

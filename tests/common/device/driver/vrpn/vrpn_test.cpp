@@ -101,6 +101,68 @@ TEST_F(VrpnLinkTest, ReadsOneSensorAndTheButtonsOfOneDevice) {
   EXPECT_EQ(link_->status().faults, 0U);
 }
 
+// Poses that come together are as far apart as they were made, by the sender's stamps; whatever its clock says.
+TEST_F(VrpnLinkTest, KeepsTheTimeAtWhichAPoseWasMade) {
+  for (const double ahead : {0.0, -1e6, 1e6 + 0.3}) {
+    link_.reset();
+    server_ = VrpnEmulator();  // each link has a clock that begins anew
+    server_.exact_stamps = true;
+    server_.clock_ahead = ahead;
+    server_.rate = 200.0;
+    begin(vrpn_settings({{"at", "Phantom0@lab"}}));
+    get_ready();
+    place_->faults = {.late = 0.3, .lateness = 0.012};
+    double last = link_->atoms().time;
+    int news = 0, together = 0;
+    for (const double until = place_->now() + 5.0; place_->now() < until;) {
+      const double before = place_->now();
+      if (!link_->round(Vec3{0.0})) continue;
+      const double time = link_->atoms().time;
+      EXPECT_LE(time, place_->now());
+      EXPECT_LT(place_->now() - time, 0.1);
+      if (time == last) continue;
+      EXPECT_GE(time - last, 0.5 / server_.rate) << "no two poses are nearer than they were made";
+      ++news;
+      together += place_->now() - before < 0.001 ? 1 : 0;
+      last = time;
+    }
+    EXPECT_GT(news, 500);
+    place_->faults = {};
+  }
+}
+
+TEST(SenderClock, TellsWhenPacketsWereMade) {
+  // Ahead by 1000 s, 2 ms on the way, 20 now and then.
+  SenderClock clock;
+  double worst = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    const double made = 0.01 * n, way = n % 7 == 3 ? 0.020 : 0.002;
+    const double local = clock.local(made + 1000.0, made + way);
+    EXPECT_LE(local, made + way);
+    if (n > 7) worst = std::max(worst, std::abs(local - made - 0.002));
+  }
+  EXPECT_LT(worst, 1e-4);
+  // It drifts by 50 ppm, and is set back, and forward.
+  clock.reset();
+  for (int n = 0; n < 100'000; ++n) {
+    const double made = 0.01 * n, set = n < 40'000 ? 0.0 : n < 70'000 ? -3600.0 : 77.0;
+    const double local = clock.local(made * (1.0 + 5e-5) + set, made + 0.002);
+    EXPECT_TRUE(n % 10'000 <= 1 || std::abs(local - made - 0.002) < 1e-3) << n;
+  }
+  // Stamps of whole seconds, or none at all, are none.
+  for (const double step : {1.0, 1e9}) {
+    clock.reset();
+    for (int n = 0; n < 1000; ++n) {
+      const double made = 0.01 * n;
+      const double local = clock.local(step * std::floor(made / step), made);
+      EXPECT_TRUE(n <= 2 || local == made) << n;
+    }
+  }
+  clock.reset();
+  EXPECT_EQ(clock.local(std::nan(""), 1.0), 1.0);
+  EXPECT_EQ(clock.local(2.0, 1.1), 1.1);
+}
+
 // The server's own loop holds the hand: between two models, and with a model that is late, the spring is
 // there.
 TEST_F(VrpnLinkTest, SendsSpringsThatTheServersLoopShows) {
