@@ -55,8 +55,10 @@ template <auto... M>
 inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 /// @}
 
-/// Of all verbs, of inputs, and of what is traced and measured.
+/// Of all verbs, and of inputs.
 [[nodiscard]] std::span<const Setting> input_settings();
+/// Of what is traced and measured.
+[[nodiscard]] std::span<const Setting> tracing_settings();
 /// Of pictures.
 [[nodiscard]] std::span<const Setting> view_settings();
 /// Of touch and of what the hand holds.
