@@ -61,7 +61,13 @@ inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 [[nodiscard]] std::span<const Setting> tracing_settings();
 /// Of pictures.
 [[nodiscard]] std::span<const Setting> view_settings();
-/// Of touch and of what the hand holds.
+/// Of volumes.
+[[nodiscard]] std::span<const Setting> volume_settings();
+/// Of what all modes of touch share.
+[[nodiscard]] std::span<const Setting> touch_settings();
+/// Of single modes.
+[[nodiscard]] std::span<const Setting> mode_settings();
+/// Of devices in a window, paths and recordings, and of what a hand makes.
 [[nodiscard]] std::span<const Setting> hand_settings();
 /// Of what is written.
 [[nodiscard]] std::span<const Setting> output_settings();
