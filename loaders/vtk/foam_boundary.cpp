@@ -2,240 +2,39 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include <regex.h>
-#include <zlib.h>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "loaders/vtk/foam_text.h"
 
 namespace palpate {
 namespace {
 
-/// As common/base/error.h's, where only the text is known.
-struct Malformed {
-  std::string found;
-};
-
-bool is_foam_space(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
-}
-bool is_foam_mark(char c) { return c == '{' || c == '}' || c == '(' || c == ')' || c == ';'; }
-
-/// How the lists of a file are stored.
-struct Storage {
-  bool binary = false, swapped = false;
-  std::size_t label = 4, scalar = 8;  ///< bytes
-};
-
-/// Words, strings and marks of OpenFOAM's dictionaries.
-class Tokens {
- public:
-  Tokens(std::string_view text, const Storage& storage) : text_(text), storage_(storage) {}
-
-  [[nodiscard]] bool done() {
-    skip();
-    return at_ >= text_.size();
-  }
-  /// The mark, word or string that is next, without quotes; empty at the end.
-  [[nodiscard]] std::string_view peek() {
-    const std::size_t before = at_;
-    const std::string_view token = next();
-    at_ = before;
-    return token;
-  }
-  std::string_view next() {
-    skip();
-    quoted_ = false;
-    if (at_ >= text_.size()) return {};
-    if (is_foam_mark(text_[at_])) return text_.substr(at_++, 1);
-    if (text_[at_] == '"') {
-      const std::size_t end = std::min(text_.size(), text_.find('"', at_ + 1));
-      const std::string_view out = text_.substr(at_ + 1, end - at_ - 1);
-      at_ = std::min(text_.size(), end + 1);
-      quoted_ = true;
-      return out;
-    }
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_foam_space(text_[at_]) && !is_foam_mark(text_[at_]) && text_[at_] != '"')
-      ++at_;
-    return text_.substr(begin, at_ - begin);
-  }
-  /// Whether the last token was in quotes.
-  [[nodiscard]] bool quoted() const { return quoted_; }
-  [[nodiscard]] const Storage& storage() const { return storage_; }
-
-  void expect(std::string_view mark) {
-    const std::string_view token = next();
-    if (token != mark)
-      throw Malformed{"'" + std::string(token.substr(0, 40)) + "' where '" + std::string(mark) + "' is due"};
-  }
-  std::size_t count() {
-    const std::string_view token = next();
-    const auto value = number(token);
-    if (!value || !(*value >= 0.0) || *value > 4e9 || *value != std::floor(*value))
-      throw Malformed{"'" + std::string(token.substr(0, 40)) + "' where a count is due"};
-    return static_cast<std::size_t>(*value);
-  }
-  /// The bytes of a binary list, which follow its bracket at once.
-  std::string_view bytes(std::size_t count, std::size_t size) {
-    if (count > (text_.size() - at_) / size)
-      throw Malformed{"a list of " + std::to_string(count) + " beyond the end"};
-    const std::string_view out = text_.substr(at_, count * size);
-    at_ += out.size();
-    return out;
-  }
-  /// Over the rest of an entry, up to its semicolon, or the brackets it opens.
-  void skip_entry() {
-    for (int depth = 0; !done();) {
-      if (depth == 0 && peek() == "}") return;
-      const std::string_view token = next();
-      if (token.substr(0, 5) == "List<" && storage_.binary) skip_binary(token);
-      if (quoted_) continue;
-      if (token == "{" || token == "(") ++depth;
-      if (token == "}" || token == ")") --depth;
-      if (depth <= 0 && (token == ";" || token == "}")) return;
-    }
-  }
-
- private:
-  void skip();
-  void skip_binary(std::string_view list);
-
-  std::string_view text_;
-  Storage storage_;
-  std::size_t at_ = 0;
-  bool quoted_ = false;
-};
-
-/// Over white space and comments.
-void Tokens::skip() {
-  while (at_ < text_.size()) {
-    if (is_foam_space(text_[at_])) {
-      ++at_;
-    } else if (text_.substr(at_, 2) == "//") {
-      at_ = std::min(text_.size(), text_.find('\n', at_));
-    } else if (text_.substr(at_, 2) == "/*") {
-      const std::size_t end = text_.find("*/", at_ + 2);
-      at_ = end == std::string_view::npos ? text_.size() : end + 2;
-    } else {
-      return;
-    }
-  }
-}
-
-std::size_t components_of(std::string_view list) {
-  if (list == "List<scalar>") return 1;
-  if (list == "List<vector>") return 3;
-  if (list == "List<symmTensor>") return 6;
-  if (list == "List<tensor>") return 9;
-  if (list == "List<sphericalTensor>") return 1;
-  throw Malformed{"a binary " + std::string(list.substr(0, 40))};
-}
-
-void Tokens::skip_binary(std::string_view list) {
-  const std::size_t size = components_of(list) * storage_.scalar;
-  const std::size_t values = count();
-  if (values == 0 || peek() != "(") return;
-  expect("(");
-  (void)bytes(values, size);
-  expect(")");
-}
-
-/// The FoamFile dictionary at the head of a file; what follows it is left in `tokens`.
-Storage storage_of(std::string_view text) {
-  Storage out;
-  Tokens tokens(text.substr(0, 4096), out);
-  if (tokens.peek() != "FoamFile") return out;
-  (void)tokens.next();
-  tokens.expect("{");
-  while (!tokens.done() && tokens.peek() != "}") {
-    const std::string_view key = tokens.next(), value = tokens.next();
-    if (key == "format") out.binary = value == "binary";
-    if (key == "arch") {
-      out.swapped =
-          (value.find("MSB") != std::string_view::npos) == (std::endian::native == std::endian::little);
-      if (value.find("label=64") != std::string_view::npos) out.label = 8;
-      if (value.find("scalar=32") != std::string_view::npos) out.scalar = 4;
-    }
-    while (!tokens.done() && tokens.next() != ";") {
-    }
-  }
-  return out;
-}
-
-/// Behind the FoamFile dictionary.
-Tokens body_of(std::string_view text) {
-  const Storage storage = storage_of(text);
-  Tokens tokens(text, storage);
-  if (tokens.peek() == "FoamFile") {
-    (void)tokens.next();
-    tokens.skip_entry();
-  }
-  return tokens;
-}
-
-template <typename T>
-T number_in(std::string_view bytes, std::size_t i, bool swapped) {
-  std::array<char, sizeof(T)> raw{};
-  std::memcpy(raw.data(), bytes.data() + i * sizeof(T), sizeof(T));
-  if (swapped) std::reverse(raw.begin(), raw.end());
-  return std::bit_cast<T>(raw);
-}
-
-std::int64_t label_in(std::string_view bytes, std::size_t i, const Storage& storage) {
-  return storage.label == 8 ? number_in<std::int64_t>(bytes, i, storage.swapped)
-                            : std::int64_t{number_in<std::int32_t>(bytes, i, storage.swapped)};
-}
-
-double scalar_in(std::string_view bytes, std::size_t i, const Storage& storage) {
-  return storage.scalar == 8 ? number_in<double>(bytes, i, storage.swapped)
-                             : double{number_in<float>(bytes, i, storage.swapped)};
-}
-
-double number_of(std::string_view token) {
-  const auto value = number(token);
-  if (!value) throw Malformed{"'" + std::string(token.substr(0, 40)) + "' where a number is due"};
-  return *value;
-}
-
-/// "1.5", or "(1 2 3)".
-void append_tuple(Tokens& tokens, std::size_t components, std::vector<double>& out) {
-  if (components == 1) {
-    out.push_back(number_of(tokens.next()));
-    return;
-  }
-  tokens.expect("(");
-  for (std::size_t c = 0; c < components; ++c) out.push_back(number_of(tokens.next()));
-  tokens.expect(")");
-}
-
 /// "uniform …", or "nonuniform List<…> …"; up to its end.
-FoamPatchValues values_in(Tokens& tokens, std::size_t components) {
+FoamPatchValues values_in(FoamTokens& tokens, std::size_t components) {
   FoamPatchValues out;
   const std::string_view how = tokens.next();
   if (how == "uniform") {
     out.uniform = true;
-    append_tuple(tokens, components, out.numbers);
+    append_foam_tuple(tokens, components, out.numbers);
     return out;
   }
   if (how != "nonuniform")
-    throw Malformed{"'" + std::string(how.substr(0, 40)) + "' where uniform or nonuniform is due"};
+    throw FoamMalformed{"'" + std::string(how.substr(0, 40)) + "' where uniform or nonuniform is due"};
   const std::string_view list = tokens.peek();
   if (list.substr(0, 5) == "List<") (void)tokens.next();
   const std::size_t count = tokens.peek() == "(" ? std::numeric_limits<std::size_t>::max() : tokens.count();
   if (tokens.peek() == "{") {
     tokens.expect("{");
     std::vector<double> one;
-    append_tuple(tokens, components, one);
+    append_foam_tuple(tokens, components, one);
     tokens.expect("}");
     out.uniform = true;
     out.numbers = std::move(one);
@@ -244,12 +43,12 @@ FoamPatchValues values_in(Tokens& tokens, std::size_t components) {
   if (tokens.peek() != "(") return out;  // "nonuniform 0;"
   tokens.expect("(");
   if (tokens.storage().binary) {
-    if (components_of(list) != components) throw Malformed{"a " + std::string(list.substr(0, 40))};
+    if (foam_components(list) != components) throw FoamMalformed{"a " + std::string(list.substr(0, 40))};
     const std::string_view bytes = tokens.bytes(count, components * tokens.storage().scalar);
     for (std::size_t i = 0; i < count * components; ++i)
-      out.numbers.push_back(scalar_in(bytes, i, tokens.storage()));
+      out.numbers.push_back(foam_scalar(bytes, i, tokens.storage()));
   } else {
-    while (!tokens.done() && tokens.peek() != ")") append_tuple(tokens, components, out.numbers);
+    while (!tokens.done() && tokens.peek() != ")") append_foam_tuple(tokens, components, out.numbers);
   }
   tokens.expect(")");
   return out;
@@ -286,7 +85,7 @@ struct PatchEntry {
   std::string problem;
 };
 
-PatchEntry entry_in(Tokens& tokens, std::size_t components) {
+PatchEntry entry_in(FoamTokens& tokens, std::size_t components) {
   PatchEntry out;
   out.key = tokens.next();
   out.pattern = tokens.quoted();
@@ -306,14 +105,14 @@ PatchEntry entry_in(Tokens& tokens, std::size_t components) {
       continue;
     }
     try {
-      const Tokens before = tokens;
+      const FoamTokens before = tokens;
       if (!tokens.peek().empty() && tokens.peek().front() != '$') values = values_in(tokens, components);
       if (tokens.peek() != ";") {
         tokens = before;
         values.reset();
         out.problem = "values by '" + std::string(tokens.peek().substr(0, 40)) + "'";
       }
-    } catch (const Malformed& problem) {
+    } catch (const FoamMalformed& problem) {
       out.problem = problem.found;
     }
     tokens.skip_entry();
@@ -381,7 +180,7 @@ const PatchEntry* entry_of(const FoamPatch& patch, const std::vector<PatchEntry>
 
 std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::string& file) {
   try {
-    Tokens tokens = body_of(text);
+    FoamTokens tokens = foam_body(text);
     std::vector<FoamPatch> out;
     std::set<std::string> names;
     if (tokens.peek() != "(") (void)tokens.count();
@@ -405,19 +204,19 @@ std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::strin
       }
       tokens.expect("}");
       if (!names.insert(patch.name).second)
-        throw Malformed{"two patches with the name '" + patch.name.substr(0, 40) + "'"};
+        throw FoamMalformed{"two patches with the name '" + patch.name.substr(0, 40) + "'"};
       out.push_back(std::move(patch));
     }
     tokens.expect(")");
     return out;
-  } catch (const Malformed& problem) {
+  } catch (const FoamMalformed& problem) {
     refuse(file, problem.found);
   }
 }
 
 FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::string& file) {
   try {
-    Tokens tokens = body_of(text);
+    FoamTokens tokens = foam_body(text);
     FoamFaces out;
     const std::size_t count = tokens.count();
     tokens.expect("(");
@@ -426,8 +225,8 @@ FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::s
         if (tokens.peek() != "(") (void)tokens.count();
         tokens.expect("(");
         while (!tokens.done() && tokens.peek() != ")") {
-          const double point = number_of(tokens.next());
-          if (!(point >= 0.0) || point > 4e9) throw Malformed{"a face of point " + short_number(point)};
+          const double point = foam_number(tokens.next());
+          if (!(point >= 0.0) || point > 4e9) throw FoamMalformed{"a face of point " + short_number(point)};
           if (face >= first) out.points.push_back(static_cast<std::int64_t>(point));
         }
         tokens.expect(")");
@@ -436,22 +235,22 @@ FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::s
       return out;
     }
     // Compact: where each face begins in the list of points that follows.
-    const Storage& storage = tokens.storage();
+    const FoamStorage& storage = tokens.storage();
     const std::string_view begins = tokens.bytes(count, storage.label);
     tokens.expect(")");
     const std::size_t points = tokens.count();
     tokens.expect("(");
     const std::string_view all = tokens.bytes(points, storage.label);
     for (std::size_t face = first; face < count && count - face > 1; ++face) {
-      const std::int64_t from = label_in(begins, face, storage), to = label_in(begins, face + 1, storage);
+      const std::int64_t from = foam_label(begins, face, storage), to = foam_label(begins, face + 1, storage);
       if (from < 0 || to < from || static_cast<std::size_t>(to) > points)
-        throw Malformed{"a face from " + std::to_string(from) + " to " + std::to_string(to)};
+        throw FoamMalformed{"a face from " + std::to_string(from) + " to " + std::to_string(to)};
       for (std::int64_t i = from; i < to; ++i)
-        out.points.push_back(label_in(all, static_cast<std::size_t>(i), storage));
+        out.points.push_back(foam_label(all, static_cast<std::size_t>(i), storage));
       out.begin.push_back(out.points.size());
     }
     return out;
-  } catch (const Malformed& problem) {
+  } catch (const FoamMalformed& problem) {
     refuse(file, problem.found);
   }
 }
@@ -470,7 +269,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
   constexpr int kMostPatterns = 100;
   int patterns = 0;
   try {
-    Tokens tokens(text.substr(at + kName.size()), storage_of(text));
+    FoamTokens tokens(text.substr(at + kName.size()), foam_storage(text));
     tokens.expect("{");
     while (!tokens.done() && tokens.peek() != "}") {
       if (tokens.peek().substr(0, 1) == "#") {  // #includeEtc "caseDicts/setConstraintTypes"
@@ -488,7 +287,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
       }
     }
     tokens.expect("}");
-  } catch (const Malformed& problem) {
+  } catch (const FoamMalformed& problem) {
     problems.push_back(problem.found);
   }
   for (const FoamPatch& patch : patches) {
@@ -557,29 +356,11 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
   return out;
 }
 
-FoamText::FoamText(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
-    mapped_ = std::make_unique<MappedFile>(file.string());
-    return;
-  }
-  const std::string name = file.string() + ".gz";
-  const gzFile in = gzopen(name.c_str(), "rb");
-  if (in == nullptr) throw input_error({file.string(), "", "cannot be opened", "", ""});
-  constexpr std::size_t kMostBytes = std::size_t{1} << 33U;
-  std::array<char, 1U << 16U> part{};
-  int got = 0;
-  while (unpacked_.size() < kMostBytes && (got = gzread(in, part.data(), part.size())) > 0)
-    unpacked_.append(part.data(), static_cast<std::size_t>(got));
-  gzclose(in);
-  if (got < 0) throw input_error({name, "", "cannot be unpacked", "", "the file may be damaged"});
-}
-
 std::size_t read_foam_count(std::string_view text, const std::string& file) {
   try {
-    Tokens tokens = body_of(text);
+    FoamTokens tokens = foam_body(text);
     return tokens.count();
-  } catch (const Malformed& problem) {
+  } catch (const FoamMalformed& problem) {
     refuse(file, problem.found);
   }
 }

@@ -8,14 +8,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <map>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "common/base/mapped_file.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -64,17 +61,5 @@ struct FoamFaces {
 
 /// The number of things in a file of the mesh, which stands before them. @throws Error (bad input) with `file`.
 [[nodiscard]] std::size_t read_foam_count(std::string_view text, const std::string& file);
-
-/// The text of a file, or, where there is none of that name, of one with the ending .gz.
-class FoamText {
- public:
-  /// @throws Error (bad input).
-  explicit FoamText(const std::filesystem::path& file);
-  [[nodiscard]] std::string_view text() const noexcept { return mapped_ ? mapped_->text() : unpacked_; }
-
- private:
-  std::unique_ptr<MappedFile> mapped_;
-  std::string unpacked_;
-};
 
 }  // namespace palpate

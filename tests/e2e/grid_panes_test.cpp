@@ -186,6 +186,7 @@ TEST_F(GridPanes, ByMouseAloneAndBackFromTheSession) {
   ASSERT_FALSE(saved.empty());
   script_.clear();
   next_ = 4;
+  move({40.0, 740.0});  // over no pane
   const WindowResult again = open({"open", "--session", saved.string()});
   ASSERT_TRUE(again.view.volume);
   EXPECT_TRUE(again.view.volume->panes == panes);

@@ -213,7 +213,7 @@ TEST_F(GridWindow, ThePictureFollowsATransferFunctionWhileItIsDragged) {
                                            "--shading",
                                            "off"};
   // The third point over the histogram [pixels]: from half the height of the editor to its foot.
-  const double x = 140.0, half = 597.0, foot = 660.0;
+  const double x = 140.0, half = 652.0, foot = 715.0;
   move(x, half);
   at({.kind = InputKind::kPress});
   constexpr int kSteps = 8;

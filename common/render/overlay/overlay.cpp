@@ -44,6 +44,11 @@ class ContextScope {
 void draw_title(const OverlayPen& pen, const SceneView& view) {
   const float em = pen.text_height();
   float y = em;
+  if (view.slice) {  // which may be white there
+    if (!view.title.empty()) pen.label(y, y, view.title);
+    if (!view.subtitle.empty()) pen.label(y, 2.9F * em, view.subtitle);
+    return;
+  }
   if (!view.title.empty()) {
     pen.text(1.2F * em, y, view.title, pen.ink(), 0.0F, Lettering::kTitle);
     y += 1.75F * em;

@@ -57,13 +57,21 @@ template <auto... M>
 inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 /// @}
 
-/// Of all verbs, of inputs, and of what is traced and measured.
+/// Of all verbs, and of inputs.
 [[nodiscard]] std::span<const Setting> input_settings();
+/// Of what is traced and measured.
+[[nodiscard]] std::span<const Setting> tracing_settings();
 /// Of pictures.
 [[nodiscard]] std::span<const Setting> view_settings();
+/// Of volumes.
+[[nodiscard]] std::span<const Setting> volume_settings();
 /// Of slices beside a volume.
 [[nodiscard]] std::span<const Setting> panes_settings();
-/// Of touch and of what the hand holds.
+/// Of what all modes of touch share.
+[[nodiscard]] std::span<const Setting> touch_settings();
+/// Of single modes.
+[[nodiscard]] std::span<const Setting> mode_settings();
+/// Of devices in a window, paths and recordings, and of what a hand makes.
 [[nodiscard]] std::span<const Setting> hand_settings();
 /// Of what is written.
 [[nodiscard]] std::span<const Setting> output_settings();
