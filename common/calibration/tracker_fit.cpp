@@ -381,6 +381,13 @@ constexpr std::array kSlips{Slip{"the reported positions look like millimetres",
                                    return row;
                                  }}};
 
+/// @pre not empty.
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 /// Half of the measurements are no worse than that [m], or [rad].
 double median_error(const std::vector<TrackerMeasurement>& rows, const Slip* slip, bool turns) {
   std::vector<double> errors;
@@ -388,22 +395,22 @@ double median_error(const std::vector<TrackerMeasurement>& rows, const Slip* sli
     const Left left = left_by({}, slip != nullptr ? slip->mended(row) : row);
     errors.push_back(turns ? left.orientation : left.position);
   }
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  return median(std::move(errors));
 }
 
 /// Refuses a table that fits well once it is read another way. Metal bends a field by centimetres and some
 /// degrees; errors beyond that are none of metal's.
 void refuse_slips(const std::vector<TrackerMeasurement>& rows, const std::string& source) {
   constexpr double kMetal = 0.5, kMetalTurn = 30.0 * kDegree, kBetter = 0.25,
-                   kRoom = 5.0;  // [m], [rad], 1, [m]
+                   kRoom = 20.0;  // [m], [rad], 1, [m]
   if (rows.empty()) return;
-  double farthest = 0.0;
-  for (const TrackerMeasurement& row : rows) farthest = std::max(farthest, glm::length(row.actual.position));
+  // A slip of both poses makes errors smaller by itself: it is seen by the size of the room.
+  std::vector<double> lengths;
+  for (const TrackerMeasurement& row : rows) lengths.push_back(glm::length(row.actual.position));
+  const double usual = median(std::move(lengths));
   for (const bool turns : {false, true}) {
     const double before = median_error(rows, nullptr, turns);
-    const bool large = before > (turns ? kMetalTurn : kMetal) || (!turns && farthest > kRoom);
+    const bool large = before > (turns ? kMetalTurn : kMetal) || (!turns && usual > kRoom);
     if (!std::isfinite(before) || !large) continue;
     const Slip* best = nullptr;
     double least = kBetter * before;
@@ -432,11 +439,19 @@ void refuse_slips(const std::vector<TrackerMeasurement>& rows, const std::string
 /// Refuses a correction that corrects nothing.
 void require_betterment(const std::vector<Left>& before, const std::vector<Left>& after,
                         const std::string& source) {
-  constexpr double kNoise = 2e-3, kLess = 0.95;  // [m] below it there is nothing to correct
-  double was = 0.0, is = 0.0;
-  for (const Left& e : before) was += e.position / static_cast<double>(before.size());
-  for (const Left& e : after) is += e.position / static_cast<double>(after.size());
+  constexpr double kNoise = 2e-3, kTurnNoise = 0.5 * kDegree,
+                   kLess = 0.95;  // [m], [rad] below these there is nothing to correct
+  if (before.empty() || after.empty()) return;
+  // In half of the cases: gross errors stay, and say nothing of the others.
+  const auto half = [](const std::vector<Left>& all, double Left::*which) {
+    std::vector<double> values;
+    for (const Left& e : all) values.push_back(e.*which);
+    return median(std::move(values));
+  };
+  const double was = half(before, &Left::position), is = half(after, &Left::position);
   if (was <= kNoise || is < kLess * was) return;
+  const double turned = half(before, &Left::orientation);
+  if (turned > kTurnNoise && half(after, &Left::orientation) < kLess * turned) return;
   throw work_error(source + ": the correction leaves " + short_number(std::round(1e4 * is) / 10.0) +
                    " mm of " + short_number(std::round(1e4 * was) / 10.0) +
                    " mm on measurements that it has not seen: these errors do not depend on the place; check "

@@ -41,7 +41,9 @@ void ProbeTrail::open_data() {
 
 void ProbeTrail::follow(const HapticChain& made) {
   if (made.followed) {
-    curve_.emplace(made.followed, curve_ ? &*curve_ : nullptr);
+    // Not in the place of the one before, whose shape it goes on with.
+    FollowedCurve next(made.followed, curve_ ? &*curve_ : nullptr);
+    curve_ = std::move(next);
   } else {
     curve_.reset();
   }

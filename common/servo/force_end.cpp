@@ -53,6 +53,16 @@ void wait_for_rest() noexcept {
   }
 }
 
+extern "C" void on_ending_signal(int number);
+
+struct sigaction own_action() noexcept {
+  struct sigaction action {};
+  action.sa_handler = on_ending_signal;
+  action.sa_flags = SA_RESTART | SA_ONSTACK;
+  sigemptyset(&action.sa_mask);
+  return action;
+}
+
 extern "C" void on_ending_signal(int number) {
   const int saved = errno;
   holds.fetch_add(1);
@@ -60,8 +70,7 @@ extern "C" void on_ending_signal(int number) {
   const auto* const known = std::find_if(
       kEnding.begin(), kEnding.end(), [number](const EndingSignal& each) { return each.number == number; });
   const auto i = static_cast<std::size_t>(known - kEnding.begin());
-  struct sigaction ours {};
-  sigaction(number, &before[i], &ours);
+  sigaction(number, &before[i], nullptr);
   if (!known->stops) {
     raise(number);  // waits until this handler is done, and finds what was there before
   } else {
@@ -69,7 +78,8 @@ extern "C" void on_ending_signal(int number) {
     sigemptyset(&it);
     sigaddset(&it, number);
     pthread_sigmask(SIG_UNBLOCK, &it, nullptr);
-    raise(number);  // stands still here
+    raise(number);                               // stands still here
+    const struct sigaction ours = own_action();  // another thread may stop at the same time
     sigaction(number, &ours, nullptr);
     stops.fetch_add(1);
     holds.fetch_sub(1);
@@ -89,10 +99,7 @@ void take_signals() noexcept {
     other = {.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
     sigaltstack(&other, nullptr);
   }
-  struct sigaction action {};
-  action.sa_handler = on_ending_signal;
-  action.sa_flags = SA_RESTART | SA_ONSTACK;
-  sigemptyset(&action.sa_mask);
+  const struct sigaction action = own_action();
   for (std::size_t i = 0; i < kEnding.size(); ++i) {
     taken[i] = sigaction(kEnding[i].number, nullptr, &before[i]) == 0 && !is_plain(before[i], SIG_IGN) &&
                (kEnding[i].crash || is_plain(before[i], SIG_DFL)) &&
@@ -137,9 +144,10 @@ ForceEnd::~ForceEnd() {
   if (--users == 0) give_signals_back();
 }
 
-// The link says first that it shows a force, then looks; the handler holds forces first, then looks: one of
+// The link says that it shows a force, then looks again; the handler holds forces first, then looks: one of
 // them sees the other.
 bool ForceEnd::may_show() noexcept {
+  if (holds.load() > 0) return false;  // what rests stays so, whatever the servo goes on to ask for
   if (shows_ != nullptr) shows_->store(kRoundsToRest);
   return holds.load() <= 0;
 }

@@ -220,7 +220,7 @@ void ServoLoop::stop_after_sleep() noexcept {
   const std::int64_t slept = slept_();
   const std::uint64_t stops = program_stops();
   const bool woken = slept - slept_before_ > kAsleep || stops != stops_seen_;
-  slept_before_ = slept;
+  slept_before_ = std::max(slept_before_, slept);
   stops_seen_ = stops;
   if (!woken) return;
   ++now_.statistics.stops;

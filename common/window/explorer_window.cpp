@@ -93,7 +93,7 @@ WindowResult ExplorerWindow::run() {
                       .recent = state_.recent,
                       .view = view_,
                       .document = state_.document,
-                      .message = state_.message,
+                      .message = state_.message.empty() ? state_.error : state_.message,
                       .region = controls_.region().box(),
                       .probe = touch_.readout(),
                       .tensor = state_.tensor,

@@ -83,7 +83,8 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     milliseconds_.push_back(figures_.milliseconds);
     figures_.frames_per_second = moment.seconds > last_drawn_ ? 1.0 / (moment.seconds - last_drawn_) : 0.0;
     last_drawn_ = moment.seconds;
-    figures_.automatic_range = renderer_.range();
+    figures_.automatic_range.reset();
+    if (view.lines && !view.lines->empty()) figures_.automatic_range = renderer_.range();
     shown_ = std::move(view);
     width_ = width;
     height_ = height;

@@ -161,7 +161,9 @@ ViewEdits edits_of(const SceneView& view) {
 }
 
 void put_edits(const ViewEdits& edits, const SceneState& scene, SceneView& view) {
+  const std::optional<ValueRange> usual = view.style.usual;  // of what is shown, and no edit
   view.style = edits.style;
+  view.style.usual = usual;
   view.style.array = scene.color_array;
   if (view.style.color_by == ColorBy::kArray && !view.style.array) view.style.color_by = ColorBy::kSpeed;
   view.color_lens = edits.color_lens;

@@ -133,14 +133,14 @@ void ExplorerWindow::run_command(Command command) {
       } else if (has_times()) {
         state_.playing = !state_.playing;
       } else {
-        state_.say(kOneTime);
+        state_.say(scene_ ? kOneTime : kNothingOpen);
       }
       break;
     case Command::kStepBack:
     case Command::kStepOn:
       state_.playing = false;
       step_in_time(command == Command::kStepOn);
-      if (!has_times()) state_.say(kOneTime);
+      if (!has_times()) state_.say(scene_ ? kOneTime : kNothingOpen);
       break;
     case Command::kLetGo:
       let_go();

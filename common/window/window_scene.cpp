@@ -73,7 +73,8 @@ void ExplorerWindow::adopt(SceneState scene) {
   // Defaults that are known now are no edit.
   if (settled && history_ && !scene_->joined) history_->settle(edited());
   if (new_input) state_.lines_file = touch_.data().has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
-  if (new_input || state_.message_is_error || state_.message == kCancelled) state_.say({});
+  if (new_input || state_.message == kCancelled) state_.say({});
+  if (new_input || state_.error_of_job) state_.error.clear();
 }
 
 void ExplorerWindow::adopt_field() {
@@ -116,7 +117,7 @@ void ExplorerWindow::fail(const std::exception_ptr& error) {
   } catch (const Cancelled&) {
     state_.say(kCancelled);
   } catch (const std::exception& e) {
-    state_.fail(e.what());
+    state_.fail(e.what(), true);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/boundary_values.h"
+#include "loaders/vtk/foam_text.h"
 
 namespace palpate {
 namespace {

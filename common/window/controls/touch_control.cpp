@@ -229,6 +229,10 @@ std::string TouchControl::choose_mode(std::size_t mode) {
 
 std::optional<std::string> TouchControl::run(Command command, const PictureArea& area, const SceneView& view,
                                              double time) {
+  if (command == Command::kForceOff) {
+    session_.servo().force_off();
+    return "force off; switch it on again in the panel";
+  }
   if (!session_.available()) return "there is nothing to be felt here";
   const auto lock_or_free = [this](int axis) -> std::string {
     if (!grabbed_) return "grab the probe first (G)";
@@ -260,9 +264,6 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
               : session_.data().has_tensors() ? "K keeps the tract, G lets go"
               : session_.hand().takes_hold()  ? "its button takes hold, G lets go"
                                               : "G lets go");
-    case Command::kForceOff:
-      session_.servo().force_off();
-      return "force off; switch it on again in the panel";
     case Command::kLockX:
       return lock_or_free(0);
     case Command::kLockY:

@@ -58,12 +58,14 @@ void draw_banners(PanelState& state, const WindowLayout& layout) {
       notes.push_back(note);
     }
   }
-  const bool error = state.message_is_error && !state.message.empty();
+  const bool error = !state.error.empty();
   if (notes.empty() && closed == 0 && !error) return;
   const float em = ImGui::GetFontSize();
   const PictureArea& area = layout.picture;
   constexpr float kAxes = 8.0F, kWidest = 52.0F;  // heights of the text
-  const float width = std::min(kWidest * em, static_cast<float>(area.width) - (kAxes + 3.0F) * em);
+  constexpr float kNarrowest = 12.0F;
+  const float width =
+      std::clamp(static_cast<float>(area.width) - (kAxes + 3.0F) * em, kNarrowest * em, kWidest * em);
   const double foot = state.series ? series_plot_area(area, em).top : area.top + area.height;
   // Beside the axes.
   ImGui::SetNextWindowPos(
@@ -73,10 +75,9 @@ void draw_banners(PanelState& state, const WindowLayout& layout) {
                                       {width + 2.0F * em, static_cast<float>(0.5 * area.height)});
   ImGui::SetNextWindowBgAlpha(0.92F);
   ImGui::Begin("banners", nullptr,
-               kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoScrollbar |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+               kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   const ImVec4 red{0.93F, 0.36F, 0.30F, 1.0F}, amber{0.93F, 0.67F, 0.20F, 1.0F};
-  if (error && draw_banner(state.message, red, "x##error", width)) state.say({});
+  if (error && draw_banner(state.error, red, "x##error", width)) state.error.clear();
   for (std::size_t i = 0; i < std::min(notes.size(), kMost); ++i) {
     if (draw_banner(notes[i], amber, "x##note", width)) state.closed_notes.insert(notes[i]);
   }

@@ -42,7 +42,10 @@ void draw_color(PanelContext& on, std::string& color, bool quantities) {
   if (!mapped) return;
   const ColorMap map = color_map_of(style);
   ColorMap chosen = map;
-  if (edit_setting("color-map", chosen)) style.color_map = chosen;
+  if (edit_setting("color-map", chosen)) {
+    style.color_map = chosen;
+    style.usual.reset();  // of diverging maps it lies about zero
+  }
   bool automatic = !style.range.has_value();
   if (checkbox("automatic range", &automatic)) {
     style.range =
@@ -62,7 +65,10 @@ void draw_color(PanelContext& on, std::string& color, bool quantities) {
   }
   if (style.color_by != ColorBy::kSeed) {
     bool logarithmic = is_logarithmic(style);
-    if (edit_setting("log-colors", logarithmic)) style.logarithmic = logarithmic;
+    if (edit_setting("log-colors", logarithmic)) {
+      style.logarithmic = logarithmic;
+      style.usual.reset();
+    }
   }
 }
 

@@ -30,7 +30,9 @@ struct PanelState {
   SeedChoice seeds;                   ///< edited; goes into the document
   PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
-  bool message_is_error = false;
+  std::string
+      error;  ///< what went wrong last, until it is closed or what it was of goes well; empty: nothing
+  bool error_of_job = false;           ///< of what was read or made
   std::set<std::string> closed_notes;  ///< of the scene, that are no banners any more
   bool show_help = false;
   bool show_rates = false;
@@ -51,14 +53,13 @@ struct PanelState {
   std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
   CachedHistogram histogram;                                             ///< of the volume
 
-  /// The line at the bottom, of something that went as it should, or that did not.
-  void say(std::string words) {
-    message = std::move(words);
-    message_is_error = false;
-  }
-  void fail(std::string words) {
-    message = std::move(words);
-    message_is_error = true;
+  /// The line at the bottom.
+  void say(std::string words) { message = std::move(words); }
+  /// A banner over the picture.
+  void fail(std::string words, bool of_job = false) {
+    message.clear();
+    error = std::move(words);
+    error_of_job = of_job;
   }
 };
 

@@ -110,11 +110,7 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::PushClipRect(
       corner, {corner.x + right - frame_width - ImGui::GetFontSize(), corner.y + ImGui::GetWindowHeight()},
       true);
-  if (state.message_is_error && !state.message.empty()) {
-    ImGui::TextColored({0.93F, 0.36F, 0.30F, 1.0F}, "%s", words.c_str());
-  } else {
-    ImGui::TextUnformatted(words.c_str());
-  }
+  ImGui::TextUnformatted(words.c_str());
   ImGui::PopClipRect();
   hint("%s", words.c_str());
   ImGui::SameLine(right - frame_width);

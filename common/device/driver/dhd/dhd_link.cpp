@@ -151,6 +151,7 @@ bool DhdLink::round(const Vec3& force) noexcept {
     return work(force);
   } catch (...) {
     give_up();
+    clock_.sleep(kDhdLookPause);  // a library that throws is not asked again at once
     return false;
   }
 }

@@ -129,6 +129,7 @@ bool HdLink::round(const Vec3& force) noexcept {
     return work(force);
   } catch (...) {
     give_up();
+    clock_.sleep(kHdRefusedPause);  // a library that throws is not asked again at once
     return false;
   }
 }

@@ -17,7 +17,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kStartTime = 500;  // [ms] that starting it may take
+constexpr int kStartTime = 5000;  // [ms] that starting it may take on a busy machine
 
 /// Two lower-case digits a byte.
 std::string hex(std::span<const std::uint8_t> bytes) {

@@ -17,6 +17,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -58,6 +59,7 @@ class GuardianTest : public ::testing::Test {
   pid_t program(const Then& then) const {
     const pid_t process = ::fork();
     if (process != 0) return process;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // nothing is left behind where the test is ended
     const Guardian guardian({"file", line_}, kZero, 3);
     if (!guardian.watches()) ::_exit(1);
     (void)!::write(wire_, "!", 1);
