@@ -96,9 +96,9 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
                             heart->heart().layer,
                             heart->heart().fibres};
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
-    drawn.view.probe = probe_after(read_probe_path(options.hand.path.string()),
-                                   find_mode(modes, options.touch.mode).make(scene), scene, options.touch,
-                                   drawn.view.style.color_by);
+    drawn.view.probe =
+        probe_after(read_probe_path(options.hand.path.string()),
+                    find_mode(modes, options.touch.mode).make(scene), scene, options.touch, drawn.view.style);
   }
   return drawn;
 }

@@ -76,7 +76,7 @@ void color(Input& input, const FlowContent& content, SceneState& state, Progress
   const LineColor color = line_color(state.document.view.color, input);
   if (color.by != ColorBy::kArray) return;
   state.color_array =
-      line_style(color, input, *content.field, *state.lines, state.document.common.threads, &progress).array;
+      line_style(color, input, content.field, *state.lines, state.document.common.threads, &progress).array;
 }
 
 /// The volume around the lines: the voxels of `before` where these are the same.

@@ -28,7 +28,7 @@ void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticM
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
   const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
                           options.common.threads, scalar};
-  view.probe = probe_after(path, mode.make(scene), scene, options.touch, view.style.color_by);
+  view.probe = probe_after(path, mode.make(scene), scene, options.touch, view.style);
   view.probe->reference_speed = reference_speed(view);
 }
 
@@ -86,7 +86,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
 
   const LineColor color = line_color(options.view.color, input);
   const auto lines = std::make_shared<const std::vector<Line>>(std::move(traced.lines));
-  const LineStyle style = line_style(color, input, *field, *lines, options.common.threads, &context.progress);
+  const LineStyle style = line_style(color, input, field, *lines, options.common.threads, &context.progress);
   drawn.view = make_line_view(input, *field, lines, options, style, aspect);
   show_volume(drawn, input, field, options, context);
   const HapticMode& mode = find_mode(modes, options.touch.mode);

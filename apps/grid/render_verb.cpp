@@ -37,7 +37,7 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
   const HapticScene scene{nullptr, workspace, touch_settings(options.touch, nullptr, workspace),
                           options.common.threads, volume.field};
   view.probe = probe_after(read_probe_path(options.hand.path.string()), mode.make(scene), scene,
-                           options.touch, view.style.color_by);
+                           options.touch, view.style);
 }
 
 DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,

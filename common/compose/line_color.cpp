@@ -17,23 +17,23 @@ constexpr std::array<std::pair<const char*, Measure>, 4> kMeasures{
      {"q", Measure::kQ},
      {"lambda2", Measure::kLambda2}}};
 
-using Sampler = std::function<ScalarSample(const Vec3&, CellHint&)>;
-
+template <typename Sampler>
 std::shared_ptr<const LineArray> sampled(const std::string& name, const std::vector<Line>& lines, int threads,
-                                         const Sampler& sample) {
+                                         const Sampler& sampler) {
   std::vector<std::size_t> first{0};
   for (const Line& line : lines) first.push_back(first.back() + line.points.size());
   auto array = std::make_shared<LineArray>();
   array->name = name;
+  array->at = [sampler](const Vec3& x, CellHint& hint) {
+    const ScalarSample s = sampler(x, hint);
+    return s.status == SampleStatus::kOk ? s.value : std::numeric_limits<double>::quiet_NaN();
+  };
   array->values.resize(first.back());
   parallel_for(lines.size(), threads, [&](std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {
       CellHint hint;
-      for (std::size_t p = 0; p < lines[l].points.size(); ++p) {
-        const ScalarSample s = sample(lines[l].points[p].position, hint);
-        array->values[first[l] + p] = s.status == SampleStatus::kOk ? static_cast<float>(s.value)
-                                                                    : std::numeric_limits<float>::quiet_NaN();
-      }
+      for (std::size_t p = 0; p < lines[l].points.size(); ++p)
+        array->values[first[l] + p] = static_cast<float>(array->at(lines[l].points[p].position, hint));
     }
   });
   return array;
@@ -77,20 +77,21 @@ LineColor line_color(const std::string& name, const Input& input) {
   }
 }
 
-LineStyle line_style(const LineColor& color, Input& input, const VectorField& field,
+LineStyle line_style(const LineColor& color, Input& input, const std::shared_ptr<const VectorField>& field,
                      const std::vector<Line>& lines, int threads, Progress* progress) {
   LineStyle style{.color_by = color.by};
   if (color.measure) {
-    style.array = sampled(color.name, lines, threads, [&](const Vec3& x, CellHint& hint) {
-      return sample_measure(field, *color.measure, x, hint);
-    });
+    style.array =
+        sampled(color.name, lines, threads, [field, measure = *color.measure](const Vec3& x, CellHint& hint) {
+          return sample_measure(*field, measure, x, hint);
+        });
   } else if (color.array) {
     if (progress) progress->begin("reading " + color.name, 0);
     const std::vector<DataSet> blocks = input.read({color.array->array}, progress);
     const auto scalar =
-        make_scalar_field(field, blocks, *color.array, input.spec().files.front().string(), threads);
+        make_scalar_field(*field, blocks, *color.array, input.spec().files.front().string(), threads);
     style.array = sampled(color.name, lines, threads,
-                          [&](const Vec3& x, CellHint& hint) { return scalar->sample(x, hint); });
+                          [scalar](const Vec3& x, CellHint& hint) { return scalar->sample(x, hint); });
   }
   return style;
 }

@@ -36,7 +36,8 @@ struct LineColor {
 
 /// The style of `color` for `lines`: samples the measure or array at their points, NaN where there is none.
 /// @throws Error, Cancelled where an array has to be read.
-[[nodiscard]] LineStyle line_style(const LineColor& color, Input& input, const VectorField& field,
+[[nodiscard]] LineStyle line_style(const LineColor& color, Input& input,
+                                   const std::shared_ptr<const VectorField>& field,
                                    const std::vector<Line>& lines, int threads, Progress* progress);
 
 }  // namespace palpate

@@ -130,7 +130,8 @@ HapticChain HapticData::build(const std::string& description, std::span<const Ha
   return build_chain(description, modes, open, threads_);
 }
 
-void HapticData::request_lines(SeedShape shape, const Vec3& probe, const Camera& camera) {
+void HapticData::request_lines(SeedShape shape, const Vec3& probe, const Camera& camera,
+                               const LineStyle& style) {
   constexpr double kReach = 0.06;   // diagonals: half the length of a rake
   constexpr double kLength = 0.25;  // diagonals: of its lines, either way
   constexpr int kRakeSeeds = 11, kPlaneSeeds = 6;
@@ -144,6 +145,7 @@ void HapticData::request_lines(SeedShape shape, const Vec3& probe, const Camera&
     if (request.shape == SeedShape::kPlane) request.across = kReach * diagonal * camera.axes[1];
     request.seeds = request.shape == SeedShape::kPlane ? kPlaneSeeds : kRakeSeeds;
     request.length = kLength * diagonal;
+    if (style.color_by == ColorBy::kArray) request.array = style.array;
   }
   local_->request(request);
 }

@@ -105,8 +105,9 @@ class HapticData {
   /// build_chain().
   [[nodiscard]] HapticChain build(const std::string& description, std::span<const HapticMode> modes) const;
 
-  /// Has streamlines traced near `probe` (data coordinates) as `camera` sees it; none: kNone or no flow.
-  void request_lines(SeedShape shape, const Vec3& probe, const Camera& camera);
+  /// Has streamlines traced near `probe` (data coordinates) as `camera` sees it, which can be coloured like
+  /// lines of `style`; none: kNone or no flow.
+  void request_lines(SeedShape shape, const Vec3& probe, const Camera& camera, const LineStyle& style);
   [[nodiscard]] std::shared_ptr<const LocalSeeds> lines() const { return local_->drawn(); }
 
  private:

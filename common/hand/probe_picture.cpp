@@ -22,7 +22,7 @@ std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace
 }
 
 ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                      const TouchOptions& options, ColorBy color_by) {
+                      const TouchOptions& options, const LineStyle& style) {
   const DeviceLimits limits = touch_limits(options);
   const Workspace& workspace = scene.workspace;
   constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
@@ -51,7 +51,7 @@ ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const Hap
   }
   if (made.followed) {
     FollowedCurve curve(made.followed);
-    curve.update(options.stream_balls ? ball_interval(*scene.field, workspace) : 0.0, color_by);
+    curve.update(options.stream_balls ? ball_interval(*scene.field, workspace) : 0.0, style);
     view.followed = curve.drawn();
   }
   return view;

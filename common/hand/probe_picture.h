@@ -20,9 +20,9 @@ namespace palpate {
 
 /// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
 /// line that is followed then, and where the first proxy has been.
-/// @param options say what the hand can bear, and what of it is shown.
+/// @param options say what the hand can bear, and what of it is shown. @param style of the scene's lines.
 [[nodiscard]] ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                                    const TouchOptions& options, ColorBy color_by);
+                                    const TouchOptions& options, const LineStyle& style);
 
 /// The speed for which a velocity's arrow has its full length: that of the fastest lines, without outliers.
 [[nodiscard]] double reference_speed(const SceneView& view);

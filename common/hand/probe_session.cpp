@@ -67,8 +67,10 @@ bool ProbeSession::measures_noise() const {
 }
 
 bool ProbeSession::set_field(NamedField open) {
-  if (options_.modes.empty() || open.empty() || (!closed_ && data_.is_open(open))) return false;
-  closed_ = false;
+  if (options_.modes.empty() || open.empty()) return false;
+  const bool same = !closed_ && !forgets_ && data_.is_open(open);
+  if (same) return false;
+  closed_ = forgets_ = false;
   hand_.let_go();
   data_.open(std::move(open));
   hand_.open_data();
@@ -81,6 +83,19 @@ bool ProbeSession::set_field(NamedField open) {
     restart_chain();
   }
   return true;
+}
+
+void ProbeSession::forget() {
+  trail_.forget();
+  notes_.put({});
+  if (options_.modes.empty()) return;
+  forgets_ = true;
+  TouchChoice choice = choice_;
+  choice.settings.plane_widget.poses = {};
+  ++choice.settings.plane_widget.edit;
+  choice.settings.isosurface.isovalues = {};
+  choice.settings.ticks.interval = 0.0;
+  choose(choice);
 }
 
 void ProbeSession::close_field() {
@@ -180,7 +195,7 @@ void ProbeSession::choose(const TouchChoice& choice) {
   }
 }
 
-void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, ProbeView& view) {
+void ProbeSession::update(double time, const Camera& camera, const LineStyle& style, ProbeView& view) {
   if (!servo_.running()) return;
   if (measures_noise()) data_.request_noise();
   if (!servo_.replaying() && !textured_ && chain_settings().texture.by_noise) restart_chain();
@@ -202,8 +217,8 @@ void ProbeSession::update(double time, const Camera& camera, ColorBy color_by, P
         [this](const Isovalues& isovalues) { data_.choose(isovalues); });
     trail_.take(step, on_dial, choice_.stroke);
   }
-  trail_.update(choice_.show_balls, color_by);
-  data_.request_lines(readout.held ? choice_.local : SeedShape::kNone, readout.probe, camera);
+  trail_.update(choice_.show_balls, style);
+  data_.request_lines(readout.held ? choice_.local : SeedShape::kNone, readout.probe, camera, style);
   data_.request_surfaces(shows_surfaces());
   trail_.describe(choice_, options_.limits.force_cap, on_dial, view);
 }

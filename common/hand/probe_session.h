@@ -68,6 +68,9 @@ class ProbeSession {
   /// Takes another input and lets go; where it has a scalar, modes of a scalar feel that. The same one again
   /// changes nothing. @return whether it was another one.
   bool set_field(NamedField open);
+  /// Another input is open: forgets what was of places and values of the old one: annotations, planes,
+  /// isovalues, and what was made. The mode and what the hand can bear stay.
+  void forget();
   /// What is shown has nothing to feel: lets go, takes the force off, and is not available until set_field().
   void close_field();
 
@@ -87,8 +90,9 @@ class ProbeSession {
   void restore(const TouchOptions& options);
 
   /// Once a frame: hands the target to the servo, takes what it has done since, and describes it in `view`,
-  /// whose style and reference speed stay.
-  void update(double time, const Camera& camera, ColorBy color_by, ProbeView& view);
+  /// whose style and reference speed stay. @param style of the scene's lines: those of the probe are coloured
+  /// likewise.
+  void update(double time, const Camera& camera, const LineStyle& style, ProbeView& view);
   /// Something moves without the user's doing: the line grows, a replay runs.
   [[nodiscard]] bool lively() const noexcept;
   /// Whether the chain waits for the noise of the field, without whose texture it is felt until then.
@@ -126,6 +130,7 @@ class ProbeSession {
   AnnotationList notes_;
   bool textured_ = false;  ///< the chain that is felt was built with the noise of the data
   bool closed_ = false;    ///< what is shown has nothing to feel
+  bool forgets_ = false;   ///< the next field is another input's, whatever it is
   ProbeServo servo_;       // last: its thread uses the above
 };
 

@@ -36,12 +36,15 @@ void ProbeTrail::open_data() {
   if (data_.has_tensors()) drawing_.emplace(data_.field().tensor);
   clear_path();
   put(before);
-  last_drawn_.reset();
+  if (curve_) curve_->forget();
 }
 
 void ProbeTrail::follow(const HapticChain& made) {
-  curve_.reset();
-  if (made.followed) curve_.emplace(made.followed);
+  if (made.followed) {
+    curve_.emplace(made.followed, curve_ ? &*curve_ : nullptr);
+  } else {
+    curve_.reset();
+  }
   follows_surface_ = made.surfaces_of != nullptr;
   felt_.clear();
 }
@@ -117,13 +120,11 @@ void ProbeTrail::draw_path(const HandStep& step, bool on_line, StrokeUse stroke)
   }
 }
 
-void ProbeTrail::update(bool show_balls, ColorBy color_by) {
+void ProbeTrail::update(bool show_balls, const LineStyle& style) {
   if (curve_) {
     const std::shared_ptr<const FollowedLine> before = curve_->drawn();
-    curve_->update(show_balls ? ball_interval(*data_.field().field, data_.workspace()) : 0.0, color_by);
+    curve_->update(show_balls ? ball_interval(*data_.field().field, data_.workspace()) : 0.0, style);
     growing_ = curve_->drawn() != before;
-    // What is let go stays in the picture until the next line is caught.
-    if (curve_->drawn()) last_drawn_ = curve_->drawn();
   }
   if (readout_.held) read_data(data_.field(), data_.noise().get(), hints_, readout_);
 }
@@ -139,7 +140,8 @@ void ProbeTrail::describe(const TouchChoice& choice, double force_cap, bool on_d
   view.tensor = readout_.held ? readout_.tensor : std::nullopt;
   // A hand outside the data follows nothing.
   const bool outside = readout_.held && readout_.state == HoldState::kOutside;
-  view.followed = curve_ && !outside ? last_drawn_ : nullptr;
+  // What is let go stays in the picture until the next line is caught.
+  view.followed = curve_ && !outside ? curve_->last() : nullptr;
   const std::optional<ValueRange> tension =
       data_.has_tensors() ? tension_range(choice.settings, force_cap) : std::nullopt;
   view.path = choice.show_path ? PathView{path_, path_->size(), tension} : PathView{};

@@ -43,7 +43,7 @@ class ProbeTrail {
   /// tract.
   void take(const HandStep& step, bool on_dial, StrokeUse stroke);
   /// Once a frame, after its steps: the followed line grows, and what is at the probe is sampled.
-  void update(bool show_balls, ColorBy color_by);
+  void update(bool show_balls, const LineStyle& style);
   /// @param force_cap [N]
   void describe(const TouchChoice& choice, double force_cap, bool on_dial, ProbeView& view) const;
   [[nodiscard]] const ProbeReadout& readout() const noexcept { return readout_; }
@@ -90,7 +90,6 @@ class ProbeTrail {
 
   const HapticData& data_;
   std::optional<FollowedCurve> curve_;
-  std::shared_ptr<const FollowedLine> last_drawn_;  ///< stays in the picture until the next one is caught
   bool follows_surface_ = false;
   std::shared_ptr<ProbePath> path_;
   std::vector<HapticForce> felt_;  ///< since the line was caught

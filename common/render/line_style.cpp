@@ -65,6 +65,10 @@ bool is_logarithmic(const LineStyle& style) noexcept {
   }
 }
 
+bool colored_by_value(const LineStyle& style) noexcept {
+  return style.color_by != ColorBy::kDirection && style.color_by != ColorBy::kUniform;
+}
+
 std::optional<ValueRange> usual_range(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return std::nullopt;
@@ -80,8 +84,8 @@ std::optional<ValueRange> usual_range(std::vector<double> values) {
 ValueRange value_range(const std::vector<Line>& lines, const LineStyle& style) {
   if (style.range) return *style.range;
   const bool logarithmic = is_logarithmic(style);
-  std::optional<ValueRange> found;
-  if (style.color_by == ColorBy::kArray && style.array) found = style.array->range;
+  std::optional<ValueRange> found = style.usual;
+  if (!found && style.color_by == ColorBy::kArray && style.array) found = style.array->range;
   if (!found) {
     std::vector<double> values = line_values(lines, style);
     if (logarithmic) std::erase_if(values, [](double v) { return v <= 0.0; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,8 @@
 #include "common/render/color/color_map.h"
 
 namespace palpate {
+
+struct CellHint;  // field/vector_field.h
 
 /// What colours a line.
 enum class ColorBy : std::uint8_t {
@@ -44,16 +47,22 @@ struct LineArray {
   std::vector<float> values;        ///< of all points, line after line
   std::optional<ValueRange> range;  ///< that colours have unless it is chosen; none: that of the values
   ColorMap color_map = ColorMap::kSequential;  ///< likewise
+  /// The same number at any place of the data, NaN where there is none: for lines that are drawn beside those
+  /// of `values`. Any thread may call it. Empty: not known.
+  std::function<double(const Vec3&, CellHint&)> at = {};
 };
 
 struct LineStyle {
   ColorBy color_by = ColorBy::kSpeed;
   std::shared_ptr<const LineArray> array;  ///< for ColorBy::kArray
   std::optional<ValueRange> range;         ///< where absent: value_range()
-  std::optional<bool> logarithmic;         ///< where absent: for errors only
-  std::optional<ColorMap> color_map;       ///< where absent: default_color_map()
-  double width = 3.0;                      ///< at the focal point, in thousandths of the picture's height
-  double opacity = 1.0;                    ///< in (0, 1]
+  /// In place of the usual values of these lines, where `range` is absent: of another time step, so that
+  /// colours mean the same at all of them.
+  std::optional<ValueRange> usual;
+  std::optional<bool> logarithmic;    ///< where absent: for errors only
+  std::optional<ColorMap> color_map;  ///< where absent: default_color_map()
+  double width = 3.0;                 ///< at the focal point, in thousandths of the picture's height
+  double opacity = 1.0;               ///< in (0, 1]
   double clearing = 0.0;  ///< share of the opacity that falls with the value, to nothing at the lowest colour
   bool halo = true;       ///< a gap around nearer lines, where opaque
   bool depth_cue = true;  ///< farther lines fade into the background
@@ -73,6 +82,8 @@ struct UnitNames {
 [[nodiscard]] ColorMap default_color_map(const LineStyle& style) noexcept;
 [[nodiscard]] ColorMap color_map_of(const LineStyle& style) noexcept;
 [[nodiscard]] bool is_logarithmic(const LineStyle& style) noexcept;
+/// Whether each point has a value that colours it: neither by the direction, nor all alike.
+[[nodiscard]] bool colored_by_value(const LineStyle& style) noexcept;
 
 /// 0.5 % to 99.5 % of the finite values by count, so that a few outliers do not take all colours; none where
 /// there is none.

@@ -88,9 +88,11 @@ struct LocalSeeds {
   /// [0, 1]. Handles stand at the ends and corners.
   Vec3 origin{0.0}, u{0.0}, v{0.0};
   std::vector<Vec3> seeds;
-  std::shared_ptr<const std::vector<Line>> lines;  ///< may be null
-  /// Where its range is absent and it colours by what the scene's style does, the scene's range.
-  LineStyle style;
+  std::shared_ptr<const std::vector<Line>> lines;  ///< may be null; coloured like the scene's
+  /// Of these lines, where the scene's style colours by an array; without, and where that is another one, a
+  /// plain colour is taken. Null: none.
+  std::shared_ptr<const LineArray> array;
+  double width = 5.0;  ///< thousandths of the picture's height: they stand out of the scene's
 };
 
 /// A line that the user has kept.

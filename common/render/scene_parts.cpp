@@ -51,13 +51,33 @@ std::optional<LayeredLines> LayeredLines::of(const SceneView& view) {
   return LayeredLines{view.lines, view.style, view.color_lens, view.background};
 }
 
-ValueRange range_alone(const FollowedLine& line, const LineStyle& style) {
+namespace {
+
+bool colors_seeds(const ProbeView& probe, const LineStyle& style) {
+  return probe.seeds && probe.seeds->lines && !probe.seeds->lines->empty() &&
+         colored_by_value(style_of(*probe.seeds, style));
+}
+
+}  // namespace
+
+LineStyle style_of(const LocalSeeds& seeds, const LineStyle& scene) {
+  LineStyle style = scene;
+  const bool other = !seeds.array || !scene.array || seeds.array->name != scene.array->name;
+  // An index of the scene's seeds is none of these.
+  if (scene.color_by == ColorBy::kSeed || (scene.color_by == ColorBy::kArray && other))
+    style.color_by = ColorBy::kUniform;
+  style.array = seeds.array;
+  return style;
+}
+
+ValueRange range_alone(const ProbeView& probe, const LineStyle& style) {
   if (style.range) return *style.range;
   std::vector<double> values;
-  for (const double v : line.values) {
-    if (std::isfinite(v) && (!is_logarithmic(style) || v > 0.0)) values.push_back(v);
-  }
-  if (values.empty()) return {};
+  if (probe.followed) values = probe.followed->values;
+  std::erase_if(values, [&](double v) { return !std::isfinite(v) || (is_logarithmic(style) && !(v > 0.0)); });
+  if (values.empty())
+    return colors_seeds(probe, style) ? value_range(*probe.seeds->lines, style_of(*probe.seeds, style))
+                                      : ValueRange{};
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   return {*least, *most};
 }
@@ -67,7 +87,9 @@ bool has_colored_lines(const SceneView& view) {
   if (std::ranges::any_of(view.surfaces,
                           [](const SurfaceView& surface) { return surface.values != nullptr; }))
     return true;
-  return view.probe && view.probe->followed && !view.probe->followed->values.empty();
+  if (!view.probe) return false;
+  return (view.probe->followed && !view.probe->followed->values.empty()) ||
+         colors_seeds(*view.probe, view.style);
 }
 
 bool has_overlay(const SceneView& view) {

@@ -29,8 +29,11 @@ struct LayeredLines {
   bool operator==(const LayeredLines&) const = default;
 };
 
-/// The range that a followed line's values spread over, where no other lines set one.
-[[nodiscard]] ValueRange range_alone(const FollowedLine& line, const LineStyle& style);
+/// How lines of local seeds are coloured where those of the scene have that style.
+[[nodiscard]] LineStyle style_of(const LocalSeeds& seeds, const LineStyle& scene);
+/// The range that values of the probe's lines spread over, where no other lines set one: of the followed line,
+/// else of those of local seeds.
+[[nodiscard]] ValueRange range_alone(const ProbeView& probe, const LineStyle& style);
 /// Whether something is coloured by values.
 [[nodiscard]] bool has_colored_lines(const SceneView& view);
 /// Whether words, axes or a colour bar are drawn over the picture.

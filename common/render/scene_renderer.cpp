@@ -113,9 +113,9 @@ struct SceneRenderer::State {
   // @return whether the path is another one.
   bool update_probe(const SceneView& view) {
     if (!probe) probe = std::make_unique<ProbePass>();
-    // Without lines in the scene, the followed one alone says how far the colours spread.
+    // Without lines in the scene, those of the probe alone say how far the colours spread.
     const bool alone = !view.lines || view.lines->empty();
-    if (alone && view.probe->followed) lines.legend().range = range_alone(*view.probe->followed, view.style);
+    if (alone) lines.legend().range = range_alone(*view.probe, view.style);
     const bool other_path = probe->update(view, frame, lines.legend().range);
     lines.legend().forces_above = probe->forces_above();
     return other_path;

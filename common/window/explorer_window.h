@@ -118,6 +118,7 @@ class ExplorerWindow {
   void obey(const PanelActions& actions);
   void answer_question();
   void run_command(Command command);
+  void toggle_volume();
   void say(const std::optional<std::string>& words) {
     if (words) state_.say(*words);
   }

@@ -101,6 +101,7 @@ void color_lines(const SceneState& scene, LineStyle& style) {
     style.color_by = array ? ColorBy::kArray : ColorBy::kSpeed;
     if (!array) show_quantity(scene.document.view.color, style);
     style.range.reset();
+    style.usual.reset();
     style.logarithmic.reset();
   }
   style.array = array;
@@ -125,7 +126,21 @@ void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
   show_volume(scene, as_made, view);
   show_tensors(scene, as_made, view);
   show_tracts(scene, as_made, view);
-  if (as_made) apply_colors(scene.document.view, view.style);
+  if (as_made) {
+    apply_colors(scene.document.view, view.style);
+    view.style.usual.reset();
+  }
+}
+
+void keep_colors(const Document& before, const SceneState& scene, const std::optional<ValueRange>& shown,
+                 LineStyle& style) {
+  Document then = scene.document;
+  const bool other_time = std::exchange(then.input.time, before.input.time) != before.input.time;
+  if (!same_scene(then, before)) {
+    style.usual.reset();
+  } else if (other_time && !style.range && !style.usual && shown && shown->lower < shown->upper) {
+    style.usual = shown;
+  }
 }
 
 ViewEdits edits_of(const SceneView& view) {

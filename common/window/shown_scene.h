@@ -17,6 +17,12 @@ enum class ShownAs : std::uint8_t { kNew, kChanged };
 /// and the like are left as they are, and so is the camera.
 void show_scene(const SceneState& scene, ShownAs as, SceneView& view);
 
+/// Colours of another time step mean what they mean in the picture that is shown: `style` takes over its range
+/// where that is automatic. Of other lines it has none. @param before the document of what is shown.
+/// @param shown its automatic range.
+void keep_colors(const Document& before, const SceneState& scene, const std::optional<ValueRange>& shown,
+                 LineStyle& style);
+
 /// What mouse and panels have done to a view, without the voxels and lines that scenes give to it: light enough
 /// to be kept for each edit.
 struct ViewEdits {

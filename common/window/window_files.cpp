@@ -35,7 +35,7 @@ std::string WindowFiles::write_lines() {
 }
 
 void WindowFiles::save_session(WindowModel& model, Document document) {
-  attempt([&] {
+  const bool done = attempt([&] {
     const DrawnLines& lines = all_lines();
     std::filesystem::path& file = document.touch.drawn_lines;
     file.clear();
@@ -47,6 +47,7 @@ void WindowFiles::save_session(WindowModel& model, Document document) {
     return session + " with " +
            counted(lines.entries().size(), touch_.data().has_tensors() ? "tract" : "line");
   });
+  if (done) saved_notes_ = touch_.notes().entries();
 }
 
 void WindowFiles::save_lines() {
@@ -69,10 +70,7 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
   }
   if (actions.save_focus && state_.scene != nullptr)
     attempt([&] { return saved_.save_transfer(state_.focus_file, state_.scene->look(0)).string(); });
-  if (!actions.touch.save_notes.empty()) {
-    attempt(
-        [&] { return saved_.save_annotations(touch_.notes().entries(), actions.touch.save_notes).string(); });
-  }
+  if (!actions.touch.save_notes.empty()) attempt([&] { return write_notes(actions.touch.save_notes); });
   if (!actions.region.crop.empty()) {
     attempt([&] {
       const SavedFiles::SavedRegion saved =
@@ -84,13 +82,32 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
   }
 }
 
-bool WindowFiles::ask(std::optional<InputFiles> opens) {
+std::string WindowFiles::write_notes(const std::string& ending) {
+  std::string file = saved_.save_annotations(touch_.notes().entries(), ending).string();
+  saved_notes_ = touch_.notes().entries();
+  return file;
+}
+
+std::size_t WindowFiles::unsaved_lines() const {
   const auto whole = [](const DrawnTract& tract) { return tract.line.points.size() > 1; };
-  const std::size_t count = saved_.unsaved(touch_.trail().drawn_lines()) +
-                            static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
+  return saved_.unsaved(touch_.trail().drawn_lines()) +
+         static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
+}
+
+std::size_t WindowFiles::unsaved_notes() const {
+  const auto unsaved = [&](const Annotation& note) {
+    return std::ranges::find(saved_notes_, note) == saved_notes_.end();
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(touch_.notes().entries(), unsaved));
+}
+
+bool WindowFiles::ask(std::optional<InputFiles> opens) {
+  const std::size_t lines = unsaved_lines(), notes = unsaved_notes(), count = lines + notes;
   if (count == 0 || touch_.servo().replaying()) return false;
-  const std::string lines = counted(count, touch_.data().has_tensors() ? "tract" : "line");
-  question_.ask(lines + (count == 1 ? " is" : " are") + " not saved." +
+  std::string what;
+  if (lines > 0) what = counted(lines, touch_.data().has_tensors() ? "tract" : "line");
+  if (notes > 0) what += (what.empty() ? "" : " and ") + counted(notes, "annotation");
+  question_.ask(what + (count == 1 ? " is" : " are") + " not saved." +
                     (opens ? " Opening another input in place of this one forgets " +
                                  std::string(count == 1 ? "it." : "them.")
                            : " Save before the window closes?"),
@@ -102,8 +119,9 @@ std::optional<WindowFiles::Leave> WindowFiles::answer() {
   const auto answer = question_.draw();
   if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel)
     return std::nullopt;
-  if (answer == UnsavedQuestion::Answer::kSave && !attempt([this] { return write_lines(); }))
-    return std::nullopt;
+  const bool saves = answer == UnsavedQuestion::Answer::kSave;
+  if (saves && unsaved_lines() > 0 && !attempt([this] { return write_lines(); })) return std::nullopt;
+  if (saves && unsaved_notes() > 0 && !attempt([this] { return write_notes(".csv"); })) return std::nullopt;
   return Leave{.opens = question_.opens()};
 }
 

@@ -5,7 +5,9 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "common/geometry/annotation.h"
 #include "common/hand/probe_session.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/unsaved_question.h"
@@ -19,7 +21,13 @@ class WindowFiles {
   WindowFiles(const std::filesystem::path& folder, const std::string& program, ProbeSession& touch,
               PanelState& state)
       : program_(program), saved_(folder, program), touch_(touch), state_(state) {
-    saved_.note_saved(touch.trail().drawn_lines());
+    note_opened();
+  }
+
+  /// What is there now is in a file: another input has been opened.
+  void note_opened() {
+    saved_.note_saved(touch_.trail().drawn_lines());
+    saved_notes_ = touch_.notes().entries();
   }
 
   /// Says what `save` wrote, or why it did not. @return whether it did.
@@ -32,7 +40,7 @@ class WindowFiles {
   /// The files that the panels have a button for.
   void save_asked(const PanelActions& actions, const SceneView& view, const std::optional<Box>& region);
 
-  /// Asks what to do with lines and tracts that are in no file. @param opens in place of closing the window.
+  /// Asks what to do with lines, tracts and annotations that are in no file. @param opens in place of closing the window.
   /// @return false where there are none.
   bool ask(std::optional<InputFiles> opens);
   [[nodiscard]] bool asking() const noexcept { return question_.asking(); }
@@ -49,9 +57,13 @@ class WindowFiles {
   /// Those that are kept, after keeping those that are drawn.
   const DrawnLines& all_lines();
   std::string write_lines();
+  std::string write_notes(const std::string& ending);
+  [[nodiscard]] std::size_t unsaved_lines() const;
+  [[nodiscard]] std::size_t unsaved_notes() const;
 
   std::string program_;
   SavedFiles saved_;
+  std::vector<Annotation> saved_notes_;
   UnsavedQuestion question_;
   ProbeSession& touch_;
   PanelState& state_;

@@ -75,7 +75,7 @@ void ExplorerWindow::update_panels() {
 
 void ExplorerWindow::follow_hand() {
   if (workbench_) touch_.hand().place_workbench(place_of(view_.camera, workbench_->screen()));
-  if (view_.probe) touch_.update(glfwGetTime(), view_.camera, view_.style.color_by, *view_.probe);
+  if (view_.probe) touch_.update(glfwGetTime(), view_.camera, view_.style, *view_.probe);
   cut_volume();
   controls_.lead_by_grid(controlled());
   // Surfaces are solid: they would hide what is in a lens.

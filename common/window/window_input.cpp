@@ -6,17 +6,37 @@
 
 #include <GLFW/glfw3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
+#include "common/render/scene_parts.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/keys.h"
 
 namespace palpate {
+namespace {
+
+constexpr const char* kOneTime = "there is one time step only";
+constexpr const char* kNothingOpen = "nothing is open yet";
+
+bool has_bar(const SceneView& view) {
+  return has_colored_lines(view) || view.volume || view.tensors || view.tracts;
+}
+
+/// What is said of a key that means nothing; nothing of keys that make no letter.
+std::optional<std::string> unknown_key(const InputEvent& event) {
+  constexpr int kOthers = kModifierControl | kModifierAlt;
+  const bool printed = event.kind == InputKind::kKeyDown && event.key > ' ' && event.key < 127;
+  if (!printed || (event.modifiers & kOthers) != 0) return std::nullopt;
+  return std::string(1, static_cast<char>(event.key)) + " does nothing; H lists the keys";
+}
+
+}  // namespace
 
 std::vector<InputEvent> ExplorerWindow::take_events() {
   std::vector<InputEvent>& waiting = glfw_.events();
@@ -38,10 +58,12 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     controls_.follow_pointer(event);
     if (files_.handle(event)) continue;
     say(controls_.handle(event, controlled(), io.WantCaptureMouse, io.WantTextInput));
-    // An open list takes Esc for itself.
+    // Esc closes an open list, and nothing else.
     const bool of_list =
         command == Command::kLetGo && ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId);
+    if (of_list) ImGui::ClosePopupToLevel(0, true);
     if (command && !io.WantTextInput && !of_list && command != Command::kForceOff) run_command(*command);
+    if (!command && !io.WantTextInput) say(unknown_key(event));
   }
 }
 
@@ -97,13 +119,17 @@ void ExplorerWindow::run_command(Command command) {
       // Along layers there are no lines to keep.
       if (controls_.touch().grabbed() && (touch_.data().has_flow() || touch_.data().has_tensors())) {
         say(controls_.run(Command::kKeepLine, controlled()));
-      } else if (has_times())
+      } else if (has_times()) {
         state_.playing = !state_.playing;
+      } else {
+        state_.say(kOneTime);
+      }
       break;
     case Command::kStepBack:
     case Command::kStepOn:
       state_.playing = false;
       step_in_time(command == Command::kStepOn);
+      if (!has_times()) state_.say(kOneTime);
       break;
     case Command::kLetGo:
       let_go();
@@ -119,9 +145,10 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kMenu:
       controls_.toggle_menu(controlled());
+      if (!scene_) state_.say(kNothingOpen);
       break;
     case Command::kVolume:
-      if (view_.volume) view_.volume->shown = !view_.volume->shown;
+      toggle_volume();
       break;
     case Command::kLens:
       // What it shows is sampled before it is there.
@@ -130,6 +157,8 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kColorBar:
       view_.show_color_bar = !view_.show_color_bar;
+      if (scene_ && view_.show_color_bar && !has_bar(view_))
+        state_.say("nothing here is coloured by a number");
       break;
     case Command::kAxes:
       view_.show_axes = !view_.show_axes;
@@ -142,13 +171,29 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kSaveSession:
       keep_document();
-      if (scene_) files_.save_session(model_, state_.document);
+      if (scene_) {
+        files_.save_session(model_, state_.document);
+      } else {
+        state_.say(kNothingOpen);
+      }
       break;
     case Command::kSaveLines:
       files_.save_lines();
       break;
     default:
       say(controls_.run(command, controlled()));
+  }
+}
+
+void ExplorerWindow::toggle_volume() {
+  if (view_.volume) {
+    view_.volume->shown = !view_.volume->shown;
+    state_.say(view_.volume->shown ? "the volume is shown" : "the volume is hidden; V shows it again");
+  } else if (!scene_) {
+    state_.say(kNothingOpen);
+  } else {
+    state_.say(scene_->info->volumes.empty() ? "there is no volume here"
+                                             : "no volume is drawn: choose one in the panel (volume of)");
   }
 }
 

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <GLFW/glfw3.h>
 
@@ -32,16 +34,25 @@ void ExplorerWindow::take_outcome() {
 
 void ExplorerWindow::adopt(SceneState scene) {
   const bool settled = history_ && edited() == history_->now();
+  if (scene_) keep_colors(scene_->document, scene, state_.picture.automatic_range, view_.style);
   scene_ = std::move(scene);
   using Kind = SceneJobs::Kind;
   const bool new_input = !scene_->joined && jobs_.kind() != Kind::kUpdate;
   show_scene(*scene_, new_input ? ShownAs::kNew : ShownAs::kChanged, view_);
   if (new_input) {
     plot_.forget();
+    // What is so of the input at all waits behind a button; what comes up later is a banner.
+    state_.closed_notes = {scene_->notes.begin(), scene_->notes.end()};
+    state_.closed_notes.insert(scene_->volume_notes.begin(), scene_->volume_notes.end());
     controls_.menu().hide();
     if (jobs_.kind() == Kind::kOpen) {
       controls_.forget_region();
-      touch_.trail().forget();
+      controls_.touch().mark(false);
+      touch_.forget();
+      files_.note_opened();
+      cut_planes_ = {};
+      const std::vector<std::string>& plotted = scene_->info->plotted;
+      if (std::ranges::find(plotted, state_.plotted) == plotted.end()) state_.plotted.clear();
     }
     // Edits made while the input was being read belonged to the old one.
     state_.document = scene_->document;

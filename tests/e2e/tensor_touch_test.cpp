@@ -172,7 +172,7 @@ TEST_F(TensorTouch, ATractDrawnByHandIsRepeatedToTheBit) {
     for (int frame = 1; frame <= 60; ++frame) {
       const double t = 0.016 * frame;
       session.hand().move(start + t * Vec3{12.0, 3.0, 2.0});
-      session.update(t, camera, ColorBy::kSpeed, view);
+      session.update(t, camera, LineStyle{}, view);
       std::this_thread::sleep_for(std::chrono::milliseconds(16));
     }
     session.hand().press(false);

@@ -58,7 +58,7 @@ class TouchWindow : public ExplorerTest {
     for (int frame = 1; frame <= 60; ++frame) {
       const double t = 0.016 * frame;
       session.hand().move(start + 0.3 * t * Vec3{1.0, -1.0, 0.3});
-      session.update(t, camera, ColorBy::kSpeed, view);
+      session.update(t, camera, LineStyle{}, view);
       std::this_thread::sleep_for(std::chrono::milliseconds(16));
     }
     session.finish();

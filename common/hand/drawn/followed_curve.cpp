@@ -21,32 +21,21 @@ int parts_of(const HermitePiece& piece, double gap) {
   return std::isfinite(parts) ? std::clamp(static_cast<int>(std::ceil(parts)), 1, kMostParts) : 1;
 }
 
-/// What colours the line between two nodes, at the part u; NaN for what it does not carry.
-double value_between(const LineNode& a, const LineNode& b, double u, ColorBy by, const LocalFrame& frame) {
-  const auto mix = [u](double x, double y) { return x + u * (y - x); };
-  switch (by) {
-    case ColorBy::kSpeed:
-      return mix(a.speed, b.speed) * frame.speed_scale();
-    case ColorBy::kTime:
-      return mix(a.time, b.time) * frame.time_scale();
-    case ColorBy::kArc:
-      return mix(a.arc, b.arc) * frame.length_scale();
-    case ColorBy::kError:
-      return mix(a.error, b.error) * frame.length_scale();
-    default:
-      return std::numeric_limits<double>::quiet_NaN();
-  }
+/// The point `x` between two nodes, at the part u.
+LinePoint between(const LineNode& a, const LineNode& b, double u, const Vec3& x, const LocalFrame& frame) {
+  const auto mix = [u](double from, double to) { return from + u * (to - from); };
+  return {.position = frame.data_from_local(x),
+          .time = mix(a.time, b.time) * frame.time_scale(),
+          .arc = mix(a.arc, b.arc) * frame.length_scale(),
+          .speed = mix(a.speed, b.speed) * frame.speed_scale(),
+          .error = mix(a.error, b.error) * frame.length_scale()};
 }
 
-bool carries(ColorBy by) {
-  return by == ColorBy::kSpeed || by == ColorBy::kTime || by == ColorBy::kArc || by == ColorBy::kError;
-}
-
-void add_balls(const GrowingLine& line, const LocalFrame& frame, double interval, ColorBy by,
-               FollowedLine& drawn) {
+std::vector<LinePoint> balls_of(const GrowingLine& line, const LocalFrame& frame, double interval) {
+  std::vector<LinePoint> balls;
   const int first = line.first(), last = line.last();
   const double begin = line.node(first).time, end = line.node(last).time;
-  if (!(interval > 0.0) || !std::isfinite(begin) || !std::isfinite(end) || first == last) return;
+  if (!(interval > 0.0) || !std::isfinite(begin) || !std::isfinite(end) || first == last) return balls;
   // About the seed, so that balls stay where they are while the line grows.
   const double spread = 0.5 * kMostBalls * interval;
   const double from = std::max(begin, line.node(0).time - spread);
@@ -58,9 +47,52 @@ void add_balls(const GrowingLine& line, const LocalFrame& frame, double interval
     piece = place.piece;
     const LineNode &a = line.node(piece), &b = line.node(piece + 1);
     const double s = place.arc - a.arc;
-    drawn.balls.push_back(frame.data_from_local(line.piece(piece).at(s)));
-    if (carries(by)) drawn.ball_values.push_back(value_between(a, b, s / (b.arc - a.arc), by, frame));
+    balls.push_back(between(a, b, s / (b.arc - a.arc), line.piece(piece).at(s), frame));
   }
+  return balls;
+}
+
+/// What colours each of the points; none where they do not carry it.
+std::vector<double> values_of(const std::vector<LinePoint>& points, const std::optional<End>& end,
+                              const LineStyle& style) {
+  std::vector<double> values;
+  const auto each = [&](const auto& value) {
+    for (const LinePoint& point : points) values.push_back(value(point));
+  };
+  CellHint hint;
+  switch (style.color_by) {
+    case ColorBy::kSpeed:
+      each([](const LinePoint& point) { return point.speed; });
+      break;
+    case ColorBy::kTime:
+      each([](const LinePoint& point) { return point.time; });
+      break;
+    case ColorBy::kArc:
+      each([](const LinePoint& point) { return point.arc; });
+      break;
+    case ColorBy::kError:
+      each([](const LinePoint& point) { return point.error; });
+      break;
+    case ColorBy::kTermination:
+      if (end) values.assign(points.size(), static_cast<double>(*end));
+      break;
+    case ColorBy::kArray:
+      if (style.array && style.array->at)
+        each([&](const LinePoint& point) { return style.array->at(point.position, hint); });
+      break;
+    case ColorBy::kDirection:
+    case ColorBy::kSeed:
+    case ColorBy::kUniform:
+      break;
+  }
+  return values;
+}
+
+std::vector<Vec3> places_of(const std::vector<LinePoint>& points) {
+  std::vector<Vec3> places;
+  places.reserve(points.size());
+  for (const LinePoint& point : points) places.push_back(point.position);
+  return places;
 }
 
 Line whole_line(const GrowingLine& line, const LocalFrame& frame) {
@@ -81,46 +113,72 @@ Line whole_line(const GrowingLine& line, const LocalFrame& frame) {
 
 }  // namespace
 
-FollowedCurve::FollowedCurve(std::shared_ptr<const LiveLine> live) : live_(std::move(live)) {}
+FollowedCurve::FollowedCurve(std::shared_ptr<const LiveLine> live, const FollowedCurve* before)
+    : live_(std::move(live)) {
+  if (before == nullptr) return;
+  shape_ = before->shape_;
+  last_ = before->last_;
+  color_by_ = before->color_by_;
+  array_ = before->array_;
+}
 
-void FollowedCurve::update(double ball_interval, ColorBy color_by) {
+/// Notes how far it has grown.
+bool FollowedCurve::has_grown(const GrowingLine& line, std::uint64_t number, double ball_interval) {
+  const int first = line.first(), last = line.last();
+  const std::optional<End> end = line.end(GrowingLine::Side::kDownstream);
+  if (number == number_ && first == first_node_ && last == last_node_ && ball_interval == ball_interval_ &&
+      end == shape_.end)
+    return false;
+  number_ = number;
+  first_node_ = first;
+  last_node_ = last;
+  ball_interval_ = ball_interval;
+  return true;
+}
+
+void FollowedCurve::take_shape(const GrowingLine& line, double ball_interval) {
   const VectorField& field = live_->field();
   const LocalFrame& frame = field.frame();
+  const double gap = kChordGap * field.diagonal() / frame.length_scale();
+  shape_ = {};
+  for (int i = line.first(); i < line.last(); ++i) {
+    const HermitePiece piece = line.piece(i);
+    const int parts = parts_of(piece, gap);
+    for (int k = 0; k < parts; ++k) {
+      const double u = static_cast<double>(k) / parts;
+      shape_.points.push_back(between(line.node(i), line.node(i + 1), u, piece.at(u * piece.length), frame));
+    }
+  }
+  const LineNode& end = line.node(line.last());
+  shape_.points.push_back(between(end, end, 0.0, end.position, frame));
+  shape_.balls = balls_of(line, frame, ball_interval / frame.time_scale());
+  shape_.end = line.end(GrowingLine::Side::kDownstream);
+  line_ = whole_line(line, frame);
+}
+
+std::shared_ptr<const FollowedLine> FollowedCurve::colored(const LineStyle& style) const {
+  auto line = std::make_shared<FollowedLine>();
+  line->points = places_of(shape_.points);
+  line->values = values_of(shape_.points, shape_.end, style);
+  line->balls = places_of(shape_.balls);
+  line->ball_values = values_of(shape_.balls, shape_.end, style);
+  return line;
+}
+
+void FollowedCurve::update(double ball_interval, const LineStyle& style) {
+  bool other = style.color_by != color_by_ || style.array != array_;
+  color_by_ = style.color_by;
+  array_ = style.array;
   live_->read([&](const GrowingLine* line, std::uint64_t number) {
     if (line == nullptr) {
-      drawn_.reset();
       number_ = 0;
-      return;
+    } else if (has_grown(*line, number, ball_interval)) {
+      take_shape(*line, ball_interval);
+      other = true;
     }
-    const int first = line->first(), last = line->last();
-    if (number == number_ && first == first_ && last == last_ && ball_interval == ball_interval_ &&
-        color_by == color_by_) {
-      return;
-    }
-    number_ = number;
-    first_ = first;
-    last_ = last;
-    ball_interval_ = ball_interval;
-    color_by_ = color_by;
-    auto drawn = std::make_shared<FollowedLine>();
-    const double gap = kChordGap * field.diagonal() / frame.length_scale();
-    const auto add = [&](const Vec3& x, const LineNode& a, const LineNode& b, double u) {
-      drawn->points.push_back(frame.data_from_local(x));
-      if (carries(color_by)) drawn->values.push_back(value_between(a, b, u, color_by, frame));
-    };
-    for (int i = first; i < last; ++i) {
-      const HermitePiece piece = line->piece(i);
-      const int parts = parts_of(piece, gap);
-      for (int k = 0; k < parts; ++k) {
-        const double u = static_cast<double>(k) / parts;
-        add(piece.at(u * piece.length), line->node(i), line->node(i + 1), u);
-      }
-    }
-    add(line->node(last).position, line->node(last), line->node(last), 0.0);
-    add_balls(*line, frame, ball_interval / frame.time_scale(), color_by, *drawn);
-    drawn_ = std::move(drawn);
-    line_ = whole_line(*line, frame);
   });
+  if (other && !shape_.points.empty()) last_ = colored(style);
+  drawn_ = number_ == 0 ? nullptr : last_;
 }
 
 }  // namespace palpate

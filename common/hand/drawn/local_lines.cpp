@@ -10,12 +10,22 @@ namespace {
 
 // What is looked at for a moment need not be traced to the last digit.
 constexpr double kTolerance = 1e-4;
-constexpr double kWidth = 5.0;  // of the lines: they stand out of those of the scene
+
+std::shared_ptr<const LineArray> along(const LineArray& array, const std::vector<Line>& lines) {
+  auto values = std::make_shared<LineArray>();
+  values->name = array.name;
+  values->unit = array.unit;
+  for (const Line& line : lines) {
+    CellHint hint;
+    for (const LinePoint& point : line.points)
+      values->values.push_back(static_cast<float>(array.at(point.position, hint)));
+  }
+  return values;
+}
 
 std::shared_ptr<const LocalSeeds> trace(const LocalRequest& request) {
   auto local = std::make_shared<LocalSeeds>();
   local->shape = request.shape;
-  local->style.width = kWidth;
   local->seeds = local_seeds(request);
   if (request.shape == SeedShape::kRake) {
     local->origin = request.center - request.along;
@@ -32,6 +42,7 @@ std::shared_ptr<const LocalSeeds> trace(const LocalRequest& request) {
   options.threads = 1;
   local->lines =
       std::make_shared<const std::vector<Line>>(trace_lines(*request.field, local->seeds, options).lines);
+  if (request.array && request.array->at) local->array = along(*request.array, *local->lines);
   return local;
 }
 

@@ -24,6 +24,7 @@ struct LocalRequest {
   Vec3 across{0.0};     ///< the other side of a plane
   int seeds = 11;       ///< of a rake; along one side of a plane
   double length = 0.0;  ///< of the lines on either side of their seeds, data units
+  std::shared_ptr<const LineArray> array;  ///< that colours the scene, if one does: LocalSeeds::array
 
   bool operator==(const LocalRequest&) const = default;
 };

@@ -138,10 +138,6 @@ void add_links(Builder& builder, const ProbeView& probe, const Palette& colors) 
 
 }  // namespace
 
-bool colored_by_value(const LineStyle& style) noexcept {
-  return style.color_by != ColorBy::kDirection && style.color_by != ColorBy::kUniform;
-}
-
 ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame, const ValueRange& range) {
   const ProbeView& probe = *view.probe;
   const Palette& colors = palette_of(view.background);

@@ -27,7 +27,4 @@ struct ProbeGlyphs {
 [[nodiscard]] ProbeGlyphs make_probe_glyphs(const SceneView& view, const SceneFrame& frame,
                                             const ValueRange& range);
 
-/// Whether the followed line and its balls are coloured by their values through the scene's map.
-[[nodiscard]] bool colored_by_value(const LineStyle& style) noexcept;
-
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include "common/base/check.h"
 #include "common/render/color/palette.h"
 #include "common/render/line/line_geometry.h"
+#include "common/render/scene_parts.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -166,13 +167,10 @@ void ProbePass::upload_followed(const SceneView& view, const SceneFrame& frame, 
 void ProbePass::upload_seeds(const SceneView& view, const SceneFrame& frame, const ValueRange& range) {
   shown_seeds_ = view.probe->seeds;
   if (!shown_seeds_ || !shown_seeds_->lines) return;
-  const LineStyle& style = shown_seeds_->style;
+  const LineStyle style = style_of(*shown_seeds_, view.style);
   const std::vector<Line>& lines = *shown_seeds_->lines;
-  const bool like_scene =
-      !style.range && style.color_by == view.style.color_by && view.lines && !view.lines->empty();
-  const ValueRange own = like_scene ? range : value_range(lines, style);
   seeds_.set_geometry(make_line_geometry(lines, frame));
-  seeds_.set_values(map_coordinates(line_values(lines, style), style, own));
+  if (colored_by_value(style)) seeds_.set_values(map_coordinates(line_values(lines, style), style, range));
 }
 
 void ProbePass::upload_cached(const SceneView& view, const SceneFrame& frame) {
@@ -282,16 +280,11 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
   tensor_mesh_.draw(glyphs_.tensors, true, see_through);
   sphere_pass_.draw(glyphs_.spheres, std::max(1.0F, 1.2F * unit), see_through);
 
-  // Lines of the local seeds may be transparent: they come last.
   if (shown_seeds_ && shown_seeds_->lines) {
-    const LineStyle& style = shown_seeds_->style;
-    program.use(color_map_of(style));
-    set_width(style.width);
-    if (!style.halo) how.halo_width = 0.0F;
-    how.coloring = coloring_of(style, true);
+    program.use(color_map_of(view.style));
+    set_width(shown_seeds_->width);
+    how.coloring = coloring_of(style_of(*shown_seeds_, view.style), true);
     how.color = colors.plain_line;
-    how.opacity = static_cast<float>(std::clamp(style.opacity, 0.0, 1.0));
-    how.dimming = static_cast<float>(std::clamp(style.dimming, 0.0, 1.0));
     seeds_.draw(how);
   }
 }

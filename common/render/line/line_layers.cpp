@@ -21,8 +21,7 @@ namespace {
 
 bool same_colors(const LineStyle& a, const LineStyle& b) {
   return a.color_by == b.color_by && a.array == b.array && is_logarithmic(a) == is_logarithmic(b) &&
-         color_map_of(a) == color_map_of(b) && a.range.has_value() == b.range.has_value() &&
-         (!a.range || (a.range->lower == b.range->lower && a.range->upper == b.range->upper));
+         color_map_of(a) == color_map_of(b) && a.range == b.range && a.usual == b.usual;
 }
 
 // Of shaders/line/layers.glsl.

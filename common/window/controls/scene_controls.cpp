@@ -98,10 +98,20 @@ std::optional<std::string> SceneControls::run(Command command, const ControlledS
     case Command::kLens:
     case Command::kLensSmaller:
     case Command::kLensLarger:
-      return on.scene && (on.has_layer() || view.volume) ? std::optional(run_lens(command, on))
-                                                         : std::nullopt;
+      return on.scene && (on.has_layer() || view.volume)
+                 ? run_lens(command, on)
+                 : "a lens shows a part of a volume, or of a heart's layer: there is none here";
     case Command::kCorner:
-      return on.has_region() ? std::optional(put_corner()) : std::nullopt;
+      return on.has_region() ? put_corner()
+                             : "a box of interest is cut from a volume alone: there is none here";
+    case Command::kSliceRight:
+    case Command::kSliceLeft:
+    case Command::kSliceFront:
+    case Command::kSliceBack:
+    case Command::kSliceUp:
+    case Command::kSliceDown:
+      if (!view.tensors) return "these keys move slices of tensors: there are none here";
+      break;
     default:
       break;
   }
@@ -176,6 +186,8 @@ void SceneControls::decorate(const ControlledScene& on, SceneView& picture) {
       for (Vec3& proxy : picture.probe->links) proxy += moved;
     }
   }
+  // Since place() it may have turned the view itself.
+  menu_.place(on.view.camera, on.picture, session_.hand().device_reach());
   if (auto menu = menu_.drawn()) picture.labels.push_back(std::move(*menu));
   picture.notes = notes_of(session_.notes(), length_unit(picture), next_mark(on));
   if (const auto& picked = hand_in_space_.picked()) picture.notes.push_back(note_of(*picked));

@@ -229,7 +229,7 @@ std::string TouchControl::choose_mode(std::size_t mode) {
 
 std::optional<std::string> TouchControl::run(Command command, const PictureArea& area, const SceneView& view,
                                              double time) {
-  if (!session_.available()) return std::nullopt;
+  if (!session_.available()) return "there is nothing to be felt here";
   const auto lock_or_free = [this](int axis) -> std::string {
     if (!grabbed_) return "grab the probe first (G)";
     lock(locked_axis() == axis ? std::nullopt : std::optional(axis));
@@ -291,6 +291,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
              "; Ctrl+E saves all that are kept";
     }
     case Command::kLocalLines: {
+      if (!session_.data().has_flow()) return "lines about the probe are those of a flow: there is none here";
       TouchChoice choice = session_.choice();
       choice.local = choice.local == SeedShape::kNone   ? SeedShape::kRake
                      : choice.local == SeedShape::kRake ? SeedShape::kPlane

@@ -19,6 +19,7 @@ void list_quantities(LineStyle& style, std::string& color) {
     if (by == ColorBy::kArray || !selectable(name.c_str(), color == name)) continue;
     style.color_by = by;
     style.range.reset();
+    style.usual.reset();
     style.logarithmic.reset();
     color = name;
   }
@@ -46,8 +47,11 @@ void draw_color(PanelContext& on, std::string& color, bool quantities) {
   if (checkbox("automatic range", &automatic)) {
     style.range =
         automatic ? std::nullopt : std::optional(on.state.picture.automatic_range.value_or(ValueRange{}));
+    style.usual.reset();
   }
-  hint("of the usual values; of a scalar that changes in time the same at all its steps");
+  hint(
+      "of the usual values; other time steps keep it, with tips at the bar where values lie beyond: switch it "
+      "off and on for that of this step");
   if (style.range) {
     ValueRange range = *style.range;
     std::array<double, 2> ends{range.lower, range.upper};

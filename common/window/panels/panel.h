@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -30,6 +31,7 @@ struct PanelState {
   PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
   bool message_is_error = false;
+  std::set<std::string> closed_notes;  ///< of the scene, that are no banners any more
   bool show_help = false;
   bool show_rates = false;
   std::vector<std::pair<std::string, std::string>> head_rows;  ///< of a tracked head, told with the rates

@@ -226,12 +226,13 @@ bool choose_word(const char* label, std::string& chosen, const std::vector<std::
 }
 
 bool decade_slider(const char* label, double& value, int lower, int upper) {
-  int decade = static_cast<int>(std::lround(std::log10(value)));
-  if (!slider_int(label, &decade, lower, upper, short_number(value).c_str(), ImGuiSliderFlags_AlwaysClamp)) {
-    return false;
-  }
-  value = std::pow(10.0, decade);
-  return true;
+  double shown = value;
+  // As many digits as the least value needs: by them Dear ImGui tells it from zero.
+  const bool moved = slider(label, shown, std::pow(10.0, lower), std::pow(10.0, upper), "%.12g",
+                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
+  if (!moved) return false;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) shown = std::pow(10.0, std::round(std::log10(shown)));
+  return std::exchange(value, shown) != shown;
 }
 
 }  // namespace palpate

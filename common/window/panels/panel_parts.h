@@ -83,8 +83,8 @@ void section(const char* name);
 /// A drop-down of words. @return whether another one was chosen.
 bool choose_word(const char* label, std::string& chosen, const std::vector<std::string>& words);
 
-/// A slider over whole decades; a value between them stays until the slider is moved.
-/// @return whether `value` changed.
+/// A slider over decades, from 10^lower to 10^upper, on which it stays while it is dragged; what is typed is
+/// taken as it is. @return whether `value` changed.
 bool decade_slider(const char* label, double& value, int lower, int upper);
 
 /// A slider that never leaves [lower, upper], typed in or not. @return whether `value` changed.

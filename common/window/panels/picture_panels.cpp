@@ -7,6 +7,7 @@
 
 #include "common/base/text.h"
 #include "common/window/keys.h"
+#include "common/window/panels/banners.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/tensor_readout.h"
 
@@ -121,46 +122,106 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   ImGui::End();
 }
 
+/// Whether a key is of use for what is open.
+bool concerns(Command command, const PanelState& state) {
+  const SceneState* const scene = state.scene;
+  const bool touch = state.touch != nullptr && state.touch->available();
+  const bool flow = touch && state.touch->data().has_flow();
+  switch (command) {
+    case Command::kKeepLine:
+    case Command::kSaveLines:
+      return flow || (touch && state.touch->data().has_tensors());
+    case Command::kLocalLines:
+      return flow;
+    case Command::kGrab:
+    case Command::kLockX:
+    case Command::kLockY:
+    case Command::kLockZ:
+    case Command::kForceOff:
+    case Command::kMode1:
+      return touch;
+    case Command::kCorner:
+      return scene != nullptr && scene->is_volume_alone();
+    case Command::kLens:
+    case Command::kLensSmaller:
+      return scene != nullptr && (scene->volume || scene->info->layers);
+    case Command::kVolume:
+      return scene != nullptr && scene->volume;
+    case Command::kSliceRight:
+    case Command::kSliceFront:
+    case Command::kSliceUp:
+      return scene != nullptr && scene->tensors;
+    case Command::kPlay:
+      return flow || (scene != nullptr && scene->info->times.size() > 1);
+    case Command::kStepBack:
+      return scene != nullptr && scene->info->times.size() > 1;
+    default:
+      return true;
+  }
+}
+
+void list_keys(const PanelState& state, float width) {
+  if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("key");
+  ImGui::TableSetupColumn("what", ImGuiTableColumnFlags_WidthFixed, width);
+  const auto row = [](const char* name, const char* what) {
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", name);
+    ImGui::TableNextColumn();
+    ImGui::PushTextWrapPos(0.0F);
+    ImGui::TextUnformatted(what);
+    ImGui::PopTextWrapPos();
+  };
+  const bool volume = state.scene != nullptr && state.scene->volume;
+  const bool touch = state.touch != nullptr && state.touch->available();
+  row("left drag", "turn about the focal point");
+  row("middle drag", "pan");
+  row("right drag, wheel", "zoom");
+  row("drop files", "open them");
+  row("Ctrl+click on a slider", "type its number");
+  if (concerns(Command::kLens, state)) row("wheel, lens at mouse", "its size; with Ctrl along the view");
+  if (volume) row("Ctrl+drag on a plane", "its image: right widens the window, up raises the level");
+  if (concerns(Command::kSliceUp, state)) {
+    row("click", "put the crosshair of slices there; drag it with Ctrl");
+    row("wheel on a slice", "move it; Ctrl and the wheel zoom");
+  }
+  if (touch)
+    row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
+  if (touch && state.touch->planes()) {
+    row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
+    row("drag a plane's ring", "move the plane; along an axis on that alone");
+  } else if (touch && state.touch->hand().takes_hold()) {
+    row("drag with the probe", "on the grid: carry the view along it, or the face of a region that it is at");
+  }
+  if (touch && state.touch->data().scalar() && !state.touch->data().has_flow())
+    row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");
+  for (const KeyBinding& binding : key_bindings()) {
+    if (*binding.name != '\0' && concerns(binding.command, state)) row(binding.name, binding.what);
+  }
+  ImGui::EndTable();
+}
+
+/// In the middle of the picture, or where that is too small, of the window; it scrolls where it is higher.
 void draw_help(PanelState& state, const WindowLayout& layout) {
   if (!state.show_help) return;
-  ImGui::SetNextWindowPos(place(layout.picture.left + 0.5 * layout.picture.width,
-                                layout.picture.top + 0.5 * layout.picture.height),
-                          ImGuiCond_Always, {0.5F, 0.5F});
+  constexpr float kNames = 12.0F, kWords = 34.0F, kLeastWords = 18.0F;  // heights of the text
+  const float em = ImGui::GetFontSize();
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const auto picture = static_cast<float>(layout.picture.width);
+  const bool on_picture = picture > (kNames + kLeastWords) * em;
+  const float room = (on_picture ? picture : window.x) - 2.0F * em;
+  const float words = std::clamp(room - kNames * em, 8.0F * em, kWords * em);
+  const float middle =
+      on_picture ? static_cast<float>(layout.picture.left) + 0.5F * picture : 0.5F * window.x;
+  ImGui::SetNextWindowPos({middle, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {room, window.y - 2.0F * em});
   ImGui::SetNextWindowBgAlpha(0.94F);
   ImGui::Begin(
       "Keys and mouse", &state.show_help,
       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    const auto row = [](const char* name, const char* what) {
-      ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", name);
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(what);
-    };
-    row("left drag", "turn about the focal point");
-    row("middle drag", "pan");
-    row("right drag, wheel", "zoom");
-    row("drop files", "open them");
-    row("wheel", "while a lens follows the mouse: its size; with Ctrl along the view");
-    row("Ctrl and drag on a plane", "its image: right widens the window, up raises the level");
-    row("click", "put the crosshair of slices there; drag it with Ctrl");
-    row("wheel on a slice", "move it; Ctrl and the wheel zoom");
-    row("mouse, wheel", "while the probe is grabbed: move it in the plane of the view, and along the view");
-    if (state.touch != nullptr && state.touch->planes()) {
-      row("drag a plane's sphere", "turn the plane; along a great circle about one axis alone");
-      row("drag a plane's ring", "move the plane; along an axis on that alone");
-    } else if (state.touch != nullptr && state.touch->hand().takes_hold()) {
-      row("drag with the probe",
-          "on the grid: carry the view along it, or the face of a region that it is at");
-    }
-    if (state.touch != nullptr && state.touch->data().scalar() && !state.touch->data().has_flow())
-      row("click, marking", "annotate: a point, length, angle, curve or area (Mark by clicks in the panel)");
-    for (const KeyBinding& binding : key_bindings()) {
-      if (*binding.name != '\0') row(binding.name, binding.what);
-    }
-    ImGui::EndTable();
-  }
+  note_control("keys", ImGui::GetWindowPos(), ImGui::GetWindowSize());
+  list_keys(state, words);
   ImGui::End();
 }
 
@@ -212,6 +273,7 @@ std::string size_text(const SceneState& scene) {
 void draw_picture_panels(PanelState& state, const WindowLayout& layout) {
   draw_status(state, layout);
   draw_readouts(state, layout);
+  draw_banners(state, layout);
   draw_help(state, layout);
 }
 

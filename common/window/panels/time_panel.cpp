@@ -15,7 +15,8 @@ void draw_time(PanelState& state, const std::vector<double>& times) {
   const std::size_t now = time_step_of(state.document, times);
   int step = static_cast<int>(now);
   const int last = static_cast<int>(times.size()) - 1;
-  const std::string text = "t = " + short_number(times[now]);
+  // What is typed is the step, from 0.
+  const std::string text = "%d:  t = " + short_number(times[now]);
   if (slider_int("time step", &step, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
     set_time_step(state.document, times, static_cast<std::size_t>(step));
   }

@@ -42,7 +42,7 @@ class Hand {
   }
 
   void frame() {
-    session.update(seconds(), camera_, ColorBy::kSpeed, view);
+    session.update(seconds(), camera_, LineStyle{}, view);
     std::this_thread::sleep_for(std::chrono::milliseconds(4));
   }
   [[nodiscard]] bool wait_for(const std::function<bool()>& happened) {
@@ -103,7 +103,7 @@ TEST(ProbeSession, WithoutModesThereIsNoTouch) {
   session.set_field({helix_flow(kRise), kField});
   session.grab(0.0, kSeed);
   ProbeView view;
-  session.update(0.0, Camera{}, ColorBy::kSpeed, view);
+  session.update(0.0, Camera{}, LineStyle{}, view);
   EXPECT_FALSE(session.hand().grabbed());
   EXPECT_FALSE(session.readout().held);
   EXPECT_FALSE(keep(session));
@@ -311,7 +311,8 @@ TEST(ProbeSession, NoiseIsMeasuredOnceAndFeltThen) {
   ProbeView view;
   const auto frames = [&](const std::function<bool()>& happened) {
     for (int i = 0; i < 10000 && !happened(); ++i) {
-      session.update(0.01 * i, make_camera(scalar->bounds(), {}, 1.0), ColorBy::kUniform, view);
+      session.update(0.01 * i, make_camera(scalar->bounds(), {}, 1.0),
+                     LineStyle{.color_by = ColorBy::kUniform}, view);
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return happened();

@@ -26,7 +26,7 @@ class SimulatedHand {
 
   [[nodiscard]] bool wait_for(const std::function<bool()>& happened) {
     for (int frame = 0; frame < 7500; ++frame) {
-      session.update(0.004 * frame, camera_, ColorBy::kSpeed, view_);
+      session.update(0.004 * frame, camera_, LineStyle{}, view_);
       if (happened()) return true;
       std::this_thread::sleep_for(std::chrono::milliseconds(4));
     }

@@ -41,7 +41,7 @@ class TwoHandsSession : public ::testing::Test {
   }
 
   void frame() {
-    session_.update(time_, camera_, ColorBy::kSpeed, view_);
+    session_.update(time_, camera_, LineStyle{}, view_);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   /// Frames without the hands going on.

@@ -71,7 +71,7 @@ inline ProbeView sample_probe(const SceneView& view, std::size_t at = 150) {
     local->push_back(std::move(line));
   }
   seeds->lines = local;
-  seeds->style.width = 5.0;
+  seeds->width = 5.0;
   probe.seeds = seeds;
 
   auto kept = std::make_shared<std::vector<DrawnLine>>();

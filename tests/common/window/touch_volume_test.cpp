@@ -256,6 +256,75 @@ TEST_F(TouchVolume, APlaneGoesThroughThreePointsThatTheMouseMarks) {
     EXPECT_NEAR(glm::dot(plane.outward, Vec3(v[i], v[i + 1], v[i + 2])), plane.offset, 1e-12) << text;
 }
 
+TEST_F(TouchVolume, AsksBeforeAnnotationsAreLost) {
+  press("Mark by clicks");
+  click(next(), middle_x_, middle_y_);
+  click(next(), middle_x_ + 20.0, middle_y_);
+  const auto marked = options_.script;
+  key('Q');
+  key('Z', kModifierControl);  // not for the picture now
+  EXPECT_EQ(run().frames, options_.frames) << "asked";
+  key('D');
+  last_ += kPause;
+  EXPECT_LT(run().frames, options_.frames) << "discarded";
+  options_.script = marked;
+  key('Q');
+  key('S');
+  last_ += kPause;
+  EXPECT_LT(run().frames, options_.frames) << "saved";
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("annotations.csv")));
+  options_.script = marked;
+  key('S', kModifierControl);
+  key('Q');
+  last_ += kPause;
+  EXPECT_LT(run().frames, options_.frames) << "they are in the session";
+}
+
+// What was of places and values of the old input is not saved as the new one's; how the hand feels stays.
+TEST_F(TouchVolume, AnotherInputForgetsAnnotationsPlanesAndIsovalues) {
+  options_.touch.choice.settings.stiffness = 300.0;
+  press("Mark by clicks");
+  click(next(), middle_x_, middle_y_);
+  click(next(), middle_x_ + 20.0, middle_y_);
+  press("Stop marking");
+  press("##isovalue", 0, kMost);
+  choose("mode", kPlaneWidgetMode);
+  const auto settings_of = [](std::string message, const std::string& name) {
+    const std::size_t at = message.find(" " + name + "=");
+    return at == std::string::npos ? std::string() : message.substr(at, message.find(' ', at + 1) - at);
+  };
+  last_ += 2 * kPause;
+  const auto untouched = options_.script;
+  const int until = last_;
+  move_by(next(), 12.0, -14.0);
+  at(next(), {.kind = InputKind::kPress});
+  lead_to(80.0, -60.0);
+  at(next(), {.kind = InputKind::kRelease});
+  const auto made = options_.script;
+  const int end = last_;
+  key('S', kModifierControl);
+  const std::string old = run().message;
+  EXPECT_NE(settings_of(old, "annotation"), "") << old;
+  EXPECT_NE(settings_of(old, "isovalue"), "") << old;
+  EXPECT_NE(settings_of(old, "planes"), "") << old;
+  options_.script = made;
+  last_ = end;
+  at(next(), {.kind = InputKind::kDrop, .files = {"other.nrrd"}});
+  key('D');  // they are not saved
+  last_ += 3 * kPause;
+  key('S', kModifierControl);
+  const std::string other = run().message;
+  EXPECT_EQ(settings_of(other, "annotation"), "") << other;
+  EXPECT_EQ(settings_of(other, "isovalue"), "") << other;
+  EXPECT_EQ(settings_of(other, "stiffness"), " stiffness=300") << other;
+  EXPECT_EQ(settings_of(other, "mode"), settings_of(old, "mode"));
+  options_.script = untouched;
+  last_ = until;
+  key('S', kModifierControl);
+  const std::string plain = run().message;
+  EXPECT_EQ(settings_of(other, "planes"), settings_of(plain, "planes")) << "where they begin";
+}
+
 TEST_F(TouchVolume, TheSessionHoldsThePlanes) {
   options_.touch.choice.mode = mode_of(kPlaneWidgetMode);
   options_.touch.choice.settings.plane_widget.poses.count = 1;

@@ -1,11 +1,14 @@
 #include "common/window/window.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -14,7 +17,9 @@
 #include "common/compose/view_keep.h"
 #include "common/render/png.h"
 #include "common/render/render_image.h"
+#include "common/window/panels/color_panel.h"
 #include "common/window/panels/panel.h"
+#include "common/window/panels/panel_parts.h"
 #include "common/window/panels/seed_panel.h"
 #include "tests/common/render/sample_scenes.h"
 #include "tests/support/png_texts.h"
@@ -30,7 +35,7 @@ class FakeModel : public WindowModel {
   SceneState start(Progress&) override {
     Document document;
     document.view.color = first_array.empty() ? "speed" : first_array;
-    return make("whirlwind", document);
+    return scene_of("whirlwind", document);
   }
   SceneState open(const InputFiles& input, Progress&) override {
     const auto& files = input.files;
@@ -38,7 +43,7 @@ class FakeModel : public WindowModel {
     if (files.front().string().starts_with("bad")) {
       throw input_error({.file = files.front().string(), .found = "not a data file"});
     }
-    return make(files.front().string(), {});
+    return scene_of(files.front().string(), {});
   }
   SceneState update(const Document& document, Progress& progress) override {
     ++updated;
@@ -47,7 +52,7 @@ class FakeModel : public WindowModel {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       progress.check();
     }
-    return make("whirlwind", document);
+    return scene_of("whirlwind", document);
   }
   void keep(const SceneView& view, Document& document) const override {
     keep_camera(view, document);
@@ -62,8 +67,26 @@ class FakeModel : public WindowModel {
   std::string first_array;
   std::string refused = "none";  ///< the time of a step that cannot be read
   int rests = 0;                 ///< of 10 ms, in the first update
+  bool hurries = false;          ///< the flow is faster the later it is
+  bool one_time = false;         ///< there are no others
 
  private:
+  SceneState scene_of(const std::string& name, const Document& document) const {
+    SceneState scene = make(name, document);
+    if (one_time) {
+      auto info = std::make_shared<SceneInfo>(*scene.info);
+      info->times.clear();
+      scene.info = info;
+    }
+    if (!hurries) return scene;
+    std::vector<Line> lines = *scene.lines;
+    const double factor = 1.0 + static_cast<double>(time_step_of(document, scene.info->times));
+    for (Line& line : lines) {
+      for (LinePoint& point : line.points) point.speed *= factor;
+    }
+    scene.lines = std::make_shared<const std::vector<Line>>(std::move(lines));
+    return scene;
+  }
   static SceneState make(const std::string& name, Document document) {
     const SceneView view = test::whirlwind(1.0, 40);
     auto info = std::make_shared<SceneInfo>();
@@ -224,6 +247,87 @@ TEST_F(WindowTest, SpacePlaysTheTimeSteps) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_GT(model_.updated, 2);
   EXPECT_NE(result.document.input.time, "");
+}
+
+// A colour means the same at all steps; other lines, and another quantity, have a range of their own.
+TEST_F(WindowTest, ColoursKeepTheirRangeWhileTimePlays) {
+  model_.hurries = true;
+  options_.frames = 40;
+  const WindowResult first = run_window(model_, options_);
+  const ValueRange usual = value_range(*first.view.lines, first.view.style);
+  key(4, '.');
+  key(12, '.');
+  const WindowResult played = run_window(model_, options_);
+  EXPECT_EQ(played.document.input.time, "1");
+  EXPECT_EQ(value_range(*played.view.lines, played.view.style), usual);
+  EXPECT_GT(value_range(*played.view.lines, {}).upper, 2.0 * usual.upper) << "its own";
+  EXPECT_FALSE(played.view.style.range) << "which is still automatic";
+  options_.panels = {[](PanelContext& on) { draw_seeds(on.state, true); }, draw_line_colors};
+  options_.frames = 60;
+  at_control(20, {.kind = InputKind::kPress}, "automatic range");
+  release(22, MouseButton::kLeft);
+  at_control(26, {.kind = InputKind::kPress}, "automatic range");
+  release(28, MouseButton::kLeft);
+  const WindowResult again = run_window(model_, options_);
+  EXPECT_TRUE(again.missing.empty());
+  EXPECT_EQ(value_range(*again.view.lines, again.view.style), value_range(*again.view.lines, {}))
+      << "off and on: of this step";
+}
+
+TEST_F(WindowTest, EscapeClosesAnOpenListAndNothingElse) {
+  constexpr int kEscape = 256;
+  options_.frames = 30;
+  const auto choose_light = [&](int frame) {
+    at_control(frame, {.kind = InputKind::kPress}, "background");
+    release(frame + 2, MouseButton::kLeft);
+  };
+  choose_light(2);
+  at_control(12, {.kind = InputKind::kPress}, "light");
+  release(14, MouseButton::kLeft);
+  const WindowResult chosen = run_window(model_, options_);
+  EXPECT_TRUE(chosen.missing.empty());
+  EXPECT_EQ(chosen.view.background, Background::kLight);
+  options_.script.clear();
+  key(1, 'H');
+  choose_light(3);
+  key(8, kEscape);
+  at_control(12, {.kind = InputKind::kPress}, "light");
+  release(14, MouseButton::kLeft);
+  const WindowResult closed = run_window(model_, options_);
+  EXPECT_EQ(closed.missing, std::vector<std::string>{"light"}) << "the list is gone";
+  EXPECT_EQ(closed.view.background, Background::kDark);
+}
+
+TEST_F(WindowTest, EveryKeySaysWhyItDoesNothing) {
+  constexpr int kUp = 265, kPageDown = 267;
+  FakeModel still;
+  still.one_time = true;
+  for (const int code : std::initializer_list<int>{'V', 'L', '[', 'C', 'G', 'K', 'R', 'X', '1', ' ', '.', ',',
+                                                   'J', '5', kUp, kPageDown}) {
+    options_.script.clear();
+    key(4, code);
+    EXPECT_NE(run_window(still, options_).message, "") << code;
+  }
+}
+
+// All of it is reached in a small window: it scrolls.
+TEST_F(WindowTest, TheSheetOfKeysFitsIntoASmallWindow) {
+  for (const auto& [width, height] : {std::pair(800, 600), std::pair(520, 300)}) {
+    options_.width = width;
+    options_.height = height;
+    options_.script.clear();
+    key(2, 'H');
+    (void)run_window(model_, options_);
+    const auto& drawn = drawn_controls();
+    const auto sheet =
+        std::ranges::find_if(drawn, [](const DrawnControl& control) { return control.label == "keys"; });
+    ASSERT_NE(sheet, drawn.end());
+    EXPECT_GE(sheet->left, 0.0);
+    EXPECT_GE(sheet->top, 0.0);
+    EXPECT_LE(sheet->left + sheet->width, width);
+    EXPECT_LE(sheet->top + sheet->height, height);
+    EXPECT_GT(sheet->height, 0.5 * height);
+  }
 }
 
 Image read_picture(const std::filesystem::path& path) {

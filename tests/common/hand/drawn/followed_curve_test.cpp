@@ -34,23 +34,23 @@ class FollowedCurveTest : public ::testing::Test {
 };
 
 TEST_F(FollowedCurveTest, IsNothingWhileNoLineIsFollowed) {
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_EQ(curve_.drawn(), nullptr);
   EXPECT_EQ(curve_.number(), 0U);
   EXPECT_TRUE(curve_.line().points.empty());
   start({1.0, 0.0, 0.0});
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_NE(curve_.drawn(), nullptr);
   EXPECT_NE(curve_.number(), 0U);
   live_->drop();
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_EQ(curve_.drawn(), nullptr);
 }
 
 TEST_F(FollowedCurveTest, ItsChordsLeaveTheLineByHalfAMillionthOfTheDiagonal) {
   start({0.8, 0.3, -0.5});
   grow(100);
-  curve_.update(0.0, ColorBy::kSpeed);
+  curve_.update(0.0, LineStyle{});
   const std::vector<Vec3>& points = curve_.drawn()->points;
   ASSERT_GT(points.size(), 100U);
   double worst = 0.0;
@@ -70,10 +70,10 @@ TEST_F(FollowedCurveTest, ItsBallsStandAtEqualTimesAndStayWhileItGrows) {
   constexpr double kInterval = 0.4;
   start({1.0, 0.0, 0.0});
   grow(3);
-  curve_.update(kInterval, ColorBy::kTime);
+  curve_.update(kInterval, LineStyle{.color_by = ColorBy::kTime});
   const std::vector<Vec3> before = curve_.drawn()->balls;
   grow(100);
-  curve_.update(kInterval, ColorBy::kTime);
+  curve_.update(kInterval, LineStyle{.color_by = ColorBy::kTime});
   const FollowedLine& drawn = *curve_.drawn();
   ASSERT_GT(drawn.balls.size(), before.size());
   ASSERT_EQ(drawn.ball_values.size(), drawn.balls.size());
@@ -97,7 +97,7 @@ TEST_F(FollowedCurveTest, IsColouredByWhatColoursTheScene) {
   start({1.0, 0.0, 0.0});
   grow(50);
   const auto each = [&](ColorBy by, const auto& expected) {
-    curve_.update(0.5, by);
+    curve_.update(0.5, LineStyle{.color_by = by});
     const FollowedLine& drawn = *curve_.drawn();
     ASSERT_EQ(drawn.values.size(), drawn.points.size());
     for (std::size_t i = 0; i < drawn.points.size(); ++i) {
@@ -108,33 +108,89 @@ TEST_F(FollowedCurveTest, IsColouredByWhatColoursTheScene) {
   each(ColorBy::kSpeed, [&](double) { return helix_.speed(); });
   each(ColorBy::kTime, [](double t) { return t; });
   each(ColorBy::kArc, [&](double t) { return t * helix_.speed(); });
-  curve_.update(0.5, ColorBy::kError);
+  curve_.update(0.5, LineStyle{.color_by = ColorBy::kError});
   EXPECT_EQ(curve_.drawn()->values.size(), curve_.drawn()->points.size());
   EXPECT_GE(*std::min_element(curve_.drawn()->values.begin(), curve_.drawn()->values.end()), 0.0);
-  curve_.update(0.5, ColorBy::kDirection);
+  curve_.update(0.5, LineStyle{.color_by = ColorBy::kDirection});
   EXPECT_TRUE(curve_.drawn()->values.empty()) << "a quantity that it does not carry";
+}
+
+// What the lines of the scene do not carry is sampled along this one, too.
+TEST_F(FollowedCurveTest, IsColouredByAnArrayOfTheData) {
+  const auto array_of = [](double factor) {
+    auto array = std::make_shared<LineArray>();
+    array->name = "height";
+    array->at = [factor](const Vec3& x, CellHint&) { return factor * x.z; };
+    return LineStyle{.color_by = ColorBy::kArray, .array = array};
+  };
+  start({1.0, 0.0, 0.0});
+  grow(50);
+  const auto expect = [&](double factor) {
+    const FollowedLine& drawn = *curve_.last();
+    ASSERT_EQ(drawn.values.size(), drawn.points.size());
+    ASSERT_EQ(drawn.ball_values.size(), drawn.balls.size());
+    for (std::size_t i = 0; i < drawn.points.size(); ++i)
+      EXPECT_EQ(drawn.values[i], factor * drawn.points[i].z);
+    for (std::size_t i = 0; i < drawn.balls.size(); ++i)
+      EXPECT_EQ(drawn.ball_values[i], factor * drawn.balls[i].z);
+  };
+  curve_.update(0.5, array_of(1.0));
+  expect(1.0);
+  const std::size_t points = curve_.drawn()->points.size();
+  grow(5);
+  curve_.update(0.5, array_of(1.0));
+  EXPECT_GT(curve_.drawn()->points.size(), points);
+  expect(1.0);
+  curve_.update(0.5, array_of(3.0));  // another time step
+  expect(3.0);
+
+  live_->drop();
+  curve_.update(0.5, array_of(-2.0));
+  EXPECT_EQ(curve_.drawn(), nullptr);
+  expect(-2.0);
+  FollowedCurve next(live_, &curve_);  // of another chain
+  next.update(0.5, LineStyle{.color_by = ColorBy::kTime});
+  ASSERT_TRUE(next.last());
+  EXPECT_EQ(next.last()->points.size(), curve_.last()->points.size());
+  EXPECT_NEAR(next.last()->values.back(), time_of(next.last()->points.back()), 2e-6);
+  next.update(0.5, LineStyle{.color_by = ColorBy::kArray});
+  EXPECT_TRUE(next.last()->values.empty()) << "an array that is not known";
+  next.forget();
+  EXPECT_EQ(next.last(), nullptr);
+}
+
+TEST_F(FollowedCurveTest, IsColouredByItsEndWhenThatIsReached) {
+  const LineStyle style{.color_by = ColorBy::kTermination};
+  start({1.0, 0.0, 0.0});
+  grow(2);
+  curve_.update(0.0, style);
+  EXPECT_TRUE(curve_.drawn()->values.empty()) << "nobody knows yet";
+  while (!live_->current()->end(Side::kDownstream)) live_->current()->grow(Side::kDownstream);
+  curve_.update(0.0, style);
+  const auto end = static_cast<double>(*live_->current()->end(Side::kDownstream));
+  EXPECT_EQ(curve_.drawn()->values, std::vector<double>(curve_.drawn()->points.size(), end));
 }
 
 TEST_F(FollowedCurveTest, IsAnotherObjectOnlyWhereSomethingHasChanged) {
   start({1.0, 0.0, 0.0});
   grow(5);
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   const auto first = curve_.drawn();
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_EQ(curve_.drawn(), first);
   grow(1);
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_NE(curve_.drawn(), first);
   const std::uint64_t number = curve_.number();
   start({0.5, 0.0, 0.0});
-  curve_.update(0.5, ColorBy::kSpeed);
+  curve_.update(0.5, LineStyle{});
   EXPECT_NE(curve_.number(), number);
 }
 
 TEST_F(FollowedCurveTest, TheWholeLineBeginsAtItsUpstreamEnd) {
   start({1.0, 0.0, 0.0});
   grow(2000);
-  curve_.update(0.0, ColorBy::kSpeed);
+  curve_.update(0.0, LineStyle{});
   const Line line = curve_.line();
   ASSERT_GT(line.points.size(), 10U);
   EXPECT_EQ(line.points.front().arc, 0.0);
@@ -161,7 +217,7 @@ TEST(FollowedCurveUnits, AreThoseOfTheData) {
   for (int i = 0; i < 50; ++i) live->current()->grow(Side::kDownstream);
   FollowedCurve curve(live);
   const Helix helix{{1.0, 0.0, 0.0}, kRise};
-  curve.update(0.5 * 0x1p8, ColorBy::kArc);
+  curve.update(0.5 * 0x1p8, LineStyle{.color_by = ColorBy::kArc});
   EXPECT_EQ(curve.drawn()->points.front(), Vec3(32.0, 0.0, 0.0));
   const Vec3 last = curve.drawn()->points.back();
   EXPECT_NEAR(curve.drawn()->values.back(), last.z / kRise * helix.speed(), 1e-4);

@@ -81,6 +81,29 @@ TEST(LocalLines, TracesARakeBothWays) {
   }
 }
 
+TEST(LocalLines, HaveTheArrayThatColoursTheScene) {
+  LocalLines local([] {});
+  LocalRequest request = rake();
+  auto array = std::make_shared<LineArray>();
+  array->name = "Temp";
+  array->at = [](const Vec3& x, CellHint&) { return 300.0 + x.z; };
+  request.array = array;
+  local.request(request);
+  ASSERT_TRUE(wait_for([&] { return local.drawn() != nullptr; }));
+  const LocalSeeds& drawn = *local.drawn();
+  ASSERT_TRUE(drawn.array);
+  EXPECT_EQ(drawn.array->name, "Temp");
+  std::vector<float> expected;
+  for (const Line& line : *drawn.lines) {
+    for (const LinePoint& point : line.points)
+      expected.push_back(static_cast<float>(300.0 + point.position.z));
+  }
+  EXPECT_EQ(drawn.array->values, expected);
+  request.array = nullptr;
+  local.request(request);
+  EXPECT_TRUE(wait_for([&] { return local.drawn()->array == nullptr; }));
+}
+
 TEST(LocalLines, TheLatestRequestWins) {
   LocalLines local([] {});
   for (int i = 0; i <= 50; ++i) local.request(rake({0.5 + 0.01 * i, 0.0, 0.0}));

@@ -85,6 +85,62 @@ TEST(ProbePicture, HiddenBallShinesThrough) {
   EXPECT_EQ(test::at(render_image(view, kSize, kSize).image, 0.0, 0.0), hidden);
 }
 
+// One bar means one thing: a rake has the colours that the scene's lines have for the same number, and where
+// that number is not known of it none of the bar's.
+TEST(ProbePicture, RakeIsColouredLikeTheLinesOfTheScene) {
+  const auto heat = [](const std::string& name, double least, double most, std::size_t count) {
+    auto array = std::make_shared<LineArray>();
+    array->name = name;
+    for (std::size_t i = 0; i < count; ++i)
+      array->values.push_back(
+          static_cast<float>(std::lerp(least, most, static_cast<double>(i) / (count - 1))));
+    return array;
+  };
+  // Along the upper line from 300 to 400; the rake's line, below it, is 400 all along, and slow throughout.
+  SceneView view = test::front_view({test::polyline({{-0.8, 0.0, 0.5}, {0.0, 0.0, 0.5}, {0.8, 0.0, 0.5}})});
+  view.style.color_by = ColorBy::kArray;
+  view.style.array = heat("Temp", 300.0, 400.0, 3);
+  view.style.halo = view.show_color_bar = false;
+  view.style.width = 40.0;
+  auto seeds = std::make_shared<LocalSeeds>();
+  seeds->lines = std::make_shared<const std::vector<Line>>(
+      std::vector<Line>{test::polyline({{-0.8, 0.0, -0.5}, {0.8, 0.0, -0.5}})});
+  seeds->width = 40.0;
+  seeds->array = heat("Temp", 400.0, 400.0, 2);
+  ProbeView probe;
+  probe.seeds = seeds;
+  view.probe = probe;
+  const auto shown = [&](const ColorMap map) {
+    view.style.color_map = map;
+    return render_image(view, kSize, kSize).image;
+  };
+  const auto difference = [](const std::array<int, 4>& a, const std::array<int, 4>& b) {
+    return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+  };
+  for (const ColorMap map : {ColorMap::kSequential, ColorMap::kHeat}) {
+    const Image image = shown(map);
+    const auto hot = test::at(image, 0.78, 0.5), cold = test::at(image, -0.78, 0.5);
+    ASSERT_GT(difference(hot, cold), 150);
+    EXPECT_LT(difference(test::at(image, -0.7, -0.5), hot), 30);
+    EXPECT_LT(difference(test::at(image, 0.7, -0.5), hot), 30);
+  }
+  const auto plain = [&] {
+    const auto c = test::at(shown(ColorMap::kHeat), 0.0, -0.5);
+    return std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) < 25;
+  };
+  EXPECT_FALSE(plain());
+  auto other = std::make_shared<LocalSeeds>(*seeds);
+  other->array = heat("Pres", 400.0, 400.0, 2);
+  view.probe->seeds = other;
+  EXPECT_TRUE(plain()) << "another array";
+  other = std::make_shared<LocalSeeds>(*seeds);
+  other->array = nullptr;
+  view.probe->seeds = other;
+  EXPECT_TRUE(plain()) << "no array";
+  view.style.color_by = ColorBy::kSeed;
+  EXPECT_TRUE(plain()) << "no seed of the scene's";
+}
+
 // Transparent lines are drawn last, over what lies behind them.
 TEST(ProbePicture, TransparentRibbonMixesWithTheBallBehindIt) {
   SceneView view = ribbon_and_ball(0.5);

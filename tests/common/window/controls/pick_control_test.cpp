@@ -140,7 +140,7 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
   const auto center = [&] { return session_->planes()->poses.pose[0].center; };
   for (int i = 0; i < 5000 && time < 4.0; ++i) {
     (void)hands.follow(menu, *session_, view_, view_.camera, {0.0, 0.0, 300.0, 200.0}, time);
-    session_->update(time, view_.camera, ColorBy::kSpeed, probe);
+    session_->update(time, view_.camera, LineStyle{}, probe);
     if (hands.holding() && !held) {
       held = true;
       ASSERT_TRUE(hands.picked());
@@ -155,13 +155,13 @@ TEST_F(PickControlTest, ATrackedStylusTakesTheWidgetsHandleFromAfar) {
   ASSERT_TRUE(held);
   EXPECT_FALSE(hands.holding()) << "the button was let go";
   for (int i = 0; i < 2000 && glm::distance(center(), before + Vec3{0.0, 0.0, 0.02 / scale}) > 1e-9; ++i) {
-    session_->update(time, view_.camera, ColorBy::kSpeed, probe);
+    session_->update(time, view_.camera, LineStyle{}, probe);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_LT(glm::distance(center(), before + Vec3{0.0, 0.0, 0.02 / scale}), 1e-9);
   session_->restore(kept);
   for (int i = 0; i < 2000 && glm::distance(center(), before) > 1e-9; ++i) {
-    session_->update(time, view_.camera, ColorBy::kSpeed, probe);
+    session_->update(time, view_.camera, LineStyle{}, probe);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_LT(glm::distance(center(), before), 1e-9);

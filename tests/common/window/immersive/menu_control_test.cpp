@@ -9,6 +9,7 @@
 
 #include "common/hand/technique/probe_mouse.h"
 #include "common/math/quaternion.h"
+#include "common/window/controls/scene_controls.h"
 
 namespace palpate {
 namespace {
@@ -88,6 +89,25 @@ TEST_F(MenuControlTest, SetsStepWidthAndTurn) {
   Camera expected = before;
   for (int i = 0; i < 6; ++i) turn(expected, 15.0 * kDegree, 0.0);
   EXPECT_LT(glm::distance(view_.camera.axes[2], expected.axes[2]), 1e-12);
+}
+
+// What turns the view by the menu leaves the menu where it is on the screen, in that very picture.
+TEST_F(MenuControlTest, StaysOnTheScreenWhileItTurnsTheView) {
+  ProbeSession session({}, [] {});
+  SceneControls controls(session, std::nullopt);
+  const ControlledScene on{.scene = &scene_, .view = view_, .picture = kArea};
+  controls.toggle_menu(on);
+  controls.place(on, false);
+  const auto corner = [&] {
+    SceneView picture = view_;
+    controls.decorate(on, picture);
+    const LabelView& label = picture.labels.back();
+    EXPECT_EQ(label.axes, view_.camera.axes);
+    return project(view_.camera, label.origin, static_cast<int>(kArea.width), static_cast<int>(kArea.height));
+  };
+  const Vec3 before = corner();
+  turn(view_.camera, 15.0 * kDegree, 0.0);
+  EXPECT_LT(glm::distance(corner(), before), 1e-9);
 }
 
 TEST_F(MenuControlTest, IsPointedAtByAStylusAndGoesAway) {

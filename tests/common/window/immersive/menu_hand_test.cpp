@@ -90,7 +90,7 @@ class MenuHandTest : public testing::Test {
     menu_.place(view_.camera, kArea, session_->hand().device_reach());
     (void)hands_.follow(menu_, *session_, view_, view_.camera, kArea, now());
     (void)menu_.act(scene_, document_, view_);
-    session_->update(now(), view_.camera, ColorBy::kSpeed, probe_);
+    session_->update(now(), view_.camera, LineStyle{}, probe_);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   [[nodiscard]] bool wait_for(const std::function<bool()>& happened) {
