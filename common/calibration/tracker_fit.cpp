@@ -450,8 +450,10 @@ void require_betterment(const std::vector<Left>& before, const std::vector<Left>
   };
   const double was = half(before, &Left::position), is = half(after, &Left::position);
   if (was <= kNoise || is < kLess * was) return;
+  // Places that are noisy alone, and turns that were corrected.
+  constexpr double kNoisy = 0.01;  // [m]
   const double turned = half(before, &Left::orientation);
-  if (turned > kTurnNoise && half(after, &Left::orientation) < kLess * turned) return;
+  if (was < kNoisy && turned > kTurnNoise && half(after, &Left::orientation) < kLess * turned) return;
   throw work_error(source + ": the correction leaves " + short_number(std::round(1e4 * is) / 10.0) +
                    " mm of " + short_number(std::round(1e4 * was) / 10.0) +
                    " mm on measurements that it has not seen: these errors do not depend on the place; check "

@@ -75,7 +75,8 @@ void draw_banners(PanelState& state, const WindowLayout& layout) {
                                       {width + 2.0F * em, static_cast<float>(0.5 * area.height)});
   ImGui::SetNextWindowBgAlpha(0.92F);
   ImGui::Begin("banners", nullptr,
-               kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
+               kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoScrollbar |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   const ImVec4 red{0.93F, 0.36F, 0.30F, 1.0F}, amber{0.93F, 0.67F, 0.20F, 1.0F};
   if (error && draw_banner(state.error, red, "x##error", width)) state.error.clear();
   for (std::size_t i = 0; i < std::min(notes.size(), kMost); ++i) {
