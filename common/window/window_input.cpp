@@ -15,6 +15,7 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/scene_parts.h"
+#include "common/window/dropped_files.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/keys.h"
@@ -60,7 +61,8 @@ std::vector<InputEvent> ExplorerWindow::take_events() {
 void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const InputEvent& event : events) {
-    if (event.kind == InputKind::kDrop && !files_.asking()) open({event.files, {}});
+    if (event.kind == InputKind::kDrop && !files_.asking())
+      open(sort_dropped(event.files, scene_ ? &scene_->info->files : nullptr));
     if (const std::string text = event_text(event); !text.empty())
       touch_.servo().record_event(static_cast<std::uint64_t>(frame_), text);
     const auto command = command_of(event);

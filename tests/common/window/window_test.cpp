@@ -1,14 +1,18 @@
 #include "common/window/window.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
@@ -23,6 +27,7 @@
 #include "common/window/panels/seed_panel.h"
 #include "tests/common/render/sample_scenes.h"
 #include "tests/support/png_texts.h"
+#include "tests/support/temp_folder.h"
 
 namespace palpate {
 namespace {
@@ -40,6 +45,7 @@ class FakeModel : public WindowModel {
   SceneState open(const InputFiles& input, Progress&) override {
     const auto& files = input.files;
     ++opened;
+    last_opened = input;
     if (files.front().string().starts_with("bad")) {
       throw input_error({.file = files.front().string(), .found = "not a data file"});
     }
@@ -64,15 +70,22 @@ class FakeModel : public WindowModel {
   }
 
   std::atomic<int> opened{0}, updated{0}, saved{0};
+  InputFiles last_opened;
   std::string first_array;
   std::string refused = "none";  ///< the time of a step that cannot be read
   int rests = 0;                 ///< of 10 ms, in the first update
   bool hurries = false;          ///< the flow is faster the later it is
   bool one_time = false;         ///< there are no others
+  std::vector<std::filesystem::path> files_of_scene;
 
  private:
   SceneState scene_of(const std::string& name, const Document& document) const {
     SceneState scene = make(name, document);
+    if (!files_of_scene.empty()) {
+      auto info = std::make_shared<SceneInfo>(*scene.info);
+      info->files.files = files_of_scene;
+      scene.info = info;
+    }
     if (one_time) {
       auto info = std::make_shared<SceneInfo>(*scene.info);
       info->times.clear();
@@ -230,6 +243,37 @@ TEST_F(WindowTest, DroppedFileIsOpened) {
   const WindowResult result = run_window(model_, options_);
   EXPECT_EQ(model_.opened, 1);
   EXPECT_EQ(result.message, "");
+}
+
+// As the manual has them (NASA TM-101067, ch. 8): without marks, single precision, 2 x 2 x 2 points.
+TEST_F(WindowTest, AGridAndItsSolutionAreDroppedTogetherInAnyOrder) {
+  const test::TempFolder folder;
+  const auto file_of = [&](const std::string& name, int numbers) {
+    std::string bytes;
+    for (int i = 0; i < 3 + numbers; ++i) {
+      const float number = 0.5F * static_cast<float>(i % 4);
+      const std::int32_t side = 2;
+      std::array<char, 4> four{};
+      std::memcpy(four.data(), i < 3 ? static_cast<const void*>(&side) : &number, four.size());
+      bytes.append(four.data(), four.size());
+    }
+    return folder.write(name, bytes);
+  };
+  const std::filesystem::path grid = file_of("xyz.bin", 3 * 8), solution = file_of("q.bin", 4 + 5 * 8);
+  for (const std::vector<std::filesystem::path>& both :
+       {std::vector{grid, solution}, std::vector{solution, grid}}) {
+    options_.script.clear();
+    at(2, {.kind = InputKind::kDrop, .files = both});
+    (void)run_window(model_, options_);
+    EXPECT_EQ(model_.last_opened, (InputFiles{{grid}, solution}));
+  }
+  options_.script.clear();
+  at(2, {.kind = InputKind::kDrop, .files = {solution}});
+  (void)run_window(model_, options_);
+  EXPECT_EQ(model_.last_opened, (InputFiles{{solution}, {}})) << "there is no grid that it goes with";
+  model_.files_of_scene = {grid};
+  (void)run_window(model_, options_);
+  EXPECT_EQ(model_.last_opened, (InputFiles{{grid}, solution})) << "with the one that is open";
 }
 
 TEST_F(WindowTest, HelpAndRatesAreShownAndSessionsSaved) {
