@@ -3,6 +3,12 @@
 namespace palpate {
 namespace {
 
+// What no arm at a desk has, and what no hand tells from a leap.
+constexpr Range kForceRange{.lower = 0.0, .upper = 100.0, .above = true};
+constexpr Range kSlewRange{.lower = 0.0, .upper = 1e9, .above = true};
+// An axis that is left by less than an encoder's noise would be left and taken at each step.
+constexpr Range kPullRange{.lower = 0.5};
+
 const Setting kHandRows[] = {
     {.name = "mode",
      .place = kTouchAt<&TouchOptions::mode>,
@@ -57,7 +63,7 @@ const Setting kHandRows[] = {
      .heading = "Touch",
      .groups = {Group::kTouch},
      .unit = "N",
-     .range = kAboveZero,
+     .range = kForceRange,
      .recorded = true},
     {.name = "slew-cap",
      .place = kTouchAt<&TouchOptions::slew_cap>,
@@ -66,7 +72,7 @@ const Setting kHandRows[] = {
      .heading = "Touch",
      .groups = {Group::kTouch},
      .unit = "N/s",
-     .range = kAboveZero,
+     .range = kSlewRange,
      .recorded = true},
 
     {.name = "anisotropy-curve",
@@ -476,7 +482,7 @@ const Setting kHandRows[] = {
      .groups = {Group::kTouch},
      .kinds = kVolumes,
      .unit = "mm",
-     .range = kAboveZero,
+     .range = kPullRange,
      .slider = {.lower = 0.5, .upper = 30.0},
      .recorded = true},
     {.name = "grid-notch",
