@@ -266,6 +266,14 @@ FeelScore feel_live(WorkbenchDevice& workbench, const TrialOptions& o, double se
   return score;
 }
 
+/// What does not hold has failed.
+ExitCode verdict(const FeelScore& score) {
+  const std::vector<StabilityCase> cases = score.cases();
+  const bool holds =
+      std::all_of(cases.begin(), cases.end(), [](const StabilityCase& c) { return c.row.holds; });
+  return holds ? ExitCode::kDone : ExitCode::kWorkFailed;
+}
+
 ExitCode run_feel(const Document& document, const VerbContext& context) {
   TrialOptions options = document.trial;
   const bool recorded = !document.hand.path.empty();
@@ -287,7 +295,7 @@ ExitCode run_feel(const Document& document, const VerbContext& context) {
     context.console.print(score_text(score, options, nullptr));
     context.console.print_json(score_json(score, options, device_name(simulated), nullptr)
                                    .dump(2, ' ', false, Json::error_handler_t::replace));
-    return ExitCode::kDone;
+    return verdict(score);
   }
   std::unique_ptr<WorkbenchDevice> workbench;
   StrokingHand hand(effect_of(options) == FeelEffect::kSphere ? kFeelSphereRadius : 0.0,
@@ -303,7 +311,7 @@ ExitCode run_feel(const Document& document, const VerbContext& context) {
   context.console.print(score_text(score, options, &timing));
   context.console.print_json(score_json(score, options, workbench->key(), &timing)
                                  .dump(2, ' ', false, Json::error_handler_t::replace));
-  return ExitCode::kDone;
+  return verdict(score);
 }
 
 }  // namespace

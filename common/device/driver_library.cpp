@@ -46,8 +46,9 @@ DriverModule& open_new(const std::string& name) {
     const bool should_be =
         std::find(driver_names().begin(), driver_names().end(), name) != driver_names().end();
     if (should_be) {
-      throw work_error("the driver '" + name + "' was left out of this build; it needs " +
-                       std::string(needed_by(name)));
+      throw work_error("the driver '" + name + "' was not built: there is no palpate_driver_" + name +
+                       ".so beside this program; build that target, which there is only where " +
+                       std::string(needed_by(name)) + " was there, too");
     }
     throw usage_error("unknown device '" + name +
                       "'; known are mouse, replay:FILE.csv, hands:FILE.csv, simulated and the drivers " +

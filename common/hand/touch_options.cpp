@@ -33,14 +33,18 @@ IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
                               .along_streamline = options.along_streamline};
   if (!options.isovalues.empty()) {
     for (const std::string_view word : split(options.isovalues, ',')) {
-      Isovalues& all = settings.isovalues;
-      if (all.count == Isovalues::kMax) throw usage_error("--isovalue: at most eight values are taken");
-      double& value = all.value[static_cast<std::size_t>(all.count++)];
+      double value = 0.0;
       const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value);
       if (parsed.ec != std::errc() || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
         throw usage_error("--isovalue: numbers with commas between are expected, found '" +
                           options.isovalues + "'");
       }
+      // One that is named twice is one surface.
+      Isovalues& all = settings.isovalues;
+      const auto end = all.value.begin() + all.count;
+      if (std::find(all.value.begin(), end, value) != end) continue;
+      if (all.count == Isovalues::kMax) throw usage_error("--isovalue: at most eight values are taken");
+      all.value[static_cast<std::size_t>(all.count++)] = value;
     }
   }
   bool known = false;

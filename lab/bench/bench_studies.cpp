@@ -183,7 +183,26 @@ ReportAnswer study_walls(const Study& study) {
     text += "  " + std::string(row.device.title) + ": passive up to " + three_digits(row.stiffness.bound) +
             " N/m, swings unheld from " + three_digits(row.stiffness.unheld) + ", in a relaxed hand from " +
             three_digits(row.stiffness.relaxed) + " N/m\n";
-  return {.text = std::move(text), .json = text_of({{"out", folder.string()}, {"seconds", watch.seconds()}})};
+  Json devices = Json::array(), cases = Json::array();
+  for (const DeviceRow& row : wall.devices) {
+    devices.push_back({{"device", row.device.name},
+                       {"passive_n_per_m", row.stiffness.bound},
+                       {"swings_unheld_n_per_m", row.stiffness.unheld},
+                       {"swings_relaxed_n_per_m", row.stiffness.relaxed}});
+  }
+  for (const StabilityCase& c : wall.cases) {
+    cases.push_back({{"case", c.row.name},
+                     {"measured", c.row.measured},
+                     {"limit", c.row.limit},
+                     {"unit", c.unit},
+                     {"holds", c.row.holds}});
+  }
+  return {.text = std::move(text),
+          .json = text_of({{"device", wall.swept.name},
+                           {"devices", devices},
+                           {"cases", cases},
+                           {"out", folder.string()},
+                           {"seconds", watch.seconds()}})};
 }
 
 }  // namespace palpate

@@ -208,7 +208,7 @@ TEST_F(GridWidget, RefusesWhatMakesNoGridOrPlane) {
   refused("--grid-marks", "w:3");
   refused("--grid-switch", "faces");
   refused("--grid-peaks", "99");
-  refused("--grid-pull", "0");
+  refused("--grid-pull", "0.1");
   refused("--grid-detents", "2");
   refused("--planes", "1,2,3");
   refused("--planes", "through:0,0,0,1,1,1,2,2,2");

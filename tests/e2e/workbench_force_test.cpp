@@ -20,22 +20,39 @@ class WorkbenchForce : public ExplorerTest {
     }
     folder_.write("hand.csv", path.str());
   }
+
+  /// What `feel` says; it has failed where one of its cases has.
+  Json felt(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "feel");
+    arguments.emplace_back("--json");
+    const ProgramResult result = run(arguments);
+    Json object = Json::parse(result.out, nullptr, false);
+    EXPECT_TRUE(object.is_object()) << result.out << result.err;
+    bool holds = true;
+    for (const Json& each : object["cases"]) holds = holds && each["holds"].get<bool>();
+    EXPECT_EQ(result.exit_code, holds ? 0 : 1) << result.out << result.err;
+    return object;
+  }
 };
 
 TEST_F(WorkbenchForce, JudgesARecordedHand) {
-  const Json felt = json({"feel", "--path", "hand.csv", "--stiffness", "500", "--out", "log.csv"});
-  EXPECT_EQ(felt["effect"], "wall");
-  EXPECT_EQ(felt["steps"], 3001);
-  EXPECT_NEAR(felt["deepest_m"].get<double>(), 0.006, 1e-6);
-  EXPECT_NEAR(felt["max_force_n"].get<double>(), 3.0, 1e-3);
-  EXPECT_NEAR(felt["shown_stiffness_n_per_m"].get<double>(), 500.0, 0.5);
-  for (const Json& each : felt["cases"]) EXPECT_EQ(each["holds"], true) << each;
+  const Json soft = json({"feel", "--path", "hand.csv", "--stiffness", "500", "--out", "log.csv"});
+  EXPECT_EQ(soft["effect"], "wall");
+  EXPECT_EQ(soft["steps"], 3001);
+  EXPECT_NEAR(soft["deepest_m"].get<double>(), 0.006, 1e-6);
+  EXPECT_NEAR(soft["max_force_n"].get<double>(), 3.0, 1e-3);
+  EXPECT_NEAR(soft["shown_stiffness_n_per_m"].get<double>(), 500.0, 0.5);
+  for (const Json& each : soft["cases"]) EXPECT_EQ(each["holds"], true) << each;
   const std::string log = read_file(folder_.path("log.csv"));
   EXPECT_TRUE(log.starts_with("t,x,y,z,px,py,pz,fx,fy,fz,state,residual,us")) << log.substr(0, 80);
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 3002);
   EXPECT_EQ(run({"feel", "--path", "hand.csv", "--out", "log.csv"}).exit_code, 2);  // it is there
+  // 2000 N/m over 6 mm are more than the cap of 4 N: it is softer than that, and has failed.
+  const ProgramResult hard = run({"feel", "--path", "hand.csv", "--stiffness", "2000"});
+  EXPECT_EQ(hard.exit_code, 1);
+  EXPECT_NE(hard.out.find("FAILS  stiffness shown"), std::string::npos) << hard.out;
   // On an arm that its hand moves, which lags and gives.
-  const Json arm = json({"feel", "--path", "hand.csv", "--device", "simulated:falcon", "--effect", "groove"});
+  const Json arm = felt({"--path", "hand.csv", "--device", "simulated:falcon", "--effect", "groove"});
   EXPECT_EQ(arm["device"], "simulated:falcon");
   EXPECT_GT(arm["steps_in_contact"].get<int>(), 1000);
   EXPECT_LT(arm["leak"].get<double>(), 0.02);
@@ -43,18 +60,18 @@ TEST_F(WorkbenchForce, JudgesARecordedHand) {
 
 TEST_F(WorkbenchForce, FeelsALiveArmWithReadOuts) {
   const ProgramResult text = run({"feel", "--device", "simulated:falcon", "--seconds", "1", "--rate", "20"});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_EQ(text.exit_code, text.out.find("  FAILS  ") == std::string::npos ? 0 : 1) << text.out << text.err;
   EXPECT_NE(text.out.find(" mm in"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("new samples a second"), std::string::npos) << text.out;
   // It begins in free air, strokes into the effect and out again.
-  const Json wall = json({"feel", "--device", "simulated:falcon", "--seconds", "2.5"});
+  const Json wall = felt({"--device", "simulated:falcon", "--seconds", "2.5"});
   const int contact = wall["steps_in_contact"], steps = wall["steps"];
   EXPECT_GT(contact, 0);
   EXPECT_LT(contact, steps * 4 / 5);
   EXPECT_LT(wall["free_force_n"].get<double>(), 0.05);
   // A real driver's device, here on an emulated wire: homed, then felt.
   const Json falcon =
-      json({"feel", "--device", "falcon_emulated:button=none", "--effect", "sphere", "--seconds", "3"});
+      felt({"--device", "falcon_emulated:button=none", "--effect", "sphere", "--seconds", "3"});
   EXPECT_GT(falcon["sample_rate_hz"].get<double>(), 10.0);
   EXPECT_LE(falcon["max_force_n"].get<double>(), 8.0);
   EXPECT_GT(falcon["steps_in_contact"].get<int>(), 0);
@@ -76,7 +93,7 @@ TEST_F(WorkbenchForce, TunesAnArmForTheExplorers) {
   const double found = tuned["stiffness_n_per_m"];
   const ProgramResult felt = run({"feel", "--path", "hand.csv", "--device", "simulated:ideal", "--stiffness",
                                   "5000", "--workbench", "workbench.toml", "--json"});
-  EXPECT_EQ(felt.exit_code, 0) << felt.err;
+  EXPECT_LE(felt.exit_code, 1) << felt.err;
   EXPECT_NEAR(Json::parse(felt.out)["stiffness_n_per_m"].get<double>(), found, 1e-9);
   EXPECT_NE(felt.err.find("tuning found"), std::string::npos) << felt.err;
 }

@@ -3,6 +3,9 @@
 namespace palpate {
 namespace {
 
+// An axis that is left by less than an encoder's noise would be left and taken at each step.
+constexpr Range kPullRange{.lower = 0.5};
+
 const Setting kModeRows[] = {
     {.name = "reference",
      .place = kLinearAt<&LinearSpec::reference>,
@@ -172,7 +175,7 @@ const Setting kModeRows[] = {
      .groups = {Group::kTouch},
      .kinds = kVolumes,
      .unit = "mm",
-     .range = kAboveZero,
+     .range = kPullRange,
      .slider = {.lower = 0.5, .upper = 30.0},
      .recorded = true},
     {.name = "grid-notch",

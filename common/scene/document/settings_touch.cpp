@@ -3,6 +3,10 @@
 namespace palpate {
 namespace {
 
+// What no arm at a desk has, and what no hand tells from a leap.
+constexpr Range kForceRange{.lower = 0.0, .upper = 100.0, .above = true};
+constexpr Range kSlewRange{.lower = 0.0, .upper = 1e9, .above = true};
+
 const Setting kTouchRows[] = {
     {.name = "mode",
      .place = kTouchAt<&TouchOptions::mode>,
@@ -57,7 +61,7 @@ const Setting kTouchRows[] = {
      .heading = "Touch",
      .groups = {Group::kTouch},
      .unit = "N",
-     .range = kAboveZero,
+     .range = kForceRange,
      .recorded = true},
     {.name = "slew-cap",
      .place = kTouchAt<&TouchOptions::slew_cap>,
@@ -66,7 +70,7 @@ const Setting kTouchRows[] = {
      .heading = "Touch",
      .groups = {Group::kTouch},
      .unit = "N/s",
-     .range = kAboveZero,
+     .range = kSlewRange,
      .recorded = true},
 
     {.name = "anisotropy-curve",

@@ -38,6 +38,21 @@ std::string refusal(const std::string& option, const std::string& value) {
   return "";
 }
 
+// A value that is named twice, however it is written, is one surface.
+TEST(TouchOptions, JoinDoubledIsovalues) {
+  TouchOptions touch;
+  touch.isovalues = "0.5,1,5e-1,1.0,2,0.50";
+  const Isovalues values = touch_settings(touch).isosurface.isovalues;
+  ASSERT_EQ(values.count, 3);
+  EXPECT_EQ(values.value[0], 0.5);
+  EXPECT_EQ(values.value[1], 1.0);
+  EXPECT_EQ(values.value[2], 2.0);
+  touch.isovalues = "1,2,3,4,5,6,7,8,8,1";
+  EXPECT_EQ(touch_settings(touch).isosurface.isovalues.count, 8);
+  touch.isovalues = "1,2,3,4,5,6,7,8,9";
+  EXPECT_THROW((void)touch_settings(touch), Error);
+}
+
 TEST(TouchOptions, RefuseWhatNoChainCanUse) {
   struct Bad {
     std::string option;
@@ -60,8 +75,8 @@ TEST(TouchOptions, RefuseWhatNoChainCanUse) {
                                        {"--kappa", {"-0.5", "1.5", "nan", "1:0,0:1"}},
                                        {"--measure", {"colour"}},
                                        {"--friction", {"-1", "nan", "inf"}},
-                                       {"--force-cap", {"-1", "0", "nan", "inf"}},
-                                       {"--slew-cap", {"-1", "0", "nan", "inf"}},
+                                       {"--force-cap", {"-1", "0", "nan", "inf", "101", "1e300"}},
+                                       {"--slew-cap", {"-1", "0", "nan", "inf", "1e300"}},
                                        {"--workspace-scale", {"-1", "nan", "inf"}}}) {
     for (const std::string& value : values) {
       const std::string line = refusal(option, value);

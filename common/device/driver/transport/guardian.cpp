@@ -17,7 +17,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kStartTime = 5000;  // [ms] that starting it may take on a busy machine
+constexpr int kStartTime = 700;  // [ms] that starting it may take: less than the longest round
 
 /// Two lower-case digits a byte.
 std::string hex(std::span<const std::uint8_t> bytes) {
@@ -66,7 +66,9 @@ Guardian::Guardian(const std::vector<std::string>& line, std::span<const std::ui
   pollfd answer{.fd = pipe_, .events = POLLIN, .revents = 0};
   char said = 0;
   const bool ready = process_ > 0 && ::poll(&answer, 1, kStartTime) == 1 && ::read(pipe_, &said, 1) == 1;
-  if (!ready) let_go();
+  if (ready) return;
+  if (process_ > 0) ::kill(process_, SIGKILL);  // it would be waited for
+  let_go();
 }
 
 Guardian::~Guardian() { let_go(); }
