@@ -32,6 +32,7 @@
 #include "common/render/tract/tract_pass.h"
 #include "common/render/tract/tract_progress.h"
 #include "common/render/volume/estimate/picture_estimates.h"
+#include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_pass.h"
 
 namespace palpate {
@@ -87,10 +88,10 @@ struct SceneRenderer::State {
   std::optional<SceneView> still;
   std::size_t still_path = 0;  // the path is drawn there up to this point
   TractProgress progress;
-  std::function<bool()> stop_tracts;  // of the call of draw()
-  double tract_ms = 0.0;              // of the last picture
-  double unseen_tract_ms = 0.0;       // of tracts that the volume has not been drawn over
-  double volume_ms = 0.0;             // over tracts, the last time
+  std::function<bool()> stop_tracts, stop;  // of the call of draw()
+  double tract_ms = 0.0;                    // of the last picture
+  double unseen_tract_ms = 0.0;             // of tracts that the volume has not been drawn over
+  double volume_ms = 0.0;                   // over tracts, the last time
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -226,9 +227,9 @@ struct SceneRenderer::State {
     show_layers(view, base, unit);
     update_volume(view);
     const std::uint32_t opaque_depth = target.copy_depth();
-    if (!keeps_for_error) return volume->draw(opaque_depth, block);
+    if (!keeps_for_error) return volume->draw(opaque_depth, block, stop);
     StillPicture kept{.behind = read_picture(), .opaque_depth = opaque_depth};
-    volume->draw(opaque_depth, block);
+    volume->draw(opaque_depth, block, stop);
     kept.shown = read_picture();
     kept.resolution = static_cast<double>(block.size.y) / kept.shown.height;
     kept.block = block;
@@ -382,16 +383,27 @@ struct SceneRenderer::State {
 SceneRenderer::SceneRenderer() : state_(std::make_unique<State>()) {}
 SceneRenderer::~SceneRenderer() = default;
 
-void SceneRenderer::draw(const SceneView& view, int width, int height, double resolution,
-                         double tract_milliseconds, const std::function<bool()>& stop_tracts) {
+bool SceneRenderer::draw(const SceneView& view, int width, int height, double resolution,
+                         double tract_milliseconds, const std::function<bool()>& stop_tracts,
+                         const std::function<bool()>& stop) {
   State& s = *state_;
   s.stop_tracts = stop_tracts;
+  s.stop = {};
   s.estimates.forget();
   s.timer.begin();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
-    s.draw_eye(view, width, height, resolution, tract_milliseconds);
-    return;
+    s.stop = stop;
+    try {
+      s.draw_eye(view, width, height, resolution, tract_milliseconds);
+    } catch (const DrawingStopped&) {
+      s.still.reset();
+      glBindVertexArray(0);
+      glUseProgram(0);
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      return false;
+    }
+    return true;
   }
   if (!s.stereo) s.stereo = std::make_unique<StereoPass>();
   s.stereo->begin(view.stereo.mode, width, height);
@@ -406,6 +418,7 @@ void SceneRenderer::draw(const SceneView& view, int width, int height, double re
     s.stereo->keep(view.stereo.swapped ? 1 - i : i, s.target.resolved());
   }
   s.stereo->compose(view.stereo.first);
+  return true;
 }
 
 bool SceneRenderer::complete() const noexcept {

@@ -50,4 +50,8 @@ std::size_t events_of_frame(std::span<const InputEvent> events) {
   return count;
 }
 
+bool wants_answer(std::span<const InputEvent> events) {
+  return std::ranges::any_of(events, [](const InputEvent& event) { return event.kind != InputKind::kMove; });
+}
+
 }  // namespace palpate

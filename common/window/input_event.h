@@ -51,6 +51,9 @@ struct InputEvent {
 /// switches the force off waits for nothing: all are taken then.
 [[nodiscard]] std::size_t events_of_frame(std::span<const InputEvent> events);
 
+/// Whether one of them is to be answered at once: all but the mouse that goes by with no button held.
+[[nodiscard]] bool wants_answer(std::span<const InputEvent> events);
+
 /// An event at a frame.
 struct ScriptedEvent {
   int frame = 0;

@@ -30,7 +30,7 @@ constexpr std::uint64_t kBrickUpload = std::uint64_t{8} << 20;
 }  // namespace
 
 void LivePicture::draw(SceneView view, int width, int height, const PictureMoment& moment) {
-  const double rest_time = moment.seconds - lens_moved_;
+  const double rest_time = moment.seconds - moved_;
   if (moment.editing && is_edited(view)) edited_ = moment.seconds;
   asked_ = view.volume;
   const bool moving =
@@ -56,9 +56,15 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     const bool patient = !moving && moment.interrupted;
     renderer_.keep_for_error(wants_error);
     estimating_ = wants_error;
-    renderer_.draw(view, width, height, quality.resolution,
-                   (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
-                   patient ? moment.interrupted : nullptr);
+    const bool stays = !moving && width == width_ && height == height_;
+    left_ = !renderer_.draw(view, width, height, quality.resolution,
+                            (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),
+                            patient ? moment.interrupted : nullptr, stays ? moment.stop : nullptr);
+    if (left_) {
+      dirty_ = true;
+      estimating_ = saving_ = preparing_ = refining_ = false;
+      return;
+    }
     figures_.milliseconds = renderer_.finish();
     figures_.tracts = renderer_.tract_share();
     figures_.coarser_voxels = renderer_.coarser_voxels();
@@ -66,7 +72,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     if (moving) {
       tract_time_.drawn(figures_.milliseconds, figures_.tracts.milliseconds);
       // Nothing rests while a picture of how it moved is made.
-      lens_moved_ += 1e-3 * figures_.milliseconds;
+      moved_ += 1e-3 * figures_.milliseconds;
       edited_ += 1e-3 * figures_.milliseconds;
     }
     figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;

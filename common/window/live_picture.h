@@ -39,6 +39,9 @@ struct PictureMoment {
   /// Set while nobody waits for a picture: fewer are shown then, and more time is left for tracts, and to
   /// look at errors and to refine, until it returns true.
   std::function<bool()> interrupted;
+  /// Asked while a picture of what rests is drawn: where something waits for an answer, that picture is left for
+  /// the next call, and the last one stays.
+  std::function<bool()> stop;
   /// The cut of the volume that may be moved next: while nobody waits, what does not change then is kept.
   std::optional<std::size_t> next_cut;
 };
@@ -51,8 +54,8 @@ class LivePicture {
 
   /// The next picture is drawn whatever it shows: the window was uncovered, or the scene is another.
   void damage() { dirty_ = true; }
-  /// A lens or a plane was moved at `seconds`: until it has rested, pictures count as moving.
-  void lens_moved(double seconds) { lens_moved_ = seconds; }
+  /// A lens, a plane or the view was moved at `seconds`: until it has rested, pictures count as moving.
+  void moved(double seconds) { moved_ = seconds; }
 
   /// Draws `width` x `height` pixels of `view` where they differ from what was drawn last, or more is to be
   /// added to them.
@@ -62,7 +65,7 @@ class LivePicture {
 
   /// Whether nothing is left to be added, or to be kept for what comes next.
   [[nodiscard]] bool complete() const {
-    return renderer_.complete() && !preparing_ && !estimating_ && !saving_ && !refining_;
+    return !left_ && renderer_.complete() && !preparing_ && !estimating_ && !saving_ && !refining_;
   }
   [[nodiscard]] const PictureFigures& figures() const { return figures_; }
   [[nodiscard]] auto read() { return renderer_.read(); }
@@ -89,6 +92,7 @@ class LivePicture {
   std::optional<VolumeView> asked_;  // the volume as it was asked for last
   int width_ = 0, height_ = 0;
   bool dirty_ = true, preparing_ = false, moving_ = false;
+  bool left_ = false;                  // the last picture was left: it is to be drawn yet
   std::optional<VolumeView> resting_;  // as it was asked for last: while it stands, what is known of it does
   Camera resting_camera_;
   bool estimating_ = false;                           // the error of the last picture is looked at
@@ -97,7 +101,7 @@ class LivePicture {
   bool refining_ = false, refined_ = false;
   bool passing_ = false;  // one pass over the picture, tile by tile, is under way
   int finer_ = 0;         // doublings of the samples that were asked for
-  double lens_moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
+  double moved_ = -1.0, edited_ = -1.0, last_drawn_ = 0.0;  // [s]
   std::vector<double> milliseconds_;
   PictureFigures figures_;
 };

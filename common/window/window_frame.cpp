@@ -56,7 +56,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   follow_layer();
   follow_edits();
   if (!same_scene(state_.document, before)) jobs_.give_way();
-  if (controls_.take_lens_moved()) live_->lens_moved(glfwGetTime());
+  if (controls_.take_lens_moved()) live_->moved(glfwGetTime());
   const SceneView picture = with_focus();
   draw_picture(picture, width, height);
   draw_second_pointer();
@@ -108,7 +108,7 @@ void ExplorerWindow::cut_volume() {
     }
   }
   const PlanePoses& poses = touch_.planes()->poses;
-  if (!(poses == cut_planes_)) live_->lens_moved(glfwGetTime());
+  if (!(poses == cut_planes_)) live_->moved(glfwGetTime());
   cut_by_planes(*view_.volume, poses, cut_planes_.count);
   cut_planes_ = poses;
 }
@@ -184,6 +184,12 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
     moment.interrupted = [this] {
       glfwPollEvents();
       return !glfw_.events().empty();
+    };
+  }
+  if (!scripted()) {
+    moment.stop = [this] {
+      glfwPollEvents();
+      return glfwWindowShouldClose(glfw_.get()) == GLFW_TRUE || wants_answer(glfw_.events());
     };
   }
   if (touch_.planes()) moment.next_cut = static_cast<std::size_t>(touch_.planes()->current);

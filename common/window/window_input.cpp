@@ -69,6 +69,8 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     // The one key that works in text fields, too.
     if (command == Command::kForceOff) run_command(*command);
     controls_.follow_pointer(event, controlled());
+    // Notch by notch the wheel moves what is looked at.
+    if (event.kind == InputKind::kWheel && !io.WantCaptureMouse) live_->moved(glfwGetTime());
     if (files_.handle(event)) continue;
     say(controls_.handle(event, controlled(), io.WantCaptureMouse, io.WantTextInput));
     // Esc closes an open list, and nothing else.

@@ -88,10 +88,13 @@ bool RenderTarget::resize(int width, int height, double resolution) {
   scene_depth_ =
       make_storage(GL_DEPTH_COMPONENT32F, kSamples, scene_width, scene_height, "depths of the scene");
   averaged_color_ = make_storage(GL_RGBA8, 1, scene_width, scene_height, "scene, one sample a pixel");
-  resolved_color_ = make_storage(GL_RGBA8, 1, width, height, "picture");
+  // The last picture of that size stays until the next is whole.
+  if (width != width_ || height != height_) {
+    resolved_color_ = make_storage(GL_RGBA8, 1, width, height, "picture");
+    resolved_ = make_framebuffer(resolved_color_, {});
+  }
   scene_ = make_framebuffer(scene_color_, scene_depth_);
   averaged_ = make_framebuffer(averaged_color_, {});
-  resolved_ = make_framebuffer(resolved_color_, {});
   width_ = width;
   height_ = height;
   scene_width_ = scene_width;

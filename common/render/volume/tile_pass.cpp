@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "common/base/check.h"
+#include "common/base/clock.h"
 #include "common/base/index.h"
 #include "common/math/power_of_two.h"
 #include "common/render/gl/program.h"
@@ -46,12 +47,33 @@ TileGrid TileGrid::of(const FrameBlock& block) noexcept {
           (static_cast<int>(block.size.y) + kPixels - 1) / kPixels};
 }
 
-void draw_tiles(const TileGrid& grid) {
+void draw_rows(int rows, const std::function<bool()>& stop, const DrawRows& draw) {
+  if (!stop) return draw(0, rows);
+  constexpr double kPart = 0.02;  // [s]
+  constexpr int kFewestParts = 40;
+  const int most = std::max(1, rows / kFewestParts);
+  int count = 1;
+  for (int first = 0; first < rows;) {
+    count = std::min(count, rows - first);
+    const Stopwatch watch;
+    draw(first, count);
+    glFinish();
+    first += count;
+    if (first < rows && stop()) throw DrawingStopped();
+    const double seconds = watch.seconds();
+    if (seconds < 0.5 * kPart) count = std::min(2 * count, most);
+    if (seconds > kPart) count = std::max(count / 2, 1);
+  }
+}
+
+void draw_tiles(const TileGrid& grid, const std::function<bool()>& stop) {
   std::array<GLint, 4> viewport{};
   glGetIntegerv(GL_VIEWPORT, viewport.data());
   glViewport(viewport[0], viewport[1], TileGrid::kPixels * grid.columns, TileGrid::kPixels * grid.rows);
   glPointSize(TileGrid::kPixels);
-  glDrawArrays(GL_POINTS, 0, grid.columns * grid.rows);
+  draw_rows(grid.rows, stop, [&](int first, int count) {
+    glDrawArrays(GL_POINTS, grid.columns * first, grid.columns * count);
+  });
   glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
 }
 

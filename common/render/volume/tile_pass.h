@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,11 +37,20 @@ struct TileGrid {
   bool operator==(const TileGrid&) const = default;
 };
 
+/// What was asked for while a picture was drawn, whose drawing it ends: to be caught where that began.
+struct DrawingStopped {};
+
+/// Draws rows from `first` on, `count` of them.
+using DrawRows = std::function<void(int first, int count)>;
+/// Draws `rows` of a picture at once, or where `stop` is set in parts of some hundredths of a second, between
+/// which it is asked. @throws DrawingStopped when it says so.
+void draw_rows(int rows, const std::function<bool()>& stop, const DrawRows& draw);
+
 /// Draws one point for each tile with the program in use; vertex number column + columns row belongs to the
 /// middle of its tile in clip coordinates of all tiles, out of which tiles are left out. Points are squares
 /// of pixels, where two triangles would have software rasterisers compute those on their diagonal twice.
-/// Keeps the viewport.
-void draw_tiles(const TileGrid& grid);
+/// Keeps the viewport. @param stop as of draw_rows(), whose exception it throws.
+void draw_tiles(const TileGrid& grid, const std::function<bool()>& stop = {});
 
 class TilePass {
  public:

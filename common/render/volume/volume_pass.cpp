@@ -114,6 +114,7 @@ struct VolumePass::State {
   bool made_slabs = false;
   std::unique_ptr<CachedVolume> cached;
   bool cached_picture = false;  // by the last draw()
+  std::function<bool()> stop;   // of the draw() that goes on
 
   const GlProgram& program_of(Reach reach) {
     GlProgram& program = programs[as_size(reach)][as_size(variant)];
@@ -212,8 +213,16 @@ struct VolumePass::State {
   }
 
   void cast_rays() const {
-    if (asks_tiles && layers == nullptr) return draw_tiles(textures.tiles().grid());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    if (asks_tiles && layers == nullptr) return draw_tiles(textures.tiles().grid(), stop);
+    if (!stop) return glDrawArrays(GL_TRIANGLES, 0, 3);
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    glEnable(GL_SCISSOR_TEST);
+    draw_rows(viewport[3], stop, [&](int first, int count) {
+      glScissor(viewport[0], viewport[1] + first, viewport[2], count);
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+    });
+    glDisable(GL_SCISSOR_TEST);
   }
 
   static void set_slab(const SlabCache::Slab& slab) {
@@ -289,11 +298,41 @@ struct VolumePass::State {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     if (context) {
-      draw_tiles(context->grid());
+      draw_tiles(context->grid(), stop);
     } else {
       cast_rays();
     }
     glDisable(GL_BLEND);
+  }
+
+  // As VolumePass::draw().
+  void draw_picture(std::uint32_t opaque_depth, const FrameBlock& block, bool has_bricks) {
+    made_slabs = cached_picture = false;
+    cost.slab_bytes = 0;
+    const bool with_slabs = !context && uses_slabs(block, opaque_depth != 0);
+    const bool stands = drawn_view && drawn_block == block && same_picture(*drawn_view, shown);
+    const bool keeps =
+        CachedVolume::possible(shown) || (cached && cached->refined() && cached->fits(shown, block));
+    if (opaque_depth != 0 && keeps && has_bricks && (stands || !with_slabs)) {
+      if (!cached || !cached->fits(shown, block)) {
+        cached = std::make_unique<CachedVolume>(
+            shown, block, opaque_depth, [&] { draw_volume(with_slabs, opaque_depth, block, nullptr); });
+        cached_picture = true;
+      }
+      cached->show(opaque_depth);
+      if (!cached_picture && context) {
+        cast_again(sampled_view(shown, 1.0, 1.0), opaque_depth, 1.0F, cached.get());
+      } else if (!cached_picture) {
+        draw_volume(with_slabs, opaque_depth, block, cached.get());
+      }
+    } else {
+      cached.reset();
+      draw_volume(with_slabs, opaque_depth, block, nullptr);
+    }
+    cost.cached_bytes = cached ? cached->bytes() : 0;
+    drawn_view = shown;
+    drawn_block = block;
+    drawn_depth = opaque_depth;
   }
 };
 
@@ -360,35 +399,23 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   }
 }
 
-void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block) {
+void VolumePass::draw(std::uint32_t opaque_depth, const FrameBlock& block,
+                      const std::function<bool()>& stop) {
   State& s = *state_;
   PALPATE_CHECK(s.textures.image() != nullptr);
-  s.made_slabs = s.cached_picture = false;
-  s.cost.slab_bytes = 0;
-  const bool slabs = !s.context && s.uses_slabs(block, opaque_depth != 0);
-  const bool stands = s.drawn_view && s.drawn_block == block && same_picture(*s.drawn_view, s.shown);
-  const bool keeps =
-      CachedVolume::possible(s.shown) || (s.cached && s.cached->refined() && s.cached->fits(s.shown, block));
-  if (opaque_depth != 0 && keeps && bricks().complete() && (stands || !slabs)) {
-    if (!s.cached || !s.cached->fits(s.shown, block)) {
-      s.cached = std::make_unique<CachedVolume>(s.shown, block, opaque_depth,
-                                                [&] { s.draw_volume(slabs, opaque_depth, block, nullptr); });
-      s.cached_picture = true;
-    }
-    s.cached->show(opaque_depth);
-    if (!s.cached_picture && s.context) {
-      s.cast_again(sampled_view(s.shown, 1.0, 1.0), opaque_depth, 1.0F, s.cached.get());
-    } else if (!s.cached_picture) {
-      s.draw_volume(slabs, opaque_depth, block, s.cached.get());
-    }
-  } else {
+  s.stop = stop;
+  try {
+    s.draw_picture(opaque_depth, block, bricks().complete());
+  } catch (const DrawingStopped&) {
+    s.stop = {};
     s.cached.reset();
-    s.draw_volume(slabs, opaque_depth, block, nullptr);
+    s.slabs.reset();
+    s.drawn_view.reset();
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    throw;
   }
-  s.cost.cached_bytes = s.cached ? s.cached->bytes() : 0;
-  s.drawn_view = s.shown;
-  s.drawn_block = block;
-  s.drawn_depth = opaque_depth;
+  s.stop = {};
 }
 
 const VolumeView& VolumePass::drawn_view() const {

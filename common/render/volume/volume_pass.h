@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,7 +58,10 @@ class VolumePass {
   /// (VolumeView::cache_picture).
   /// @pre update().
   /// @param block the frame's.
-  void draw(std::uint32_t opaque_depth, const FrameBlock& block);
+  /// @param stop where set, asked every few hundredths of a second; where it says so, nothing is kept of the
+  /// picture.
+  /// @throws DrawingStopped (tile_pass.h) then.
+  void draw(std::uint32_t opaque_depth, const FrameBlock& block, const std::function<bool()>& stop = {});
 
   /// Draws the values on the planes of the view, opaque and with depth, where shows_planes(): before draw(),
   /// so that they end its rays. Needs the frame's uniform block bound to 0.

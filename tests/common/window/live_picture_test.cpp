@@ -116,6 +116,40 @@ TEST(LivePicture, AtRestConvergesAndKnowsTheErrorOfWhatMoves) {
   }
 }
 
+// Who comes up while the full picture of a volume is drawn waits for a part of it alone; what was shown stays.
+TEST(LivePicture, IsLeftWhereInputWaits) {
+  const OffscreenContext context;
+  VolumeView volume = sampled_view(marschner_lobb);
+  volume.samples_per_voxel = 0.5;
+  SceneView view = scene_of(volume);
+  LivePicture picture(1e4);
+  picture.draw(view, kSize, kSize, {.seconds = 1.0});
+  const Image before = picture.read();
+  turn(view.camera, 0.5, 0.0);
+  const Image turned = [&] {
+    LivePicture other(1e4);
+    other.draw(view, kSize, kSize, {.seconds = 1.0});
+    return other.read();
+  }();
+  ASSERT_GT(largest_difference(before, turned), 20);
+  for (int parts = 0; parts < 3; ++parts) {
+    int asked = 0;
+    picture.draw(view, kSize, kSize, {.seconds = 2.0, .stop = [&] { return asked++ == parts; }});
+    EXPECT_EQ(asked, parts + 1) << "it is asked between parts, and then no more";
+    EXPECT_FALSE(picture.complete());
+    EXPECT_EQ(largest_difference(picture.read(), before), 0) << "the last one stays";
+  }
+  // In parts that nobody stops, and at once after one that was: the same picture.
+  int asked = 0;
+  picture.draw(view, kSize, kSize, {.seconds = 3.0, .stop = [&] { return ++asked < 0; }});
+  EXPECT_GE(asked, 5);
+  EXPECT_TRUE(picture.complete());
+  EXPECT_EQ(largest_difference(picture.read(), turned), 0);
+  turn(view.camera, -0.5, 0.0);
+  picture.draw(view, kSize, kSize, {.seconds = 4.0});
+  EXPECT_EQ(largest_difference(picture.read(), before), 0);
+}
+
 // Something comes up while it refines: what was begun is left, and taken up again.
 TEST(LivePicture, LetsItselfBeInterrupted) {
   const OffscreenContext context;
