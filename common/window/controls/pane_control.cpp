@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "common/base/text.h"
+#include "common/window/controls/plane_image_control.h"
 
 namespace palpate {
 namespace {
@@ -200,15 +201,9 @@ void PaneControl::drag(const InputEvent& to, const PictureArea& picture, const S
       if (std::isfinite(angle)) panes.turn = glm::normalize(glm::angleAxis(angle, back) * panes.turn);
       return;
     }
-    case Does::kWindow: {
-      constexpr double kNarrowest = 1e-4;
-      const double range = volume.image->highest - volume.image->lowest;
-      ValueWindow window = window_of(volume);
-      window.width = std::max(window.width + range * (to.x - before_x_) / picture.width, kNarrowest * range);
-      window.level -= range * (to.y - before_y_) / picture.height;
-      if (window.width > 0.0) volume.planes.window = window;
+    case Does::kWindow:
+      drag_window(volume, (to.x - before_x_) / picture.width, (before_y_ - to.y) / picture.height);
       return;
-    }
   }
 }
 

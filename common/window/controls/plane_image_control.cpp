@@ -23,6 +23,14 @@ bool holds(const std::vector<Vec3>& polygon, const Vec3& normal, const Vec3& x) 
 
 }  // namespace
 
+void drag_window(VolumeView& view, double to_right, double to_top) {
+  const double range = view.image->highest - view.image->lowest;
+  ValueWindow window = window_of(view);
+  window.width = std::max(window.width + range * to_right, kNarrowest * range);
+  window.level += range * to_top;
+  if (window.width > 0.0) view.planes.window = window;
+}
+
 std::optional<Vec3> pick_plane_image(const VolumeView& view, const Camera& camera, const PictureArea& area,
                                      double x, double y) {
   if (!view.planes.shown || view.image == nullptr) return std::nullopt;
@@ -51,11 +59,7 @@ bool PlaneImageControl::handle(const InputEvent& event, const PictureArea& area,
       x_ = event.x;
       y_ = event.y;
       if (!dragging_) return false;
-      const double range = view.image->highest - view.image->lowest;
-      ValueWindow window = window_of(view);
-      window.width = std::max(window.width + range * dx / area.width, kNarrowest * range);
-      window.level -= range * dy / area.height;
-      if (window.width > 0.0) view.planes.window = window;
+      drag_window(view, dx / area.width, -dy / area.height);
       return true;
     }
     case InputKind::kPress:

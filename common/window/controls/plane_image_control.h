@@ -25,6 +25,9 @@ class PlaneImageControl {
   bool dragging_ = false;
 };
 
+/// Sets the grey values by a drag, in parts of the picture: to the right a wider window, upward a higher level.
+void drag_window(VolumeView& view, double to_right, double to_top);
+
 /// Where the ray of a place in the picture first meets what is drawn on a plane; nothing where it meets none.
 [[nodiscard]] std::optional<Vec3> pick_plane_image(const VolumeView& view, const Camera& camera,
                                                    const PictureArea& area, double x, double y);
