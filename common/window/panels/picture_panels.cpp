@@ -137,6 +137,7 @@ bool concerns(Command command, const PanelState& state) {
     case Command::kMode1:
       return touch;
     case Command::kCorner:
+    case Command::kLayout:
       return scene != nullptr && scene->is_volume_alone();
     case Command::kLens:
     case Command::kLensSmaller:
@@ -146,7 +147,7 @@ bool concerns(Command command, const PanelState& state) {
     case Command::kSliceRight:
     case Command::kSliceFront:
     case Command::kSliceUp:
-      return scene != nullptr && scene->tensors;
+      return scene != nullptr && (scene->tensors || scene->is_volume_alone());
     case Command::kPlay:
       return flow || (scene != nullptr && scene->info->times.size() > 1);
     case Command::kStepBack:
@@ -178,7 +179,11 @@ void list_keys(const PanelState& state, float width) {
   row("Ctrl+click on a slider", "type its number");
   if (concerns(Command::kLens, state)) row("wheel, lens at mouse", "its size; with Ctrl along the view");
   if (volume) row("Ctrl+drag on a plane", "its image: right widens the window, up raises the level");
-  if (concerns(Command::kSliceUp, state)) {
+  if (concerns(Command::kLayout, state)) {
+    row("drag in a slice", "the crosshair of all; with Shift it turns the other two");
+    row("right, middle drag", "in a slice: window and level, or move it");
+    row("wheel on a slice", "go through it; Ctrl and the wheel zoom");
+  } else if (concerns(Command::kSliceUp, state)) {
     row("click", "put the crosshair of slices there; drag it with Ctrl");
     row("wheel on a slice", "move it; Ctrl and the wheel zoom");
   }
