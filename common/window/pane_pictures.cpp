@@ -8,6 +8,14 @@ namespace palpate {
 
 void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
                         const std::string& under_mouse, const Pane* mouse_in, bool moving) {
+  // Outlines of many lenses take time.
+  const std::string words =
+      mouse_in != nullptr ? std::to_string(mouse_in - parts.data()) + under_mouse : std::string();
+  if (parts == parts_ && words == under_mouse_ && moving == moving_ && same_picture(scene, scene_)) return;
+  scene_ = scene;
+  parts_ = parts;
+  under_mouse_ = words;
+  moving_ = moving;
   std::erase_if(shown_, [&](const Shown& one) {
     return std::none_of(parts.begin(), parts.end(),
                         [&](const Pane& pane) { return pane.plane == one.pane.plane; });

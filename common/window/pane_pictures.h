@@ -33,6 +33,10 @@ class PanePictures {
     std::unique_ptr<SceneRenderer> renderer;
   };
   std::vector<Shown> shown_;
+  SceneView scene_;  // that they were drawn of last, as follows
+  std::vector<Pane> parts_;
+  std::string under_mouse_;
+  bool moving_ = false;
 };
 
 }  // namespace palpate
