@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -64,13 +65,13 @@ ParallelIndex read_parallel_index(const std::string& file) {
 }
 
 XmlScan check_parallel(const std::string& file, const ParallelIndex& index) {
-  const auto whole = cells_of_extent(index.whole_extent);
+  const auto whole = extent_of(index.whole_extent);
   if (!whole) {
     throw input_error(
         {file, "", "WholeExtent=\"" + index.whole_extent.substr(0, 60) + "\"", "six increasing numbers"});
   }
   std::set<std::filesystem::path> seen;
-  std::uint64_t covered = 0;
+  std::vector<Extent> extents;
   for (const ParallelPiece& piece : index.pieces) {
     const std::string name = piece.file.string();
     if (!seen.insert(piece.file.lexically_normal()).second)
@@ -82,22 +83,29 @@ XmlScan check_parallel(const std::string& file, const ParallelIndex& index) {
       throw input_error({name, "", "is of type '" + scan.data_type.substr(0, 40) + "'",
                          "pieces of a " + index.data_type + " as in " + file});
     }
-    const auto cells = cells_of_extent(piece.extent);
-    if (!cells || *cells > scan.whole_cells) {
-      throw input_error({name, "", "holds " + std::to_string(scan.whole_cells) + " cells",
+    const auto extent = extent_of(piece.extent);
+    if (!extent || extent->cells() > scan.whole.cells()) {
+      throw input_error({name, "", "holds " + std::to_string(scan.whole.cells()) + " cells",
                          "the extent \"" + piece.extent.substr(0, 60) + "\" of " + file});
     }
     for (const XmlArray& array : index.arrays) {
       if (!has(scan.arrays, array))
         throw input_error({name, "", "has no array '" + array.name + "'", "the arrays of " + file});
     }
-    if (__builtin_add_overflow(covered, *cells, &covered)) covered = ~std::uint64_t{0};
+    extents.push_back(*extent);
   }
-  if (covered < *whole) {
-    throw input_error({file, "", "its pieces cover " + std::to_string(covered) + " cells",
-                       std::to_string(*whole) + " of its whole extent"});
+  const auto left_out = cells_left_out(*whole, extents);
+  if (!left_out || *left_out > 0) {
+    throw input_error({file, "",
+                       left_out ? "its pieces leave out " + counted(*left_out, "cell")
+                                : "its pieces overlap so much that what they cover is not known",
+                       std::to_string(whole->cells()) + " of its whole extent"});
   }
-  return {.data_type = index.data_type, .arrays = index.arrays, .whole_cells = *whole, .problem = {}};
+  return {.data_type = index.data_type,
+          .arrays = index.arrays,
+          .whole = *whole,
+          .problem = {},
+          .empty_pieces = {}};
 }
 
 }  // namespace palpate

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cstdlib>
 #include <optional>
-#include <sstream>
 
 #include "common/base/text.h"
 #include "loaders/vtk/saturated.h"
@@ -50,30 +48,6 @@ std::optional<std::uint64_t> count_of(const std::string& text) {
   return value;
 }
 
-/// Points and cells of an extent "i0 i1 j0 j1 k0 k1".
-struct Extent {
-  std::uint64_t points = 0;
-  std::uint64_t cells = 0;
-  std::array<std::uint64_t, 3> along{};  ///< points along each axis
-};
-/// Empty pieces write a last number one below the first.
-std::optional<Extent> extent_of(const std::string& text) {
-  std::istringstream stream(text);
-  Extent extent{1, 1, {}};
-  for (int axis = 0; axis < 3; ++axis) {
-    long long first = 0;
-    long long last = 0;
-    if (!(stream >> first >> last)) return std::nullopt;
-    constexpr long long kLargest = 2'147'483'647;
-    if (first < -kLargest || last > kLargest || last < first - 1) return std::nullopt;
-    const auto points = static_cast<std::uint64_t>(last - first + 1);
-    extent.along[static_cast<std::size_t>(axis)] = points;
-    extent.points = times(extent.points, points);
-    extent.cells = times(extent.cells, points <= 1 ? points : points - 1);
-  }
-  return extent;
-}
-
 struct Broken {
   std::string what;
 };
@@ -97,9 +71,10 @@ struct Context {
   std::uint64_t file_size = 0;
   bool structured = false;
   Extent whole;
-  std::uint64_t cells_in_pieces = 0;
+  std::vector<Extent> extents;  ///< of the pieces so far
   int pieces = 0;
-  Extent piece;
+  std::uint64_t points = 0;  ///< of this piece
+  std::uint64_t cells = 0;
   std::size_t piece_start = 0;                 ///< in the text
   bool listed = false;                         ///< an earlier piece had points: its arrays are those of all
   std::vector<XmlArray> of_piece;              ///< of this piece
@@ -127,13 +102,12 @@ void begin_piece(const XmlTag& tag, Context& context) {
     if (!extent)
       throw Broken{"a Piece has Extent=\"" + tag.at("Extent").substr(0, 60) +
                    "\", expected six increasing numbers"};
-    context.piece = *extent;
-    std::uint64_t sum = 0;
-    context.cells_in_pieces =
-        __builtin_add_overflow(context.cells_in_pieces, extent->cells, &sum) ? kHuge : sum;
+    context.extents.push_back(*extent);
+    context.points = extent->points();
+    context.cells = extent->cells();
   } else {
-    context.piece = {};
-    context.piece.points = count("NumberOfPoints");
+    context.points = count("NumberOfPoints");
+    context.cells = 0;
     // Polygonal data counts its kinds of cells apart.
     for (const auto& [section, attribute] : {std::pair{"Cells", "NumberOfCells"},
                                              {"Verts", "NumberOfVerts"},
@@ -141,8 +115,8 @@ void begin_piece(const XmlTag& tag, Context& context) {
                                              {"Strips", "NumberOfStrips"},
                                              {"Polys", "NumberOfPolys"}}) {
       context.lists[section] = count(attribute);
-      if (__builtin_add_overflow(context.piece.cells, context.lists[section], &context.piece.cells))
-        context.piece.cells = kHuge;
+      if (__builtin_add_overflow(context.cells, context.lists[section], &context.cells))
+        context.cells = kHuge;
     }
   }
 }
@@ -150,10 +124,12 @@ void begin_piece(const XmlTag& tag, Context& context) {
 /// Tuples that an array must have by what the tags before it say; nothing where they do not.
 std::optional<std::uint64_t> tuples_of(const std::string& name, Context& context) {
   if (context.pieces == 0) return std::nullopt;
-  if (context.section == "PointData" || context.section == "Points") return context.piece.points;
-  if (context.section == "CellData") return context.piece.cells;
+  if (context.section == "PointData" || context.section == "Points") return context.points;
+  if (context.section == "CellData") return context.cells;
   if (context.section == "Coordinates")
-    return context.axis < 3 ? std::optional(context.piece.along[context.axis++]) : std::nullopt;
+    return context.axis < 3 && !context.extents.empty()
+               ? std::optional(context.extents.back().points(context.axis++))
+               : std::nullopt;
   const auto cells = context.lists.find(context.section);
   if (cells == context.lists.end()) return std::nullopt;
   if (name == "offsets" || name == "types") return cells->second;
@@ -194,6 +170,16 @@ void check_text(std::string_view text, const XmlTag& tag, const std::string& nam
   if (name == "faceoffsets") context.faces.end = values.largest;
 }
 
+/// @param bytes  of the values by the tags; nothing where they do not say.
+void check_binary(const BinaryArray& array, const std::string& name, std::optional<std::uint64_t> bytes) {
+  // A size is said once it can be read.
+  if (bytes && array.values != kHuge && array.values != *bytes) {
+    throw Broken{name + " does not have its " + std::to_string(*bytes) + " bytes, but says " +
+                 std::to_string(array.values)};
+  }
+  if (!array.whole) throw Broken{name + " is cut off: its data ends before the end that its header states"};
+}
+
 /// @param text what follows the tag.
 void check_array(const XmlTag& tag, std::string_view text, Context& context) {
   const std::string& name = tag.at("Name").empty() ? context.section : tag.at("Name");
@@ -232,41 +218,57 @@ void check_array(const XmlTag& tag, std::string_view text, Context& context) {
         {name, *offset, tuples && number ? std::optional(needed) : std::optional<std::uint64_t>()});
   } else if (format == "ascii") {
     check_text(text, tag, name, tuples ? std::optional(values) : tuples, context);
-  } else if (tuples && number && values > 0) {
-    if (claim_of_base64(text.substr(0, text.find('<')), context.header) != needed)
-      throw Broken{"array '" + name + "' does not have its " + std::to_string(needed) + " bytes"};
+  } else {
+    // Arrays of nothing may have nothing, not even a header.
+    const std::string_view inline_data = trimmed(text.substr(0, text.find('<')));
+    const bool sized = tuples && number;
+    if (sized ? values == 0 : inline_data.empty()) return;
+    BinaryHeader header = context.header;
+    header.base64 = true;
+    check_binary(binary_array(inline_data, header), "array '" + name + "'",
+                 sized ? std::optional(needed) : std::nullopt);
   }
 }
 
-/// Checks that the arrays of raw appended data lie inside it and have the sizes that the tags say. `data`
-/// goes from behind the underscore to the end of the file. VTK would read a short array as far as it goes.
-void check_raw(std::string_view data, const Context& context) {
+/// Checks that the arrays of the appended data lie inside it, one behind the other, and have the sizes that the
+/// tags say. VTK would read a short array as far as it goes, and what follows for the rest.
+void check_appended(std::string_view data, bool base64, Context& context) {
+  context.header.base64 = base64;
+  std::stable_sort(context.appended.begin(), context.appended.end(),
+                   [](const Appended& a, const Appended& b) { return a.offset < b.offset; });
+  const auto words = [](const Appended& array) {
+    return "array '" + array.name + "' at offset " + std::to_string(array.offset);
+  };
+  const Appended* before = nullptr;
+  BinaryArray there;
   for (const Appended& array : context.appended) {
-    const auto refuse = [&](const std::string& what) {
-      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) + " " + what};
-    };
-    if (array.offset > data.size()) refuse("reaches past the end of the file");
-    const std::uint64_t left = data.size() - array.offset;
-    const BinaryClaim claim = claim_of(data.substr(array.offset), context.header);
-    if (claim.header > left || claim.stored > left - claim.header) refuse("reaches past the end of the file");
-    if (array.bytes.value_or(0) > 0 && claim.values != *array.bytes)
-      refuse("does not have its " + std::to_string(*array.bytes) + " bytes");
+    if (array.bytes == std::uint64_t{0}) continue;
+    // Arrays of several pieces or times may be one in the file.
+    if (before == nullptr || array.offset != before->offset) {
+      if (before != nullptr && there.size > array.offset - before->offset)
+        throw Broken{words(*before) + " reaches into " + words(array)};
+      there = binary_array(data.substr(std::min<std::uint64_t>(array.offset, data.size())), context.header);
+    }
+    before = &array;
+    check_binary(there, words(array), array.bytes);
   }
 }
 
-/// The same for base64: four characters for three bytes, so a lower bound only of what follows a header.
-void check_base64(std::string_view data, const Context& context) {
-  for (const Appended& array : context.appended) {
-    const auto refuse = [&](const std::string& what) {
-      throw Broken{"array '" + array.name + "' at offset " + std::to_string(array.offset) + " " + what};
-    };
-    const std::uint64_t characters = context.header.compressed ? 0 : array.bytes.value_or(0) / 3 * 4;
-    if (array.offset > data.size() || characters > data.size() - array.offset)
-      refuse("reaches past the end of the file");
-    if (array.bytes.value_or(0) > 0 &&
-        claim_of_base64(data.substr(array.offset), context.header) != *array.bytes)
-      refuse("does not have its " + std::to_string(*array.bytes) + " bytes");
+/// Appended data, from `first` to the tag that ends it. Blanks that indent the tag as it is indented where it
+/// opens are none of it.
+std::string_view appended_data(std::string_view text, std::size_t opens, std::size_t first) {
+  std::size_t end = text.rfind("</AppendedData");
+  if (end == std::string_view::npos) end = text.rfind("</VTKFile");
+  if (end == std::string_view::npos || end < first) end = text.size();
+  std::size_t indent = opens;
+  while (indent > 0 && (text[indent - 1] == ' ' || text[indent - 1] == '\t')) --indent;
+  // Without blanks the line break alone might as well be the last byte.
+  if (indent < opens && indent > 0 && text[indent - 1] == '\n') {
+    const std::string_view blanks = text.substr(indent - 1, opens - indent + 1);
+    if (end - first >= blanks.size() && text.substr(first, end - first).ends_with(blanks))
+      end -= blanks.size();
   }
+  return text.substr(first, end - first);
 }
 
 /// At the end of a piece, which ends at `end` of the text. VTK takes it that all pieces have the arrays of the
@@ -274,12 +276,12 @@ void check_base64(std::string_view data, const Context& context) {
 void end_piece(std::size_t end, Context& context, XmlScan& result) {
   std::vector<XmlArray> arrays;
   arrays.swap(context.of_piece);
-  if (context.piece.points == 0 && !context.structured) {
+  if (context.points == 0 && !context.structured) {
     if (!context.listed || !result.empty_pieces.empty())
       result.empty_pieces.emplace_back(context.piece_start, end);
     return;
   }
-  if (context.piece.points == 0) return;
+  if (context.points == 0) return;
   if (!context.listed) {
     context.listed = true;
     result.arrays = std::move(arrays);
@@ -287,7 +289,7 @@ void end_piece(std::size_t end, Context& context, XmlScan& result) {
   }
   const auto lacks = [&context](const std::vector<XmlArray>& some, const std::vector<XmlArray>& all) {
     for (const XmlArray& wanted : all) {
-      if (!wanted.on_points && context.piece.cells == 0) continue;
+      if (!wanted.on_points && context.cells == 0) continue;
       const bool there = std::any_of(some.begin(), some.end(), [&wanted](const XmlArray& array) {
         return array.name == wanted.name && array.on_points == wanted.on_points &&
                array.components == wanted.components;
@@ -303,6 +305,16 @@ void end_piece(std::size_t end, Context& context, XmlScan& result) {
     throw Broken{piece + " has an array '" + name + "' that the pieces before it do not have in that shape"};
 }
 
+/// Pieces may overlap, and yet leave a part of the whole out, which would be whatever stood in memory.
+void check_cover(const Context& context) {
+  const auto left_out = cells_left_out(context.whole, context.extents);
+  if (!left_out) throw Broken{"its pieces overlap so much that what they cover is not known"};
+  if (*left_out > 0) {
+    throw Broken{"its pieces leave out " + std::to_string(*left_out) + " cells of " +
+                 std::to_string(context.whole.cells())};
+  }
+}
+
 /// Whether the file closes its root element; what follows it may be white space only.
 bool has_end(std::string_view text) {
   constexpr std::size_t kLook = 256;
@@ -316,7 +328,7 @@ void scan(std::string_view text, XmlScan& result) {
   XmlTags tags(text);
   XmlTag tag;
   std::string encoding;
-  bool appended = false;
+  std::optional<std::size_t> appended;  // where the tag opens
   for (std::size_t before = 0; tags.next(tag); before = tags.position()) {
     if (tag.closes && !tag.opens) {
       if (tag.name == context.section) {
@@ -339,7 +351,7 @@ void scan(std::string_view text, XmlScan& result) {
         throw Broken{"WholeExtent=\"" + tag.at("WholeExtent").substr(0, 60) +
                      "\", expected six increasing numbers"};
       context.whole = *whole;
-      result.whole_cells = whole->cells;
+      result.whole = *whole;
     } else if (tag.name == "Piece") {
       context.piece_start = before;
       begin_piece(tag, context);
@@ -359,7 +371,7 @@ void scan(std::string_view text, XmlScan& result) {
             {tag.at("Name"), tag.at("type"), static_cast<int>(components.value_or(1)), on_points});
       }
     } else if (tag.name == "AppendedData") {
-      appended = true;
+      appended = text.find('<', before);
       encoding = tag.at("encoding");
       break;
     }
@@ -369,19 +381,11 @@ void scan(std::string_view text, XmlScan& result) {
   if (appended) {
     const std::size_t underscore = text.find('_', tags.position());
     if (underscore == std::string_view::npos) throw Broken{"its appended data does not begin"};
-    const std::string_view data = text.substr(underscore + 1);
-    if (encoding == "raw") {
-      check_raw(data, context);
-    } else {
-      check_base64(data, context);
-    }
+    check_appended(appended_data(text, *appended, underscore + 1), encoding != "raw", context);
   } else if (!context.appended.empty()) {
     throw Broken{"its appended data is missing"};
   }
-  if (context.structured && context.cells_in_pieces < context.whole.cells) {
-    throw Broken{"its pieces cover " + std::to_string(context.cells_in_pieces) + " cells of " +
-                 std::to_string(context.whole.cells)};
-  }
+  if (context.structured) check_cover(context);
   if (context.pieces == 0) throw Broken{"holds no Piece"};
 }
 
@@ -452,12 +456,6 @@ bool XmlTags::next(XmlTag& tag) {
     i = close + 1;
   }
   return true;
-}
-
-std::optional<std::uint64_t> cells_of_extent(const std::string& extent) {
-  const auto found = extent_of(extent);
-  if (!found) return std::nullopt;
-  return found->cells;
 }
 
 XmlScan scan_xml(std::string_view text) {

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "loaders/vtk/extents.h"
+
 namespace palpate {
 
 /// One tag. Attribute values have their entities (&lt; …) resolved.
@@ -47,19 +49,16 @@ struct XmlArray {
 };
 
 struct XmlScan {
-  std::string data_type;          ///< "UnstructuredGrid"
-  std::vector<XmlArray> arrays;   ///< of PointData and CellData, of the first piece that has points
-  std::uint64_t whole_cells = 0;  ///< structured kinds: cells of the whole extent
-  std::string problem;            ///< what is wrong, or empty
+  std::string data_type;         ///< "UnstructuredGrid"
+  std::vector<XmlArray> arrays;  ///< of PointData and CellData, of the first piece that has points
+  Extent whole;                  ///< of structured kinds
+  std::string problem;           ///< what is wrong, or empty
   /// Meshes: where pieces without points stand in the text, if the first is one. VTK takes the arrays of the
   /// first piece for those of all.
   std::vector<std::pair<std::size_t, std::size_t>> empty_pieces;
 };
 
-/// Cells of an extent "i0 i1 j0 j1 k0 k1" (one along an axis of one point), or nothing where that is none.
-[[nodiscard]] std::optional<std::uint64_t> cells_of_extent(const std::string& extent);
-
-/// Scans `text`, the whole file (binary appended data is not looked into).
+/// Scans `text`, the whole file (of binary data only the sizes).
 [[nodiscard]] XmlScan scan_xml(std::string_view text);
 
 }  // namespace palpate

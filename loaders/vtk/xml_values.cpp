@@ -1,6 +1,7 @@
 #include "loaders/vtk/xml_values.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "common/base/text.h"
@@ -12,21 +13,99 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
-/// As many bytes as whole groups of four characters give, at most `most`.
+constexpr std::array<std::uint8_t, 256> kBase64 = [] {
+  std::array<std::uint8_t, 256> values{};
+  values.fill(64);
+  std::uint8_t value = 0;
+  for (const char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
+    values[static_cast<unsigned char>(c)] = value++;
+  return values;
+}();
+/// Of a character of base64; 64 where it is none.
+std::uint8_t base64_value(char c) { return kBase64[static_cast<unsigned char>(c)]; }
+
+/// As many bytes as whole groups of four characters give, at most `most` and two more.
 std::string decoded_base64(std::string_view text, std::size_t most) {
-  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string bytes;
   for (std::size_t at = 0; at + 4 <= text.size() && bytes.size() < most; at += 4) {
     std::uint32_t group = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const std::size_t digit = kDigits.find(text[at + i]);
-      if (digit == std::string_view::npos && text[at + i] != '=') return bytes;
-      group = group << 6U | static_cast<std::uint32_t>(digit == std::string_view::npos ? 0 : digit);
+      const std::uint32_t value = base64_value(text[at + i]);
+      if (value == 64 && text[at + i] != '=') return bytes;
+      group = group << 6U | value % 64;
     }
     for (unsigned shift = 24; shift > 0; shift -= 8)
       bytes += static_cast<char>(static_cast<unsigned char>(group >> (shift - 8)));
   }
   return bytes;
+}
+
+/// Characters of base64 for so many bytes, in whole groups; kHuge where they do not fit in 64 bits.
+std::uint64_t base64_size(std::uint64_t bytes) { return times(bytes / 3 + (bytes % 3 == 0 ? 0 : 1), 4); }
+
+/// Whether `text` begins with base64 for so many bytes: padding stands where the last of them ends, not before.
+bool has_base64(std::string_view text, std::uint64_t bytes) {
+  const std::uint64_t size = base64_size(bytes);
+  if (size > text.size()) return false;
+  const std::uint64_t digits = size - (bytes % 3 == 0 ? 0 : 3 - bytes % 3);
+  for (std::uint64_t i = 0; i < size; ++i) {
+    if (base64_value(text[i]) == 64 && (i < digits || text[i] != '=')) return false;
+  }
+  return true;
+}
+
+std::uint64_t plus(std::uint64_t a, std::uint64_t b) {
+  std::uint64_t sum = 0;
+  return __builtin_add_overflow(a, b, &sum) ? kHuge : sum;
+}
+
+/// What a header says.
+struct Claim {
+  std::uint64_t header = 0;  ///< bytes of the header
+  std::uint64_t stored = 0;  ///< bytes that follow
+  std::uint64_t values = 0;  ///< bytes of the values, uncompressed
+};
+
+/// Numbers that lie past the end of `data` are kHuge.
+Claim claim_of(std::string_view data, const BinaryHeader& header) {
+  const auto number = [&](std::uint64_t index) {
+    const std::uint64_t offset = times(index, header.number_bytes);
+    std::uint64_t value = 0;
+    if (offset > data.size() || data.size() - offset < header.number_bytes) return kHuge;
+    for (std::uint64_t i = 0; i < header.number_bytes; ++i) {
+      const std::uint64_t at = header.big_endian ? offset + i : offset + header.number_bytes - 1 - i;
+      value = value << 8U | static_cast<unsigned char>(data[at]);
+    }
+    return value;
+  };
+  const std::uint64_t first = number(0);
+  if (!header.compressed) return {header.number_bytes, first, first};
+  // Block count, block size, size of a last partial block, then the compressed size of every block.
+  Claim claim;
+  const std::uint64_t block = number(1);
+  const std::uint64_t partial = number(2);
+  const std::uint64_t full = first - (partial > 0 && first > 0 ? 1 : 0);
+  claim.values = plus(times(full, block), partial);
+  claim.header = times(plus(first, 3), header.number_bytes);
+  if (claim.header > data.size()) return {claim.header, kHuge, claim.values};
+  for (std::uint64_t b = 0; b < first; ++b) claim.stored = plus(claim.stored, number(3 + b));
+  return claim;
+}
+
+/// Base64 text has its header and its values in one run of groups, or each in its own; compressed ones always so.
+BinaryArray base64_array(std::string_view text, const BinaryHeader& header) {
+  const std::uint64_t fixed = (header.compressed ? 3 : 1) * header.number_bytes;
+  Claim claim = claim_of(decoded_base64(text, fixed), header);
+  if (header.compressed && claim.header <= text.size())
+    claim = claim_of(decoded_base64(text, claim.header), header);
+  const std::uint64_t head = base64_size(claim.header);
+  if (!has_base64(text, claim.header)) return {claim.values, head, false};
+  const bool apart = header.compressed || text.substr(0, head).ends_with('=');
+  if (!apart) {
+    const std::uint64_t bytes = plus(claim.header, claim.stored);
+    return {claim.values, base64_size(bytes), has_base64(text, bytes)};
+  }
+  return {claim.values, plus(head, base64_size(claim.stored)), has_base64(text.substr(head), claim.stored)};
 }
 
 }  // namespace
@@ -69,39 +148,11 @@ TextValues text_values(std::string_view text, const std::string& type) {
   }
 }
 
-BinaryClaim claim_of(std::string_view data, const BinaryHeader& header) {
-  const auto number = [&](std::uint64_t index) {
-    const std::uint64_t offset = times(index, header.number_bytes);
-    std::uint64_t value = 0;
-    if (offset > data.size() || data.size() - offset < header.number_bytes) return kHuge;
-    for (std::uint64_t i = 0; i < header.number_bytes; ++i) {
-      const std::uint64_t at = header.big_endian ? offset + i : offset + header.number_bytes - 1 - i;
-      value = value << 8U | static_cast<unsigned char>(data[at]);
-    }
-    return value;
-  };
-  const std::uint64_t first = number(0);
-  if (!header.compressed) return {header.number_bytes, first, first};
-  // Block count, block size, size of a last partial block, then the compressed size of every block.
-  BinaryClaim claim;
-  const std::uint64_t block = number(1);
-  const std::uint64_t partial = number(2);
-  const std::uint64_t full = first - (partial > 0 && first > 0 ? 1 : 0);
-  claim.values = times(full, block);
-  if (__builtin_add_overflow(claim.values, partial, &claim.values)) claim.values = kHuge;
-  if (first > data.size()) return {kHuge, kHuge, claim.values};
-  claim.header = (3 + first) * header.number_bytes;
-  for (std::uint64_t b = 0; b < first; ++b) {
-    const std::uint64_t size = number(3 + b);
-    if (__builtin_add_overflow(claim.stored, size, &claim.stored)) claim.stored = kHuge;
-  }
-  return claim;
-}
-
-std::uint64_t claim_of_base64(std::string_view text, const BinaryHeader& header) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  const std::uint64_t numbers = (header.compressed ? 3 : 1) * header.number_bytes;
-  return claim_of(decoded_base64(text, numbers), header).values;
+BinaryArray binary_array(std::string_view data, const BinaryHeader& header) {
+  if (header.base64) return base64_array(data, header);
+  const Claim claim = claim_of(data, header);
+  const std::uint64_t size = plus(claim.header, claim.stored);
+  return {claim.values, size, size <= data.size()};
 }
 
 }  // namespace palpate

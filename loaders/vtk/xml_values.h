@@ -27,23 +27,22 @@ struct TextValues {
 /// What a type cannot hold is none: VTK stops there. @pre is_xml_number(type).
 [[nodiscard]] TextValues text_values(std::string_view text, const std::string& type);
 
-/// How the bytes of binary arrays begin.
+/// How the bytes of binary arrays stand in the file.
 struct BinaryHeader {
   bool big_endian = false;
   bool compressed = false;
+  bool base64 = false;             ///< four characters for three bytes
   std::uint64_t number_bytes = 4;  ///< of the numbers of a header
 };
 
-/// What a header says.
-struct BinaryClaim {
-  std::uint64_t header = 0;  ///< bytes of the header
-  std::uint64_t stored = 0;  ///< bytes that follow
-  std::uint64_t values = 0;  ///< bytes of the values, uncompressed
+/// A binary array: what its header says, and what of it is there.
+struct BinaryArray {
+  std::uint64_t values =
+      0;                   ///< bytes of the values, uncompressed, by the header; kHuge where that is cut off
+  std::uint64_t size = 0;  ///< bytes, or characters of base64, of header and values as they stand in the file
+  bool whole = false;      ///< all of these are there
 };
-/// Of the array that begins at `data[0]`. Numbers that lie past the end of `data` are kHuge.
-[[nodiscard]] BinaryClaim claim_of(std::string_view data, const BinaryHeader& header);
-
-/// Bytes of the values that base64 text claims, which blanks may precede; kHuge where it is too short.
-[[nodiscard]] std::uint64_t claim_of_base64(std::string_view text, const BinaryHeader& header);
+/// Of the array that begins at `data[0]`.
+[[nodiscard]] BinaryArray binary_array(std::string_view data, const BinaryHeader& header);
 
 }  // namespace palpate

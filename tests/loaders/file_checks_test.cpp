@@ -102,13 +102,27 @@ TEST(XmlScan, AMissingEndIsNoticed) {
 }
 
 TEST(XmlScan, PiecesMustCoverTheWholeExtent) {
-  const auto image = [](const char* piece) {
-    return std::string(
-               "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"0 4 0 4 0 4\"><Piece Extent=\"") +
-           piece + "\"></Piece></ImageData></VTKFile>";
-  };
-  EXPECT_EQ(scan_xml(image("0 4 0 4 0 4")).problem, "");
-  EXPECT_NE(scan_xml(image("0 4 0 4 0 2")).problem, "");
+  for (const char* type : {"ImageData", "RectilinearGrid", "StructuredGrid"}) {
+    const auto problem = [type](const char* whole, const std::vector<std::string>& pieces) {
+      const std::string kind(type);
+      std::string text = "<VTKFile type=\"" + kind + "\"><" + kind + " WholeExtent=\"" + whole + "\">";
+      for (const std::string& piece : pieces) text += "<Piece Extent=\"" + piece + "\"></Piece>";
+      return scan_xml(text + "</" + kind + "></VTKFile>").problem;
+    };
+    const char* const box = "0 4 0 4 0 4";
+    EXPECT_EQ(problem(box, {box}), "");
+    EXPECT_EQ(problem(box, {"0 4 0 4 0 2", "0 4 0 4 2 4"}), "");
+    EXPECT_EQ(problem(box, {"0 4 0 4 0 3", "0 4 0 4 1 4", box}), "") << "overlapping";
+    EXPECT_EQ(problem("0 4 0 4 3 3", {"0 2 0 4 3 3", "1 4 0 4 3 3"}), "") << "flat";
+    EXPECT_NE(problem(box, {"0 4 0 4 0 2"}), "");
+    // As many cells as the whole has, and more, yet not all of them.
+    EXPECT_NE(problem(box, {"0 4 0 4 0 2", "0 4 0 4 0 2"}).find("leave out 32 cells of 64"),
+              std::string::npos);
+    EXPECT_NE(problem(box, {"0 4 0 4 0 3", "0 4 0 4 0 2", "0 3 0 4 3 4", "0 4 0 2 2 4"})
+                  .find("leave out 2 cells of 64"),
+              std::string::npos);
+    EXPECT_NE(problem("0 4 0 4 3 3", {"0 2 0 4 3 3", "0 2 0 4 3 3"}), "");
+  }
 }
 
 /// One hexahedron with a text array `given` in the place of the same array that is right.
@@ -166,13 +180,14 @@ std::string base64(std::string bytes) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
-  while (bytes.size() % 3 != 0) bytes += '\0';
+  const std::size_t padding = (3 - bytes.size() % 3) % 3;
+  bytes.append(padding, '\0');
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
     for (std::size_t b = 0; b < 3; ++b) group = group << 8U | static_cast<unsigned char>(bytes[i + b]);
     for (unsigned shift = 24; shift > 0; shift -= 6) text += kDigits[group >> (shift - 6) & 63U];
   }
-  return text;
+  return text.replace(text.size() - padding, padding, padding, '=');
 }
 
 TEST(XmlScan, BinaryArraysMustHaveTheBytesThatTheTagsSay) {
@@ -186,6 +201,98 @@ TEST(XmlScan, BinaryArraysMustHaveTheBytesThatTheTagsSay) {
         "\n</DataArray></PointData></Piece></ImageData></VTKFile>";
     EXPECT_EQ(scan_xml(text).problem.empty(), bytes == 16U) << scan_xml(text).problem;
   }
+}
+
+/// How a file holds its arrays.
+struct Binary {
+  bool appended = false;
+  bool base64 = true;
+  bool compressed = false;
+  bool wide = false;   ///< header numbers of 8 bytes
+  bool apart = false;  ///< base64 of the header and of the values in runs of their own
+  std::string words() const {
+    return std::string(appended ? "appended " : "inline ") + (base64 ? "base64" : "raw") +
+           (compressed ? " compressed" : "") + (wide ? " UInt64" : "") + (apart ? " apart" : "");
+  }
+};
+
+/// An array of so many bytes, in blocks of 64 where compressed ones of a third are put in their place.
+std::string stored(std::size_t bytes, const Binary& how) {
+  std::string header;
+  const auto put = [&](std::uint64_t number) {
+    for (unsigned byte = 0; byte < (how.wide ? 8U : 4U); ++byte)
+      header += static_cast<char>(number >> 8U * byte & 0xffU);
+  };
+  std::string data;
+  if (how.compressed) {
+    const std::size_t blocks = (bytes + 63) / 64;
+    for (const std::size_t number : {blocks, std::size_t{64}, bytes % 64}) put(number);
+    for (std::size_t block = 0; block < blocks; ++block) put(21);
+    data.assign(21 * blocks, 'z');
+  } else {
+    put(bytes);
+    data.assign(bytes, 'v');
+  }
+  if (!how.base64) return header + data;
+  return how.compressed || how.apart ? base64(header) + base64(data) : base64(header + data);
+}
+
+/// Two triangles whose array `name` lacks its last characters, all others being whole.
+std::string triangles(const Binary& how, const std::string& name, std::size_t cut) {
+  std::string appended;
+  const auto array = [&](const char* own, const char* type, int components, std::size_t bytes) {
+    std::string data = stored(bytes, how);
+    if (name == own) data.resize(data.size() - cut);
+    const std::string tag = std::string("<DataArray type=\"") + type + "\" Name=\"" + own +
+                            "\" NumberOfComponents=\"" + std::to_string(components) + "\" ";
+    if (!how.appended) return tag + "format=\"binary\">\n" + data + "\n</DataArray>";
+    const std::string offset = std::to_string(appended.size());
+    appended += data;
+    return tag + "format=\"appended\" offset=\"" + offset + "\"/>";
+  };
+  std::string text = std::string("<VTKFile type=\"UnstructuredGrid\" byte_order=\"LittleEndian\"") +
+                     (how.wide ? " header_type=\"UInt64\"" : "") +
+                     (how.compressed ? " compressor=\"vtkZLibDataCompressor\"" : "") +
+                     "><UnstructuredGrid><Piece NumberOfPoints=\"4\" NumberOfCells=\"2\"><Cells>";
+  text += array("connectivity", "Int64", 1, 48) + array("offsets", "Int64", 1, 16) +
+          array("types", "UInt8", 1, 2) + "</Cells><Points>" + array("x", "Float64", 3, 96) +
+          "</Points><PointData>" + array("p", "Float32", 1, 16) + "</PointData></Piece></UnstructuredGrid>\n";
+  if (how.appended)
+    text += std::string("  <AppendedData encoding=\"") + (how.base64 ? "base64" : "raw") + "\">\n   _" +
+            appended + "\n  </AppendedData>\n";
+  return text + "</VTKFile>\n";
+}
+
+TEST(XmlScan, EveryBinaryArrayMustBeThereAsFarAsItsHeaderSays) {
+  for (const bool appended : {false, true}) {
+    for (const bool raw : {false, true}) {
+      for (const bool compressed : {false, true}) {
+        for (const bool wide : {false, true}) {
+          for (const bool apart : {false, true}) {
+            const Binary how{appended, !raw, compressed, wide, apart};
+            if (raw && (apart || !appended)) continue;
+            EXPECT_EQ(scan_xml(triangles(how, "", 0)).problem, "") << how.words();
+            for (const char* name : {"connectivity", "offsets", "types", "x", "p"}) {
+              for (const std::size_t cut : {1U, 2U, 3U, 4U, 6U}) {
+                const std::string problem = scan_xml(triangles(how, name, cut)).problem;
+                EXPECT_NE(problem.find("'" + std::string(name) + "'"), std::string::npos)
+                    << how.words() << ", " << cut << " characters of " << name << " cut: " << problem;
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(XmlScan, RawDataMayEndWithBlanks) {
+  std::string text = triangles({.appended = true, .base64 = false}, "", 0);
+  text.replace(text.find("vv\n  </App"), 2, "\n ");
+  EXPECT_EQ(scan_xml(text).problem, "");
+  text.replace(text.find("  <AppendedData"), 2, "");
+  text.replace(text.find("\n  </App"), 3, "");
+  EXPECT_EQ(scan_xml(text).problem, "");
 }
 
 /// A netCDF classic header with one dimension and one float variable of that length.

@@ -221,7 +221,7 @@ TEST(Pieces, WhatTheIndexClaimsMustBeInTheFiles) {
   };
   for (const Case& c : {
            Case{with(text, whole, "WholeExtent=\"0 1099511627776 0 3 0 2\""), "WholeExtent"},
-           Case{with(text, whole, "WholeExtent=\"0 100000 0 10000 0 1000\""), "cover"},
+           Case{with(text, whole, "WholeExtent=\"0 100000 0 10000 0 1000\""), "leave out"},
            Case{with(text, "Name=\"velocity\"", "Name=\"speed\""), "no array 'speed'"},
            Case{with(text, "_1.vti", "_0.vti"), "twice"},
            Case{with(text, "_1.vti", "_7.vti"), "No such file"},
@@ -231,6 +231,14 @@ TEST(Pieces, WhatTheIndexClaimsMustBeInTheFiles) {
     const auto file = folder.write("a.pvti", c.text);
     EXPECT_NE(refusal(file).find(c.word), std::string::npos) << c.word << ": " << refusal(file);
   }
+  // Two pieces of the same half.
+  std::string half = text;
+  for (std::size_t at = half.find("<Piece Extent=\"0 6 "); at != std::string::npos;
+       at = half.find("<Piece Extent=\"0 6 ")) {
+    half.replace(at, 19, "<Piece Extent=\"0 3 ");
+  }
+  EXPECT_NE(refusal(folder.write("a.pvti", half)).find("leave out 18 cells"), std::string::npos)
+      << refusal(folder.path("a.pvti"));
   // A damaged piece is refused by the checks of its own kind, and named.
   const std::string good = read_text(first);
   std::ofstream(first) << good.substr(0, good.size() / 2);
