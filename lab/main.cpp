@@ -27,6 +27,7 @@ constexpr std::array kSubjects{
     Subject{"scalar", study_scalars},
     Subject{"tensor", study_tensors},
     Subject{"fibre", study_fibres},
+    Subject{"experiment", study_experiment},
 #ifdef PALPATE_WITH_CALIBRATION
     Subject{"calibration", study_calibration},
     Subject{"made table", study_made_table},

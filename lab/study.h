@@ -61,10 +61,11 @@ void append(std::vector<StabilityCase> from, std::vector<StabilityCase>& to);
 
 /// @name What is studied, a file each
 /// @{
-[[nodiscard]] ReportAnswer study_vectors(const Study& study);  ///< lines, constraints, resampling, walls
-[[nodiscard]] ReportAnswer study_scalars(const Study& study);  ///< pictures of a volume, planes in it
-[[nodiscard]] ReportAnswer study_tensors(const Study& study);  ///< fitted directions, tracts
-[[nodiscard]] ReportAnswer study_fibres(const Study& study);   ///< mesh, layers, fibres, touch of a heart
+[[nodiscard]] ReportAnswer study_vectors(const Study& study);     ///< lines, constraints, resampling, walls
+[[nodiscard]] ReportAnswer study_scalars(const Study& study);     ///< pictures of a volume, planes in it
+[[nodiscard]] ReportAnswer study_tensors(const Study& study);     ///< fitted directions, tracts
+[[nodiscard]] ReportAnswer study_fibres(const Study& study);      ///< mesh, layers, fibres, touch of a heart
+[[nodiscard]] ReportAnswer study_experiment(const Study& study);  ///< what participants did (common/study)
 /// @}
 
 }  // namespace palpate

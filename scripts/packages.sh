@@ -3,9 +3,9 @@
 # What every build needs: compiler, mathematics, command line, session files, window, drawing.
 packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev libeigen3-dev nlohmann-json3-dev
   libnanovdb-dev zlib1g-dev libcli11-dev libtomlplusplus-dev libepoxy-dev libegl-dev libegl1 libgl-dev
-  libgl1-mesa-dri libglfw3-dev libimgui-dev libstb-dev fonts-dejavu-core"
+  libgl1-mesa-dri libglfw3-dev libimgui-dev libstb-dev libboost-dev fonts-dejavu-core"
 # The drivers of devices: modules that only --device opens.
-packages_drivers="libusb-1.0-0-dev libboost-dev"
+packages_drivers="libusb-1.0-0-dev"
 # What one program needs besides: the libraries of its helper programs. loaders/ has a folder for each.
 packages_flow="libvtk9-dev libteem-dev libopenvdb-dev"
 packages_grid="libvtk9-dev libteem-dev libopenvdb-dev libnifti2-dev libgdcm-dev"

@@ -1,6 +1,8 @@
 /// cardiac: layers and fibres of a heart's wall, seen and felt.
 #include "apps/cardiac/cardiac_verbs.h"
+#include "apps/cardiac/study/fibre_task.h"
 #include "common/cli/verbs.h"
+#include "common/experiment/study_verb.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/scene/wall/remesh.h"
 
@@ -86,6 +88,10 @@ int main(int argc, char** argv) {
                             "errors of volume, layers, angles, fibres and friction beside run time"},
                            {"cardiac report --example ventricle --quick --out report",
                             "the built-in ventricle, in a few seconds"}}),
+              study_verb([] { return StudyTasks{make_fibre_task()}; },
+                         {{"cardiac study make trial-study",
+                           "an experiment in which people follow fibres, with guidance and without"},
+                          {"cardiac study simulate trial-study", "simulated participants in all places"}}),
               open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
                          {"cardiac --example ventricle", "a built-in heart"},
                          {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",

@@ -1,6 +1,8 @@
 /// dtmri: images of diffusion tensors, seen and felt.
 #include "apps/dtmri/dtmri_verbs.h"
+#include "apps/dtmri/study/bundle_task.h"
 #include "common/cli/verbs.h"
+#include "common/experiment/study_verb.h"
 #include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
@@ -34,6 +36,10 @@ int main(int argc, char** argv) {
                     "an axial slice with glyphs, seen from above"},
                    {"dtmri render tensors.nii.gz --color fa --voxels linear --out fa.png",
                     "fractional anisotropy"}}),
+              study_verb([] { return StudyTasks{make_bundle_task()}; },
+                         {{"dtmri study make trial-study",
+                           "an experiment in which people trace bundles, with guidance and without"},
+                          {"dtmri study simulate trial-study", "simulated participants in all places"}}),
               open_verb({{"dtmri helix-DTI.nhdr", "a file in the window"},
                          {"dtmri --example helix", "a built-in data set"},
                          {"dtmri open --session dwi.palpate.toml", "what Ctrl+S saved"}}),

@@ -1,6 +1,8 @@
 /// flow: streamlines of CFD data, seen and followed.
 #include "apps/flow/flow_verbs.h"
+#include "apps/flow/study/path_task.h"
 #include "common/cli/verbs.h"
+#include "common/experiment/study_verb.h"
 #include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
@@ -53,6 +55,15 @@ int main(int argc, char** argv) {
                       {{"flow report carotid.vtk --out report", "then open report/index.html"},
                        {"flow report carotid.vtk --quick --seeds grid:3,3,3 --out report --force",
                         "fewer lines, and in place of the last report"}}),
+          study_verb(
+              [] {
+                return StudyTasks{make_advection_2d(), make_tracing_2d(), make_advection_3d(),
+                                  make_tracing_3d()};
+              },
+              {{"flow study make trial-study --participants 20 --seed 7", "stimuli and a balanced design"},
+               {"flow study run trial-study --device simulated", "the window of the next participant"},
+               {"flow study simulate trial-study", "simulated participants in all places"},
+               {"flow study analyse trial-study", "then open trial-study/analysis/index.html"}}),
           open_verb({{"flow carotid.vtk", "a file in the window"},
                      {"flow --example abc", "a built-in data set"},
                      {"flow open --session carotid.palpate.toml", "what Ctrl+S saved"}}),

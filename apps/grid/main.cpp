@@ -1,6 +1,8 @@
 /// grid: volumes of scalars, seen and felt.
 #include "apps/grid/grid_verbs.h"
+#include "apps/grid/study/plane_task.h"
 #include "common/cli/verbs.h"
+#include "common/experiment/study_verb.h"
 #include "common/hand/mode/haptic_mode.h"
 
 int main(int argc, char** argv) {
@@ -81,6 +83,10 @@ int main(int argc, char** argv) {
                 {"grid report --example shells --quick --out report", "a first look"}}),
            annotate_verb({{"grid annotate tooth.nhdr --annotation length:51,40,10,51,40,150 --out n.csv",
                            "a length, as a table; .vtp for ParaView"}}),
+           study_verb([] { return StudyTasks{make_plane_task()}; },
+                      {{"grid study make trial-study",
+                        "an experiment in which people place planes, with guidance and without"},
+                       {"grid study simulate trial-study", "simulated participants in all places"}}),
            open_verb({{"grid tooth.nhdr", "a file in the window"},
                       {"grid --example shells", "a built-in volume"},
                       {"grid open --session tooth.palpate.toml", "what Ctrl+S saved"}})},

@@ -18,9 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kCommon{"base",   "math",  "geometry", "kinematics", "ode",         "field",
-                                       "trace",  "load",  "haptics",  "device",     "calibration", "servo",
-                                       "render", "scene", "compose",  "hand",       "window",      "cli"};
+const std::vector<std::string> kCommon{"base",        "math",  "geometry", "kinematics", "ode",
+                                       "field",       "trace", "load",     "haptics",    "device",
+                                       "calibration", "servo", "render",   "study",      "scene",
+                                       "compose",     "hand",  "window",   "cli",        "experiment"};
 
 // What each folder may include directly; allowing a folder allows what it may include.
 const std::map<std::string, std::set<std::string>> kDirect{{"base", {}},
@@ -36,11 +37,13 @@ const std::map<std::string, std::set<std::string>> kDirect{{"base", {}},
                                                            {"calibration", {"kinematics"}},
                                                            {"servo", {"haptics", "device"}},
                                                            {"render", {"trace"}},
+                                                           {"study", {"servo", "render"}},
                                                            {"scene", {"load"}},
                                                            {"compose", {"scene", "render"}},
                                                            {"hand", {"compose", "servo"}},
                                                            {"window", {"hand"}},
-                                                           {"cli", {"hand"}}};
+                                                           {"cli", {"hand"}},
+                                                           {"experiment", {"study", "window", "cli"}}};
 
 std::set<std::string> closure(const std::string& folder) {
   std::set<std::string> reached{folder};
@@ -75,7 +78,8 @@ bool allowed(const std::string& from, const std::string& to) {
     return to_common && loader_may.count(to.substr(7)) > 0;
   }
   if (from.starts_with("lab/")) {
-    return to.starts_with("lab/") || (to_common && to != "common/window" && to != "common/cli");
+    return to.starts_with("lab/") ||
+           (to_common && to != "common/window" && to != "common/cli" && to != "common/experiment");
   }
   return from.starts_with("apps/") && to_common;
 }
@@ -88,9 +92,9 @@ struct Foreign {
 
 const std::vector<Foreign> kForeign{
     {std::regex("^(epoxy/|GL/|GLES|EGL/|GLFW/)"),
-     {"common/render/", "common/window/"},
+     {"common/render/", "common/window/", "common/experiment/"},
      "OpenGL or the window"},
-    {std::regex("^imgui"), {"common/render/", "common/window/", "apps/"}, "Dear ImGui"},
+    {std::regex("^imgui"), {"common/render/", "common/window/", "common/experiment/", "apps/"}, "Dear ImGui"},
     {std::regex("^vtk"), {"loaders/vtk/"}, "VTK"},
     {std::regex("^teem/"), {"loaders/nrrd/"}, "Teem"},
     {std::regex("^gdcm"), {"loaders/dicom/"}, "GDCM"},
@@ -98,7 +102,9 @@ const std::vector<Foreign> kForeign{
     {std::regex("^nanovdb/"), {"loaders/vdb/", "common/field/grid/"}, "NanoVDB"},
     {std::regex("^(CGAL/|tetgen)"), {"apps/cardiac/mesher/"}, "CGAL or TetGen"},
     {std::regex("^libusb"), {"common/device/driver/"}, "libusb"},
-    {std::regex("^boost/"), {"common/device/driver/transport/beast_transport.cpp"}, "Boost"},
+    {std::regex("^boost/"),
+     {"common/device/driver/transport/beast_transport.cpp", "common/study/distributions.cpp"},
+     "Boost"},
 };
 
 std::vector<fs::path> sources() {

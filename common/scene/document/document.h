@@ -13,6 +13,7 @@
 
 #include "common/scene/document/device_options.h"
 #include "common/scene/document/input_options.h"
+#include "common/scene/document/study_options.h"
 #include "common/scene/touch_spec.h"
 
 namespace palpate {
@@ -277,6 +278,7 @@ struct Document {
   HeadErrorOptions head_errors;
   TrialOptions trial;
   DeviceOutputs device_outputs;
+  StudyOptions study;
   /// Names of the settings that were given, by the command line or a session. They say nothing of the scene:
   /// documents that differ in them alone are equal.
   std::vector<std::string> given;

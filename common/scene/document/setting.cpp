@@ -172,9 +172,9 @@ bool Setting::several() const noexcept {
 const std::vector<Setting>& settings() {
   static const std::vector<Setting> kAll = [] {
     std::vector<Setting> all;
-    for (const auto table :
-         {input_settings(), tracing_settings(), view_settings(), volume_settings(), panes_settings(),
-          touch_settings(), mode_settings(), hand_settings(), output_settings(), device_settings()})
+    for (const auto table : {input_settings(), tracing_settings(), view_settings(), volume_settings(),
+                             panes_settings(), touch_settings(), mode_settings(), hand_settings(),
+                             output_settings(), study_settings(), device_settings()})
       all.insert(all.end(), table.begin(), table.end());
     return all;
   }();

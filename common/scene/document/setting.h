@@ -66,7 +66,8 @@ enum class Group : std::uint8_t {
   kReadOut,      ///< what a device tells
   kFeel,         ///< an effect that a device shows
   kTune,         ///< the stiffness that a device bears
-  kMenu          ///< a menu in space under a recorded hand
+  kMenu,         ///< a menu in space under a recorded hand
+  kStudy         ///< an experiment with participants
 };
 using Groups = EnumSet<Group>;
 using Kinds = EnumSet<FieldKind>;

@@ -75,6 +75,8 @@ inline constexpr Place kOutputAt = kAt<&Document::output, M...>;
 [[nodiscard]] std::span<const Setting> hand_settings();
 /// Of what is written.
 [[nodiscard]] std::span<const Setting> output_settings();
+/// Of experiments with participants.
+[[nodiscard]] std::span<const Setting> study_settings();
 /// Of verbs of devices.
 [[nodiscard]] std::span<const Setting> device_settings();
 

@@ -128,6 +128,10 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     const auto& [a, b, c, d] = document.device_outputs;
     expect("device_outputs", a, b, c, d);
   }
+  {
+    const auto& [a, b, c, d, e, f, g, h, i] = document.study;
+    expect("study", a, b, c, d, e, f, g, h, i);
+  }
   EXPECT_EQ(members, places.size());
 }
 

@@ -1,0 +1,266 @@
+#include "apps/flow/study/flow_stimuli.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/parallel.h"
+#include "common/render/camera.h"
+#include "common/study/random_stream.h"
+#include "common/study/scattered_field.h"
+#include "common/trace/trace.h"
+
+namespace palpate {
+namespace {
+
+/// Half the thickness of flat fields [m]: the hand may leave the plane, and the field is the same there.
+constexpr double kThickness = 0.02;
+
+Box stimulus_box(bool flat) {
+  return flat ? Box{{0.0, 0.0, -kThickness}, {kStimulusSize, kStimulusSize, kThickness}}
+              : Box{Vec3{0.0}, Vec3{kStimulusSize}};
+}
+
+std::vector<Vec3> seeds_of(bool flat) {
+  const int n = flat ? 6 : 5;
+  const double step = kStimulusSize / n;
+  std::vector<Vec3> seeds;
+  for (int k = 0; k < (flat ? 1 : n); ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) seeds.push_back(step * Vec3{i + 0.5, j + 0.5, flat ? 0.0 : k + 0.5});
+    }
+  }
+  return seeds;
+}
+
+/// The streamlines from `starts` on as evenly spaced points; empty where one does not become that long within the
+/// margin.
+std::vector<std::vector<Vec3>> paths_from(const VectorField& field, std::span<const Vec3> starts,
+                                          const PathWish& wish) {
+  constexpr int kPieces = 100;
+  constexpr double kMargin = 0.08 * kStimulusSize;
+  TraceOptions options;
+  options.max_length = wish.length;
+  options.step = wish.length / kPieces;
+  options.tolerance = 1e-8;
+  options.threads = 1;
+  std::vector<std::vector<Vec3>> paths(starts.size());
+  for (const Line& line : trace_lines(field, starts, options).lines) {
+    if (line.end != End::kMaxLength) continue;
+    const bool inside = std::ranges::all_of(line.points, [&](const LinePoint& point) {
+      const Vec3& x = point.position;
+      const double least = wish.flat ? std::min(x.x, x.y) : std::min({x.x, x.y, x.z});
+      const double most = wish.flat ? std::max(x.x, x.y) : std::max({x.x, x.y, x.z});
+      return least >= kMargin && most <= kStimulusSize - kMargin;
+    });
+    if (!inside) continue;
+    for (const LinePoint& point : line.points) paths[line.seed].push_back(point.position);
+  }
+  return paths;
+}
+
+/// Mean distance of the path from the nearest displayed point.
+double apart(const std::vector<Vec3>& path, const std::vector<Line>& lines) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  constexpr std::size_t kEvery = 5;
+  for (std::size_t i = 0; i < path.size(); i += kEvery, ++count) {
+    double least = HUGE_VAL;
+    for (const Line& line : lines) {
+      for (const LinePoint& point : line.points)
+        least = std::min(least, glm::distance(point.position, path[i]));
+    }
+    sum += least;
+  }
+  return sum / static_cast<double>(count);
+}
+
+bool first_meets_at_end(const std::vector<Vec3>& path, PathGoal goal) {
+  const Vec3 start = path.front(), end = path.back();
+  constexpr double kSteep = 0.25;  // slope at the end, so that the meeting is a definite place
+  const Vec3 last = glm::normalize(end - path[path.size() - 3]);
+  if (goal == PathGoal::kCircle) {
+    const double radius = glm::distance(start, end);
+    return glm::dot(last, (end - start) / radius) > kSteep &&
+           std::all_of(path.begin(), path.end() - 1,
+                       [&](const Vec3& x) { return glm::distance(x, start) < radius; });
+  }
+  if (goal == PathGoal::kPlane) {
+    constexpr double kDrop = 0.25;  // of the length
+    return last.z < -kSteep && start.z - end.z > kDrop * glm::distance(start, end) &&
+           std::all_of(path.begin(), path.end() - 1, [&](const Vec3& x) { return x.z > end.z; });
+  }
+  return true;
+}
+
+constexpr double kDeep = 0.34;  // of the length of a path, along the view
+
+struct View {
+  Mat3 axes{1.0};
+  double depth = 0.0;     ///< of the path, per length
+  double occluded = 0.0;  ///< share of it behind displayed lines
+};
+
+/// @param least what depth and occlusion come to in a better view: a deeper one is not looked at any further.
+View view_from(const std::vector<Vec3>& path, const std::vector<Line>& lines, double azimuth, double length,
+               double least) {
+  constexpr double kElevation = 18.0;
+  View view;
+  view.axes = make_camera(stimulus_box(false), {.azimuth = azimuth, .elevation = kElevation}, 1.0).axes;
+  const auto in_view = [&](const Vec3& x) { return x * view.axes; };  // right, up, back
+  double nearest = -HUGE_VAL, farthest = HUGE_VAL;
+  for (const Vec3& x : path) {
+    nearest = std::max(nearest, in_view(x).z);
+    farthest = std::min(farthest, in_view(x).z);
+  }
+  view.depth = (nearest - farthest) / length;
+  if (view.depth > kDeep || view.depth >= least) return view;
+  constexpr double kWide = 0.002;  // [m] of a drawn line and what is beside it
+  constexpr std::size_t kEvery = 5;
+  std::size_t behind = 0, count = 0;
+  for (std::size_t i = 0; i < path.size(); i += kEvery, ++count) {
+    const Vec3 p = in_view(path[i]);
+    const bool hidden = std::ranges::any_of(lines, [&](const Line& line) {
+      return std::ranges::any_of(line.points, [&](const LinePoint& point) {
+        const Vec3 q = in_view(point.position);
+        return q.z > p.z + kWide && std::hypot(q.x - p.x, q.y - p.y) < kWide;
+      });
+    });
+    behind += hidden ? 1 : 0;
+  }
+  view.occluded = static_cast<double>(behind) / static_cast<double>(count);
+  return view;
+}
+
+struct Candidate {
+  std::shared_ptr<const PathStimulus> stimulus;
+  double score = 0.0;
+};
+
+/// The path as a stimulus where it is good, else null.
+Candidate judged(std::vector<Vec3> path, const PathWish& wish,
+                 const std::shared_ptr<const VectorField>& field,
+                 const std::shared_ptr<const std::vector<Line>>& lines) {
+  constexpr double kOff = 0.004, kStraight = 0.97, kCurled = 0.55, kHidden = 0.1;
+  constexpr double kLiked = 0.8, kOffWeight = 0.1;
+  if (path.empty() || !first_meets_at_end(path, wish.goal)) return {};
+  const bool shown = wish.goal == PathGoal::kEnd;
+  const double chord = glm::distance(path.front(), path.back()) / wish.length;
+  if (chord > kStraight || chord < kCurled) return {};
+  const double off = shown ? 0.0 : apart(path, *lines);
+  if (!shown && off < kOff) return {};
+  View view;
+  if (!wish.flat) {
+    view.depth = HUGE_VAL;
+    constexpr int kViews = 16;
+    for (int v = 0; v < kViews; ++v) {
+      const View other = view_from(path, *lines, 360.0 * v / kViews, wish.length, view.depth + view.occluded);
+      if (other.depth + other.occluded < view.depth + view.occluded) view = other;
+    }
+    if (view.depth > kDeep || view.occluded > kHidden) return {};
+  }
+  auto stimulus = std::make_shared<PathStimulus>();
+  stimulus->path = std::move(path);
+  stimulus->goal = wish.goal;
+  stimulus->shown = shown;
+  stimulus->flat = wish.flat;
+  stimulus->view = view.axes;
+  stimulus->bounds = stimulus_box(wish.flat);
+  if (wish.flat) stimulus->bounds.lower.z = stimulus->bounds.upper.z = 0.0;
+  stimulus->lines = lines;
+  stimulus->field = field;
+  return {std::move(stimulus),
+          std::abs(chord - kLiked) + view.depth + view.occluded - kOffWeight * off / kOff};
+}
+
+}  // namespace
+
+std::shared_ptr<const VectorField> stimulus_field(bool flat, std::uint64_t seed, int number) {
+  const int vectors = flat ? 19 : 13;
+  const Index3 points = flat ? Index3{128, 128, 2} : Index3{32, 32, 32};
+  RandomStream random({seed, flat ? 21U : 22U, static_cast<std::uint64_t>(number)});
+  std::vector<ScatteredVector> scattered;
+  for (int i = 0; i < vectors; ++i) {
+    ScatteredVector one;
+    for (int axis = 0; axis < (flat ? 2 : 3); ++axis) {
+      one.place[axis] = kStimulusSize * random.uniform();
+      one.vector[axis] = random.uniform(-1.0, 1.0);
+    }
+    scattered.push_back(one);
+  }
+  const Box box = stimulus_box(flat);
+  const std::vector<Vec3> places = grid_places(points, box);
+  return grid_field(points, box,
+                    flat ? biharmonic_spline(scattered, places) : inverse_distance(scattered, places));
+}
+
+std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, bool flat) {
+  TraceOptions options;
+  options.backward = true;
+  options.step = 0.002;
+  options.max_length = kStimulusSize;
+  options.tolerance = 1e-6;
+  options.integrator = Integrator::kBs32;  // third order, its steps by an embedded method
+  options.threads = 1;
+  const std::vector<Vec3> seeds = seeds_of(flat);
+  return std::make_shared<const std::vector<Line>>(trace_lines(field, seeds, options).lines);
+}
+
+PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Progress& progress) {
+  constexpr std::size_t kGood = 80, kRounds = 80, kBatch = 10;
+  std::vector<std::shared_ptr<const VectorField>> fields(kFields);
+  std::vector<std::shared_ptr<const std::vector<Line>>> lines(kFields);
+  std::vector<RandomStream> random;
+  for (std::uint64_t f = 0; f < kFields; ++f)
+    random.emplace_back(
+        RandomStream({seed, 23, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal), f}));
+  progress.begin("choosing paths", kGood);
+  PathChoice choice;
+  std::vector<Candidate> good;
+  for (std::size_t round = 0; round < kRounds && good.size() < kGood; ++round) {
+    std::vector<std::vector<Candidate>> found(kFields);
+    parallel_for(kFields, 0, [&](std::size_t first, std::size_t last) {
+      for (std::size_t f = first; f < last; ++f) {
+        progress.check();
+        if (!fields[f]) {
+          fields[f] = stimulus_field(wish.flat, seed, static_cast<int>(f));
+          lines[f] = global_view(*fields[f], wish.flat);
+        }
+        std::vector<Vec3> starts(kBatch);
+        for (Vec3& start : starts) {
+          for (int axis = 0; axis < (wish.flat ? 2 : 3); ++axis)
+            start[axis] = kStimulusSize * random[f].uniform(0.1, 0.9);
+        }
+        for (std::vector<Vec3>& path : paths_from(*fields[f], starts, wish))
+          found[f].push_back(judged(std::move(path), wish, fields[f], lines[f]));
+      }
+    });
+    // In turn from each field, so that none has more than its share.
+    for (std::size_t i = 0; i < kBatch * kFields && good.size() < kGood; ++i) {
+      Candidate& candidate = found[i % kFields][i / kFields];
+      ++choice.tried;
+      if (!candidate.stimulus) continue;
+      good.push_back(std::move(candidate));
+      progress.advance();
+    }
+  }
+  choice.good = good.size();
+  if (good.size() < as_size(count)) {
+    throw work_error("only " + std::to_string(good.size()) + " good paths among " +
+                     std::to_string(choice.tried) + " places; try another --seed, or fewer trials");
+  }
+  std::ranges::stable_sort(good, {}, &Candidate::score);
+  good.resize(as_size(count));
+  RandomStream shuffle({seed, 24, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal)});
+  for (const int i : shuffle.order(count)) {  // practice and recorded ones are equally good
+    choice.stimuli.push_back(good[as_size(i)].stimulus);
+    choice.scores.push_back(good[as_size(i)].score);
+  }
+  return choice;
+}
+
+}  // namespace palpate

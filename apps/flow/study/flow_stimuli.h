@@ -1,0 +1,50 @@
+/// The stimuli of the four tasks of Ikits 2006, ch. 7: made fields, their global view, and paths in them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/base/progress.h"
+#include "common/study/path_trial.h"
+
+namespace palpate {
+
+/// What is asked of the paths of a task.
+struct PathWish {
+  bool flat = true;
+  PathGoal goal = PathGoal::kEnd;
+  double length = 0.1;  ///< [m] of every path: equal distances for all
+};
+
+/// Candidates that were good, and out of how many.
+struct PathChoice {
+  std::vector<std::shared_ptr<const PathStimulus>> stimuli;  ///< the best ones
+  std::vector<double> scores;  ///< of them, the best first before they are shuffled
+  std::size_t good = 0, tried = 0;
+};
+
+inline constexpr double kStimulusSize = 0.25;  ///< [m] side of the square or cube, as in the reference
+inline constexpr int kFields = 30;             ///< data sets of a kind
+
+/// A field of a kind: 19 random vectors by biharmonic splines on 128 x 128 points, or 13 by inverse distance on
+/// 32^3. @param number from 0.
+[[nodiscard]] std::shared_ptr<const VectorField> stimulus_field(bool flat, std::uint64_t seed, int number);
+
+/// The streamlines from 6 x 6 or 5 x 5 x 5 seeds, both ways.
+[[nodiscard]] std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, bool flat);
+
+/// Places in these fields are drawn until 80 are good; the `count` best are kept. Good is a path that
+///   - has the length wished for, within the field and a margin of it;
+///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
+///   - meets its circle or plane for the first time at its end;
+///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
+///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length and fewer than a tenth of it lies
+///     behind displayed lines.
+/// The score is least for paths far from displayed lines, of middling curvature and little depth and occlusion.
+/// @throws Error (work failed) where too few are good; Cancelled.
+[[nodiscard]] PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count,
+                                      Progress& progress);
+
+}  // namespace palpate

@@ -1,0 +1,61 @@
+/// The window in which a participant of an experiment sits: instructions, trials, breaks and a form.
+///
+/// At each trial the hand is pulled to the blue start, where the device can; the space bar begins, once the
+/// cursor is at the start, and ends. A trial is on the disk before the next one begins: a window that is killed
+/// loses the trial at work and nothing else, and the next one goes on from there.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/hand/probe_options.h"
+#include "common/render/camera.h"
+#include "common/render/stereo/stereo_view.h"
+#include "common/study/study_folder.h"
+#include "common/window/input_event.h"
+
+namespace palpate {
+
+/// What is on the screen.
+enum class ParticipantScreen : std::uint8_t {
+  kWelcome,  ///< text; the space bar goes on, likewise below
+  kTask,     ///< what is to be done in the task that follows
+  kStart,    ///< a trial: the cursor is to be brought to the start
+  kTrial,    ///< a trial at work
+  kPause,    ///< a break, as long as is liked
+  kForm,     ///< questions
+  kThanks
+};
+
+/// The window as somebody sees it who works it: for tests and demonstrations.
+struct ParticipantSight {
+  int frame = 0;
+  ParticipantScreen screen = ParticipantScreen::kWelcome;
+  int width = 0, height = 0;          ///< [pixels]
+  Camera camera;                      ///< of a trial
+  const StudyTrial* trial = nullptr;  ///< null on other screens
+  Vec3 cursor{0.0};                   ///< [m]
+  std::size_t left = 0;               ///< trials
+};
+
+struct ParticipantWindowOptions {
+  ProbeSessionOptions touch;  ///< of which device, limits and rate are taken
+  std::string device;         ///< how it was named
+  StereoView stereo;
+  int width = 1152, height = 864;        ///< [screen coordinates] those of the reference
+  std::function<bool()> stop_requested;  ///< asked each frame; true closes the window
+  /// Events put in at each frame as if they came from mouse and keyboard.
+  std::function<std::vector<InputEvent>(const ParticipantSight&)> hands;
+  /// Where a picture of the window is saved that was asked for at the end of a frame; empty: none.
+  std::function<std::filesystem::path(const ParticipantSight&)> photograph;
+};
+
+/// Shows the window until the participant has done all trials, or it is closed. Call it on the main thread.
+/// @param who is entered in the folder. @throws Error (work failed) where no window can be opened or a trial cannot be
+/// written.
+void run_participant_window(StudyFolder& folder, const StudyTasks& tasks, const StudyParticipant& who,
+                            const RecordingHeader& header, const ParticipantWindowOptions& options);
+
+}  // namespace palpate

@@ -1,0 +1,200 @@
+#include "common/study/path_trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/base/index.h"
+#include "common/haptics/constraint/anisotropy_drag.h"
+#include "common/haptics/constraint/half_space.h"
+#include "common/haptics/constraint/shape.h"
+#include "common/haptics/constraint/streamline.h"
+#include "common/study/study_look.h"
+
+namespace palpate {
+namespace {
+
+/// A streamline constraint that holds the line through `start`, wherever the hand is when it is caught: hands
+/// are never quite at the start.
+class StartedStreamline final : public Constraint {
+ public:
+  StartedStreamline(const std::shared_ptr<const VectorField>& field, const Vec3& start)
+      : line_(std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, 1),
+              Workspace(1.0, field->frame())),
+        start_(start) {}
+
+  void apply(const ChainSettings& settings) noexcept override { line_.apply(settings); }
+  void reset() noexcept override {
+    line_.reset();
+    caught_ = false;
+  }
+  void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override {
+    if (!caught_) {
+      LinkUpdate first;
+      line_.update(start_, budget, first);
+      caught_ = true;
+    }
+    line_.update(probe, budget, link);
+  }
+
+ private:
+  StreamlineConstraint line_;
+  Vec3 start_;
+  bool caught_ = false;
+};
+
+/// A short streamline from `x` on, of the direction alone.
+std::vector<Vec3> indicator_from(const VectorField& field, Vec3 x, double length) {
+  constexpr int kSteps = 16;
+  const double h = length / kSteps;
+  CellHint hint;
+  bool inside = true;
+  const auto direction = [&](const Vec3& at) {
+    const VectorSample sample = field.sample(at, hint);
+    const double speed = glm::length(sample.value);
+    inside = inside && sample.status == SampleStatus::kOk && speed > 0.0;
+    return inside ? sample.value / speed : Vec3{0.0};
+  };
+  std::vector<Vec3> line{x};
+  for (int i = 0; i < kSteps && inside; ++i) {
+    const Vec3 k1 = direction(x), k2 = direction(x + 0.5 * h * k1), k3 = direction(x + 0.5 * h * k2),
+               k4 = direction(x + h * k3);
+    if (!inside) break;
+    x += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+    line.push_back(x);
+  }
+  return line;
+}
+
+}  // namespace
+
+ChainSettings trial_settings(double stiffness, double guidance) {
+  constexpr double kFar = 10.0;  // [m]
+  ChainSettings settings;
+  settings.stiffness = stiffness * guidance;
+  settings.streamline.release_distance = kFar;
+  settings.shape.snap_distance = kFar;
+  settings.shape.release_distance = kFar;
+  return settings;
+}
+
+PathFoot foot_on(const std::vector<Vec3>& path, const Vec3& x) noexcept {
+  PathFoot best;
+  double least = HUGE_VAL, arc = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    const Vec3 along = path[i + 1] - path[i];
+    const double length = glm::length(along);
+    if (!(length > 0.0)) continue;
+    const double s = std::clamp(glm::dot(x - path[i], along) / (length * length), 0.0, 1.0);
+    const Vec3 point = path[i] + s * along, apart = x - point;
+    const double square = glm::dot(apart, apart);
+    if (square < least) {
+      least = square;
+      best = {point, along / length, arc + s * length};
+    }
+    arc += length;
+  }
+  return best;
+}
+
+std::unique_ptr<ProxyChain> PathTrial::chain(bool guided, double guidance) const {
+  std::vector<std::unique_ptr<Constraint>> links;
+  if (!guided) {
+    links.push_back(std::make_unique<IsotropicDrag>());
+  } else if (stimulus_->field) {
+    links.push_back(std::make_unique<StartedStreamline>(stimulus_->field, start()));
+  } else {
+    links.push_back(std::make_unique<PolylineConstraint>(stimulus_->path));
+  }
+  // The plane is felt where the line, or the hand, meets it.
+  if (stimulus_->goal == PathGoal::kPlane)
+    links.push_back(std::make_unique<HalfSpaceConstraint>(stimulus_->path.back(), Vec3{0.0, 0.0, 1.0}));
+  const ChainSettings settings = trial_settings(guided ? kGuideStiffness : kDragStiffness, guidance);
+  return std::make_unique<ProxyChain>(std::move(links), settings);
+}
+
+void PathTrial::begin() {
+  last_.reset();
+  reached_.reset();
+  sum_ = 0.0;
+  steps_ = 0;
+}
+
+std::optional<Vec3> PathTrial::meeting(const Vec3& from, const Vec3& to) const noexcept {
+  const Vec3 end = stimulus_->path.back();
+  double before = 0.0, after = 0.0;  // the goal is where this rises through zero
+  switch (stimulus_->goal) {
+    case PathGoal::kEnd:
+      return glm::distance(to, end) <= kNear ? std::optional(to) : std::nullopt;
+    case PathGoal::kCircle: {
+      // Along a step of a millisecond the distance from the centre is as good as linear.
+      const double radius = glm::distance(start(), end);
+      before = glm::distance(from, start()) - radius;
+      after = glm::distance(to, start()) - radius;
+      break;
+    }
+    case PathGoal::kPlane:
+      before = end.z - from.z;
+      after = end.z - to.z;
+      break;
+  }
+  if (!(before < 0.0 && after >= 0.0)) return std::nullopt;
+  return from + before / (before - after) * (to - from);
+}
+
+void PathTrial::follow(const HandStep& step) {
+  if (!step.present) return;
+  const Vec3 x = seen(step.probe);
+  if (!reached_) reached_ = meeting(last_.value_or(x), x);
+  last_ = x;
+  sum_ += glm::distance(x, foot_on(stimulus_->path, x).point);
+  ++steps_;
+}
+
+TrialCue PathTrial::cue(const Vec3& where) const {
+  const Vec3 x = seen(where);
+  TrialCue cue{.arrived = reached()};
+  const PathFoot foot = foot_on(stimulus_->path, x);
+  cue.along = foot.tangent;
+  if (stimulus_->shown) {
+    const Vec3 end = stimulus_->path.back(), left = end - x;
+    constexpr double kClose = 0.010;  // [m] from where on the end itself is aimed at, ever slower
+    cue.arrived = glm::length(left) <= kNear;
+    cue.off = foot.point - x;
+    if (glm::length(left) < kClose || foot.point == end)
+      cue.along = left / std::max(kClose, glm::length(left));
+    return cue;
+  }
+  CellHint hint;
+  const VectorSample sample = stimulus_->field->sample(x, hint);
+  const double speed = glm::length(sample.value);
+  if (sample.status == SampleStatus::kOk && speed > 0.0) cue.along = sample.value / speed;
+  return cue;
+}
+
+double PathTrial::error() const {
+  constexpr double kMillimetres = 1000.0;
+  if (!last_) return kMillimetres * glm::distance(start(), stimulus_->path.back());
+  if (stimulus_->shown) return kMillimetres * sum_ / static_cast<double>(steps_);
+  return kMillimetres * glm::distance(reached_.value_or(*last_), stimulus_->path.back());
+}
+
+SceneView PathTrial::view(const Vec3* cursor, double aspect) const {
+  SceneView view = study_view(stimulus_->bounds, stimulus_->view, stimulus_->flat, aspect);
+  view.lines = stimulus_->lines;
+  StudyLook look(view);
+  const Vec3 end = stimulus_->path.back();
+  if (stimulus_->goal == PathGoal::kCircle) look.circle(start(), glm::distance(start(), end));
+  if (stimulus_->goal == PathGoal::kPlane) look.ground(stimulus_->bounds, end.z);
+  if (stimulus_->shown) look.ribbon(stimulus_->path, StudyLook::kRed, false);
+  look.disc(start(), StudyLook::kBlue);
+  if (cursor == nullptr) return view;
+  const Vec3 x = seen(*cursor);
+  constexpr double kIndicator = 0.03;  // [m]
+  if (!stimulus_->shown)
+    look.ribbon(indicator_from(*stimulus_->field, x, kIndicator), StudyLook::kDark, true);
+  look.crosshair(x);
+  return view;
+}
+
+}  // namespace palpate

@@ -1,0 +1,114 @@
+/// The folder of an experiment, laid out after BIDS (Gorgolewski et al. 2016), so that others can read it:
+///
+///   dataset_description.json  study.json  README  participants.tsv, .json  design.tsv, .json
+///   task-NAME_beh.json        data dictionary of the trials of a task
+///   stimuli/task-NAME_stimuli.tsv
+///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_beh.json           what came of a trial
+///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_recording.txt.gz   all input of the hand, to play it back
+///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_motion.tsv.gz      cursor, proxy, force, each hundredth of a second
+///   sub-CODE/sub-CODE_questionnaire.json
+///
+/// A trial is there once its _beh.json is: that file is written last, and each of them under another name first,
+/// is forced to the disk and then renamed. Nothing but the code tells who a participant was.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/study/design.h"
+#include "common/study/task.h"
+#include "common/study/trial_run.h"
+
+namespace palpate {
+
+/// What study.json says.
+struct StudyPlan {
+  std::string program;             ///< whose tasks they are: "flow"
+  std::string version;             ///< that made the folder
+  std::vector<std::string> tasks;  ///< names, in the order that the design counts them
+  DesignRequest design;
+  double guidance = 1.0;
+};
+
+/// One line of participants.tsv.
+struct StudyParticipant {
+  std::string code;
+  int number = 0;  ///< in the design, from 0
+  bool simulated = false;
+  std::vector<std::pair<std::string, double>> traits;  ///< of a simulated one
+};
+
+/// A trial that was done.
+struct TrialRecord {
+  std::string participant;
+  std::string task;
+  int run = 1;  ///< of the task, from 1, practice first
+  int stimulus = 0;
+  bool practice = false;
+  bool guided = false;
+  bool simulated = false;
+  std::string device;  ///< what moved the cursor
+  TrialOutcome outcome;
+};
+
+class StudyFolder {
+ public:
+  /// Opens one that is there. @throws Error (bad input) where it is none.
+  explicit StudyFolder(std::filesystem::path folder);
+  /// Makes one. @param overwrite an experiment there without any trial is replaced.
+  /// @throws Error (usage) where the folder holds something else, or trials; (work failed).
+  static StudyFolder make(const std::filesystem::path& folder, const StudyPlan& plan, const StudyTasks& tasks,
+                          bool overwrite);
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return folder_; }
+  [[nodiscard]] const StudyPlan& plan() const noexcept { return plan_; }
+  [[nodiscard]] const std::vector<PlannedTrial>& design() const noexcept { return design_; }
+  /// What the dictionary of a task says of it. @throws Error (bad input).
+  [[nodiscard]] StudyTaskInfo task(const std::string& name) const;
+  /// "P01": of that number in the design.
+  [[nodiscard]] static std::string code_of(int number);
+
+  /// Those that have begun, by number.
+  [[nodiscard]] std::vector<StudyParticipant> participants() const;
+  /// Enters one. @throws Error (usage) where the code is of somebody else or is no code; (work failed).
+  void enter(const StudyParticipant& participant);
+
+  [[nodiscard]] bool has(const std::string& code, const std::string& task, int run) const;
+  /// Trials of a participant that are not there yet, in their order.
+  [[nodiscard]] std::vector<PlannedTrial> left_for(const StudyParticipant& participant) const;
+  /// Writes a trial: it is on the disk when this returns.
+  /// @param recording its text. @throws Error (work failed).
+  void write(const TrialRecord& record, const std::string& recording, const std::vector<HandStep>& steps);
+  /// @throws Error (bad input) where it is damaged.
+  [[nodiscard]] TrialRecord read(const std::string& code, const std::string& task, int run) const;
+  [[nodiscard]] Recording recording(const std::string& code, const std::string& task, int run) const;
+  /// All trials that are there, in the order of the design.
+  [[nodiscard]] std::vector<TrialRecord> trials() const;
+
+  /// Answers by question; empty where the form was not filled in.
+  void write_answers(const std::string& code, const std::map<std::string, std::string>& answers);
+  [[nodiscard]] std::map<std::string, std::string> answers(const std::string& code) const;
+
+ private:
+  StudyFolder() = default;
+  [[nodiscard]] std::filesystem::path stem(const std::string& code, const std::string& task, int run) const;
+
+  std::filesystem::path folder_;
+  StudyPlan plan_;
+  std::vector<PlannedTrial> design_;
+};
+
+/// What the form asks after the last trial.
+struct StudyQuestion {
+  std::string key;  ///< in the file
+  std::string text;
+  std::vector<std::string> choices;  ///< empty: any text
+};
+[[nodiscard]] const std::vector<StudyQuestion>& study_questions();
+
+}  // namespace palpate

@@ -1,0 +1,134 @@
+#include "common/study/trial_run.h"
+
+#include <cmath>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/device/device_profile.h"
+#include "common/device/simulated_arm.h"
+#include "common/haptics/constraint/shape.h"
+#include "common/servo/replay_source.h"
+#include "common/study/path_trial.h"
+
+namespace palpate {
+namespace {
+
+/// What sensors resolve [m]: recordings hold few digits then.
+Vec3 rounded(const Vec3& x) noexcept {
+  constexpr double kUnits = 1e6;
+  return glm::round(x * kUnits) / kUnits;
+}
+
+}  // namespace
+
+std::string chain_text(const ChainWords& words) {
+  return "trial " + words.task + " " + std::to_string(words.stimulus) + " " +
+         std::string(condition_name(words.guided)) + " " + exact_number(words.guidance);
+}
+
+ChainWords chain_words(const std::string& text) {
+  const std::vector<std::string_view> parts = words(text);
+  if (parts.size() == 5 && parts[0] == "trial") {
+    const auto stimulus = parsed<int>(parts[2]);
+    const auto guidance = number(parts[4]);
+    if (stimulus && *stimulus >= 0 && guidance && *guidance >= 0.0)
+      return {std::string(parts[1]), *stimulus, parts[3] == condition_name(true), *guidance};
+  }
+  throw input_error({"recording", "", "'" + text + "'", "trial TASK STIMULUS CONDITION GUIDANCE",
+                     "it is not a recording of an experiment"});
+}
+
+std::unique_ptr<ProxyChain> start_chain(const Vec3& start) {
+  constexpr double kPoint = 1e-6;  // [m] a segment of that length is a point
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<PolylineConstraint>(start, start + Vec3{kPoint, 0.0, 0.0}));
+  return std::make_unique<ProxyChain>(std::move(links), trial_settings(kGuideStiffness, 1.0));
+}
+
+TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
+                        const ParticipantTraits& traits, const RandomStream& random,
+                        const RecordingHeader& header) {
+  const Vec3 start = trial.start();
+  const DeviceProfile profile = find_profile("premium3");
+  SimulatedArm arm(profile, traits.hand, 0.0, start);
+  HandStepper stepper(start_chain(start), header.limits);
+  ParticipantModel model(traits, trial.view_axes(), info.flat, start, random);
+  RecordingText text;
+  text.header(header);
+  text.chain(0, kStartChain);
+  TrialRun run;
+  constexpr std::uint64_t kSettle = 300;  // steps that the hand rests at the start
+  const std::uint64_t most =
+      kSettle + static_cast<std::uint64_t>(info.most_seconds() / ParticipantModel::kStep);
+  trial.begin();
+  for (std::uint64_t n = 0; n < most; ++n) {
+    const double time = ParticipantModel::kStep * static_cast<double>(n);
+    if (n == kSettle) {
+      (void)stepper.exchange_chain(trial.chain(words.guided, words.guidance));
+      text.chain(n, chain_text(words));
+      text.event(n, 0, kBeginEvent);
+      run.outcome.begin = n;
+    }
+    HandInput input{.time = time, .present = true};
+    const Vec3 x = rounded(arm.encoders());
+    const bool marks = model.marks();
+    input.sample = {time, x, marks ? 1U : 0U};
+    const HandStep step = stepper.step(input);
+    text.step(input, step);
+    arm.command(time, step.force);
+    run.outcome.end = n + 1;
+    if (n >= kSettle) {
+      trial.follow(step);
+      run.steps.push_back(step);
+      arm.set_rest(model.aim(trial, x));
+      if (model.says_done()) break;
+    }
+    arm.advance(time + ParticipantModel::kStep);
+  }
+  run.outcome.timed_out = !model.says_done();
+  run.outcome.seconds = run.steps.back().time - run.steps.front().time;
+  text.event(run.outcome.end, 0, run.outcome.timed_out ? kTimeEvent : kDoneEvent);
+  text.end();
+  run.outcome.error = trial.error();
+  run.outcome.reached = trial.reached();
+  run.recording = text.text();
+  return run;
+}
+
+TrialReplay replay_trial(StudyTrial& trial, Recording recording) {
+  TrialReplay out;
+  bool ended = false;
+  for (const RecordedEvent& event : recording.events) {
+    if (event.text == kBeginEvent) out.outcome.begin = event.step;
+    if (event.text == kDoneEvent || event.text == kTimeEvent) {
+      out.outcome.end = event.step;
+      out.outcome.timed_out = event.text == kTimeEvent;
+      ended = true;
+    }
+  }
+  if (!ended) throw input_error({"recording", "", "no end of the trial", "", "the trial was not completed"});
+  ReplaySource source(std::move(recording), [&](const std::string& text) {
+    if (text == kStartChain) return start_chain(trial.start());
+    const ChainWords words = chain_words(text);
+    return trial.chain(words.guided, words.guidance);
+  });
+  trial.begin();
+  double first = NAN, last = NAN;
+  while (!source.done()) {
+    const HandStep step = source.step();
+    if (step.number < out.outcome.begin || step.number >= out.outcome.end) continue;
+    if (std::isnan(first)) first = step.time;
+    last = step.time;
+    trial.follow(step);
+  }
+  out.outcome.seconds = last - first;
+  out.outcome.error = trial.error();
+  out.outcome.reached = trial.reached();
+  out.verdict = verdict_text(source.verdict(), source.recording());
+  const ReplayVerdict& verdict = source.verdict();
+  out.identical = verdict.same == verdict.steps && verdict.steps > 0 && source.recording().lost == 0;
+  return out;
+}
+
+}  // namespace palpate

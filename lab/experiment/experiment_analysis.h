@@ -1,0 +1,64 @@
+/// What an experiment with participants says (common/study): per participant and condition the mean and the deviation
+/// of error and time, and the tests of Ikits 2006, sec. 7.2, on them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/study/statistics.h"
+#include "common/study/study_folder.h"
+
+namespace palpate {
+
+enum class Measure : std::uint8_t { kError, kTime };
+inline constexpr std::array kMeasures{Measure::kError, Measure::kTime};
+
+/// A number a participant, without guidance and with it, in the same order.
+struct Pairs {
+  std::vector<double> free, guided;
+};
+
+struct MeasureAnalysis {
+  Pairs means, deviations;
+  PairedTest of_means, of_deviations;  ///< of free - guided: positive where guidance helps
+  InferentialIntervals intervals;      ///< of the means; a: free, b: guided
+  NormalityTest normality;             ///< of the differences of means
+  SignedRankTest ranks;                ///< of means
+  PermutationTest permutation;         ///< of trials, beta of guidance
+};
+
+struct TaskAnalysis {
+  StudyTaskInfo info;
+  std::size_t trials = 0, too_far = 0,
+              too_slow = 0;               ///< recorded ones; left out for their error, else for their time
+  std::vector<std::string> participants;  ///< who is in the pairs
+  std::vector<std::string> lacking;       ///< who has fewer than two good trials in a condition
+  std::array<MeasureAnalysis, 2> measures;
+  std::array<Correlation, 2> error_with_time;  ///< of means: free, guided
+
+  [[nodiscard]] const MeasureAnalysis& of(Measure m) const { return measures[static_cast<std::size_t>(m)]; }
+};
+
+/// Errors of a task in 3D less those of the same in 2D, over participants that have both.
+struct DimensionTest {
+  std::string task;  ///< "tracing": the 3D one's title
+  bool guided = false;
+  PairedTest errors;
+};
+
+struct ExperimentAnalysis {
+  std::vector<TaskAnalysis> tasks;
+  std::vector<DimensionTest> dimensions;
+  std::size_t participants = 0, simulated = 0;
+};
+
+/// Whether a trial counts: practice does not, and neither do errors and times beyond the limits of its task.
+[[nodiscard]] bool counts(const TrialRecord& trial, const StudyTaskInfo& info) noexcept;
+
+/// @throws Error (bad input) for a damaged folder.
+[[nodiscard]] ExperimentAnalysis analyse_experiment(const StudyFolder& folder,
+                                                    const std::vector<TrialRecord>& trials);
+
+}  // namespace palpate

@@ -1,0 +1,63 @@
+#include "common/study/design.h"
+
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+
+namespace palpate::test {
+namespace {
+
+TEST(Design, OfTheReferencesNumbersIsBalancedInAllCounts) {
+  for (const std::uint64_t seed : {1U, 2U, 99U}) {
+    DesignRequest request;
+    request.seed = seed;
+    const auto design = make_design(request);
+    EXPECT_EQ(design.size(), 20U * 4U * 30U);
+    const DesignBalance balance = balance_of(design);
+    EXPECT_EQ(balance.conditions_of_participant, 0);
+    EXPECT_EQ(balance.conditions_of_stimulus, 0);
+    EXPECT_EQ(balance.conditions_of_place, 0);
+    EXPECT_EQ(balance.stimuli_at_place, 0);
+    EXPECT_EQ(balance.tasks_at_place, 0);
+  }
+}
+
+TEST(Design, GivesEachParticipantEachStimulusOnceInATask) {
+  std::map<std::pair<int, int>, std::multiset<int>> seen;
+  for (const PlannedTrial& t : make_design({.participants = 7, .tasks = 3, .practice = 4, .recorded = 6})) {
+    seen[{t.participant, t.task}].insert(t.stimulus);
+    EXPECT_EQ(t.practice, t.stimulus >= 6);
+    EXPECT_EQ(t.practice, t.trial < 4);
+  }
+  ASSERT_EQ(seen.size(), 21U);
+  for (const auto& [who, stimuli] : seen)
+    EXPECT_EQ(stimuli, (std::multiset<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(Design, SaysHowFarItIsFromBalance) {
+  std::vector<PlannedTrial> design = make_design({});
+  for (PlannedTrial& t : design) t.guided = t.guided || t.stimulus == 3;
+  const DesignBalance balance = balance_of(design);
+  EXPECT_EQ(balance.conditions_of_stimulus, 20);
+  EXPECT_GT(balance.conditions_of_participant, 0);
+  EXPECT_EQ(balance_of(make_design({.participants = 19})).stimuli_at_place, 1) << "one row is missing";
+}
+
+TEST(Design, DependsOnTheSeedAlone) {
+  const auto order = [](std::uint64_t seed) {
+    std::vector<int> out;
+    for (const PlannedTrial& t : make_design({.seed = seed}))
+      out.push_back(2 * t.stimulus + (t.guided ? 1 : 0));
+    return out;
+  };
+  EXPECT_EQ(order(5), order(5));
+  EXPECT_NE(order(5), order(6));
+}
+
+TEST(Design, RefusesOddNumbersOfTrials) { EXPECT_THROW((void)make_design({.recorded = 7}), Error); }
+
+}  // namespace
+}  // namespace palpate::test
