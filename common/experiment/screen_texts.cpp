@@ -9,7 +9,7 @@
 namespace palpate {
 
 std::string welcome_text(std::size_t done, std::size_t left, bool mouse) {
-  std::string text = "Welcome.\n\nYou will see images of flows and follow paths in them with a crosshair, ";
+  std::string text = "Welcome.\n\nYou will see pictures of data and work in them with a crosshair, ";
   text += mouse ? "which the mouse leads." : "which the device in your hand leads.";
   text +=
       "\n\nEach trial begins at a blue dot. Bring the crosshair there; where your device can, it pulls you. "

@@ -178,7 +178,7 @@ void StudyWork::simulate() {
                                  static_cast<std::uint64_t>(planned.task),
                                  static_cast<std::uint64_t>(planned.trial)});
       const TrialRun run = simulate_trial(*trial, task.info(), words,
-                                          draw_traits(plan.design.seed, who->number), random, head);
+                                          draw_traits(plan.design.seed, who->number), random, &head);
       if (run.outcome.timed_out) ++timed_out;
       folder.write({who->code, task.info().name, planned.trial + 1, planned.stimulus, planned.practice,
                     planned.guided, true, "simulated:premium3,hand=relaxed", run.outcome},

@@ -77,6 +77,12 @@ void make_folder(const fs::path& path) {
   if (error) throw work_error(path.string() + ": cannot be made (" + error.message() + ")");
 }
 
+/// Letters and digits alone: what becomes part of a file's name.
+bool is_plain(const std::string& word) {
+  return !word.empty() && word.size() <= 32 &&
+         std::ranges::all_of(word, [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
 std::string two_digits(int number) {
   std::string text = std::to_string(number);
   return text.size() < 2 ? "0" + text : text;
@@ -154,9 +160,7 @@ std::string motion_table(const std::vector<HandStep>& steps) {
 }
 
 void check_code(const std::string& code) {
-  const bool plain = !code.empty() && code.size() <= 32 &&
-                     std::ranges::all_of(code, [](unsigned char c) { return std::isalnum(c) != 0; });
-  if (!plain) throw usage_error("--participant: a code is made of letters and digits, such as P03");
+  if (!is_plain(code)) throw usage_error("--participant: a code is made of letters and digits, such as P03");
 }
 
 }  // namespace
@@ -195,6 +199,15 @@ StudyFolder::StudyFolder(fs::path folder) : folder_(std::move(folder)) {
                        "make one: study make " + folder_.string()});
   }
   plan_ = taken(file, plan_of);
+  const DesignRequest& d = plan_.design;
+  constexpr int kMostParticipants = 10'000, kMostTrials = 200, kMostTasks = 32;
+  const bool sound = d.participants > 0 && d.participants <= kMostParticipants && d.practice >= 0 &&
+                     d.practice <= kMostTrials && d.recorded > 0 && d.recorded <= kMostTrials &&
+                     d.recorded % 2 == 0 && d.tasks > 0 && d.tasks <= kMostTasks && plan_.guidance >= 0.0 &&
+                     std::ranges::all_of(plan_.tasks, is_plain);
+  if (!sound)
+    throw input_error(
+        {file.string(), "", "its numbers or names of tasks make no sense", "", "restore it from a copy"});
   design_ = make_design(plan_.design);
 }
 
@@ -261,6 +274,7 @@ std::vector<StudyParticipant> StudyFolder::participants() const {
   return taken(file, [&](const Json& json) {
     for (const Json& one : json.at("participants")) {
       StudyParticipant p{one.at("code"), one.at("number"), one.at("simulated"), {}};
+      if (!is_plain(p.code)) throw input_error({file.string(), "", "'" + p.code + "'", "a code", ""});
       for (const auto& [name, value] : one.at("traits").items())
         p.traits.emplace_back(name, value.get<double>());
       out.push_back(std::move(p));
@@ -339,7 +353,8 @@ void StudyFolder::write(const TrialRecord& record, const std::string& recording,
 }
 
 TrialRecord StudyFolder::read(const std::string& code, const std::string& task, int run) const {
-  return taken(stem(code, task, run).string() + "beh.json", [](const Json& json) {
+  const fs::path file = stem(code, task, run).string() + "beh.json";
+  return taken(file, [&](const Json& json) {
     TrialRecord r;
     r.participant = json.at("participant");
     r.task = json.at("task");
@@ -355,6 +370,9 @@ TrialRecord StudyFolder::read(const std::string& code, const std::string& task, 
     r.outcome.timed_out = json.at("end") == kTimeEvent;
     r.outcome.begin = json.at("first_step");
     r.outcome.end = json.at("end_step");
+    const bool known = r.stimulus >= 0 && r.stimulus < plan_.design.practice + plan_.design.recorded;
+    if (!known || r.participant != code || r.task != task || r.run != run)
+      throw input_error({file.string(), "", "it is of another trial", "", "restore it from a copy"});
     return r;
   });
 }

@@ -48,14 +48,14 @@ std::unique_ptr<ProxyChain> start_chain(const Vec3& start) {
 
 TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
                         const ParticipantTraits& traits, const RandomStream& random,
-                        const RecordingHeader& header) {
+                        const RecordingHeader* header) {
   const Vec3 start = trial.start();
   const DeviceProfile profile = find_profile("premium3");
   SimulatedArm arm(profile, traits.hand, 0.0, start);
-  HandStepper stepper(start_chain(start), header.limits);
+  HandStepper stepper(start_chain(start), header != nullptr ? header->limits : DeviceLimits{});
   ParticipantModel model(traits, trial.view_axes(), info.flat, start, random);
   RecordingText text;
-  text.header(header);
+  if (header != nullptr) text.header(*header);
   text.chain(0, kStartChain);
   TrialRun run;
   constexpr std::uint64_t kSettle = 300;  // steps that the hand rests at the start
@@ -75,7 +75,7 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
     const bool marks = model.marks();
     input.sample = {time, x, marks ? 1U : 0U};
     const HandStep step = stepper.step(input);
-    text.step(input, step);
+    if (header != nullptr) text.step(input, step);
     arm.command(time, step.force);
     run.outcome.end = n + 1;
     if (n >= kSettle) {
@@ -92,7 +92,7 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
   text.end();
   run.outcome.error = trial.error();
   run.outcome.reached = trial.reached();
-  run.recording = text.text();
+  if (header != nullptr) run.recording = text.text();
   return run;
 }
 

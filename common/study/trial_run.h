@@ -45,9 +45,10 @@ struct ChainWords {
 inline constexpr std::string_view kStartChain = "start";  ///< in recordings: the start of the next trial
 
 /// Runs the trial on a simulated arm of the reference's class, a step a millisecond.
+/// @param header of the recording; null: none is made.
 [[nodiscard]] TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
                                       const ParticipantTraits& traits, const RandomStream& random,
-                                      const RecordingHeader& header);
+                                      const RecordingHeader* header);
 
 /// Plays a recording of this trial back.
 struct TrialReplay {

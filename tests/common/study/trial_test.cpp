@@ -1,12 +1,17 @@
 // A trial of a simulated participant, its recording and its replay, on a field in closed form.
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/parallel.h"
 #include "common/study/packed_text.h"
 #include "common/study/path_trial.h"
 #include "common/study/scattered_field.h"
@@ -43,9 +48,11 @@ std::shared_ptr<const PathStimulus> circle_stimulus(PathGoal goal, bool shown) {
 
 const StudyTaskInfo kInfo{.name = "made", .title = "Made", .flat = true, .cutoff_time = 10.0};
 
+const RecordingHeader kHeader;
+
 TrialRun run_of(StudyTrial& trial, bool guided, double guidance, std::uint64_t number) {
   return simulate_trial(trial, kInfo, {"made", 0, guided, guidance}, draw_traits(1, static_cast<int>(number)),
-                        RandomStream({5, number}), {});
+                        RandomStream({5, number}), &kHeader);
 }
 
 HandStep at(const Vec3& x) {
@@ -133,26 +140,44 @@ TEST(SimulatedTrial, AnotherHandIsToldFromIt) {
   EXPECT_FALSE(replay_trial(trial, read_packed_recording(folder.path("run.txt.gz").string())).identical);
 }
 
-/// A small version of the study that was run over 200 seeds (docs/guide/study.md).
-TEST(SimulatedTrial, GuidanceHelpsAndNoForceDoesNot) {
+/// Position errors of people, one trial each. @param trials names them: other ones have other noises.
+std::vector<double> errors_of(int people, std::uint64_t trials, bool guided, double guidance) {
   PathTrial trial(circle_stimulus(PathGoal::kCircle, false));
-  constexpr int kPeople = 6;
-  const auto errors = [&](bool guided, double guidance) {
-    std::vector<double> out;
-    for (std::uint64_t i = 0; i < kPeople; ++i) {
-      out.push_back(0.0);
-      for (std::uint64_t j = 0; j < 2; ++j)
-        out.back() +=
-            simulate_trial(trial, kInfo, {"made", 0, guided, guidance}, draw_traits(1, static_cast<int>(i)),
-                           RandomStream({9, i, j, guided ? 1U : 0U}), {})
-                .outcome.error;
-    }
-    return out;
-  };
-  const PairedTest helps = paired_test(errors(false, 1.0), errors(true, 1.0));
+  std::vector<double> out;
+  for (int i = 0; i < people; ++i) {
+    const RandomStream random({9, trials, static_cast<std::uint64_t>(i), guided ? 1U : 0U});
+    const ChainWords words{"made", 0, guided, guidance};
+    out.push_back(simulate_trial(trial, kInfo, words, draw_traits(trials, i), random, nullptr).outcome.error);
+  }
+  return out;
+}
+
+TEST(SimulatedTrial, GuidanceHelps) {
+  const PairedTest helps = paired_test(errors_of(12, 1, false, 1.0), errors_of(12, 1, true, 1.0));
   EXPECT_GT(helps.mean, 0.0);
   EXPECT_LT(helps.p, 0.01);
-  EXPECT_GT(paired_test(errors(false, 0.0), errors(true, 0.0)).p, 0.01);
+}
+
+/// Without force both conditions are one, and p is uniform. PALPATE_STUDY_SEEDS=200 asks that of 200 studies
+/// (docs/guide/study.md has what came of it); by default a few are looked at.
+TEST(SimulatedTrial, WithoutForceThereIsNoEffect) {
+  const char* const asked = std::getenv("PALPATE_STUDY_SEEDS");
+  const int seeds = asked != nullptr ? std::max(1, std::atoi(asked)) : 4;
+  const int people = asked != nullptr ? 8 : 5;
+  std::vector<double> p(as_size(seeds));
+  parallel_for(p.size(), 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t s = first; s < last; ++s)
+      p[s] = paired_test(errors_of(people, 100 + s, false, 0.0), errors_of(people, 100 + s, true, 0.0)).p;
+  });
+  for (const double one : p) EXPECT_GT(one, 1e-4);
+  const UniformityTest test = uniformity_test(p);
+  RecordProperty("distance", std::to_string(test.distance));
+  if (asked != nullptr) {
+    const auto below = std::ranges::count_if(p, [](double x) { return x < 0.05; });
+    std::cout << seeds << " studies: D = " << test.distance << ", p = " << test.p << ", " << below
+              << " below 0.05\n";
+  }
+  EXPECT_GT(test.p, 0.01);
 }
 
 TEST(ChainWords, ComeBackFromText) {
@@ -206,6 +231,22 @@ TEST(StudyFolder, ATrialWithoutItsLastFileIsDoneAgain) {
   EXPECT_EQ(made.left_for(who).size(), 3U);
   temporary.write("s/sub-P01/beh/sub-P01_task-made_run-01_beh.json", "{\"participant\":");
   EXPECT_THROW((void)made.trials(), Error) << "one that was damaged is named, not passed over";
+}
+
+TEST(StudyFolder, RefusesAPlanThatWouldNotFitIntoMemory) {
+  TempFolder temporary;
+  (void)StudyFolder::make(temporary.path("s"), small_plan(), {}, false);
+  const std::string plan = read_file(temporary.path("s/study.json"));
+  for (const auto& [from, to] :
+       {std::pair{"\"participants\": 2", "\"participants\": 2000000000"},
+        std::pair{"\"recorded_trials\": 2", "\"recorded_trials\": 3"},
+        std::pair{"\"made\"\n", "\"../../etc\"\n"}, std::pair{"\"seed\": 4", "\"seed\": \"four\""}}) {
+    std::string other = plan;
+    ASSERT_NE(other.find(from), std::string::npos) << plan;
+    other.replace(other.find(from), std::string(from).size(), to);
+    temporary.write("s/study.json", other);
+    EXPECT_THROW(StudyFolder{temporary.path("s")}, Error) << to;
+  }
 }
 
 TEST(StudyFolder, RefusesToReplaceAndTakesNoNames) {

@@ -1,0 +1,107 @@
+// `study` of all programs: from the design to the analysis, with simulated participants.
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/e2e/explorer_test.h"
+
+namespace palpate::test {
+namespace {
+
+class FlowStudy : public ExplorerTest {
+ protected:
+  FlowStudy() : ExplorerTest("flow") {}
+};
+
+TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
+  const Json made = json({"study", "make", "s", "--tasks", "advection2d", "--participants", "4", "--practice",
+                          "1", "--recorded", "4", "--seed", "5"});
+  EXPECT_EQ(made["trials"], 20);
+  for (const auto& [what, difference] : made["imbalance"].items()) EXPECT_EQ(difference, 0) << what;
+  for (const char* file : {"dataset_description.json", "design.tsv", "task-advection2d_beh.json",
+                           "stimuli/task-advection2d_stimuli.tsv", "README"})
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("s") / file)) << file;
+
+  EXPECT_EQ(json({"study", "simulate", "s", "--participant", "P02"})["trials"], 5);
+  EXPECT_EQ(json({"study", "simulate", "s"})["trials"], 15) << "those that are there stay";
+  const Json analysed = json({"study", "analyse", "s"});
+  EXPECT_EQ(analysed["participants"], 4);
+  EXPECT_EQ(analysed["simulated"], 4);
+  EXPECT_GT(analysed["tasks"]["advection2d"]["difference_mm"].get<double>(), 0.0) << "guidance helps";
+  const std::string page = read_file(folder_.path("s/analysis/index.html"));
+  const std::size_t simulated = [&] {
+    std::size_t count = 0;
+    for (std::size_t at = page.find("imulated"); at != std::string::npos; at = page.find("imulated", at + 1))
+      ++count;
+    return count;
+  }();
+  EXPECT_GT(simulated, 10U) << "it is said in each section";
+  for (const char* words : {"12.25, p &lt; 0.001", "2.65, p &lt; 0.016", "Shapiro", "Wilcoxon", "left out"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  const std::string trials = read_file(folder_.path("s/analysis/trials.csv"));
+  EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 21);
+
+  const Json replayed = json({"study", "replay", "s", "--participant", "P03"});
+  EXPECT_EQ(replayed["trials"], 5);
+  EXPECT_EQ(replayed["differ"], 0);
+  // A force that was not the logged one is told.
+  std::string plan = read_file(folder_.path("s/study.json"));
+  plan.replace(plan.find("\"seed\": 5"), 9, "\"seed\": 6");
+  folder_.write("s/study.json", plan);
+  EXPECT_EQ(json({"study", "replay", "s", "--participant", "P03"}, 1)["differ"], 5);
+}
+
+TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
+  const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& word) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, code) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+  };
+  refused({"study"}, 2, "make, run");
+  refused({"study", "make"}, 2, "folder");
+  refused({"study", "dance", "s"}, 2, "dance");
+  refused({"study", "make", "s", "--tasks", "juggling"}, 2, "tracing2d");
+  refused({"study", "make", "s", "--recorded", "5"}, 2, "even");
+  refused({"study", "analyse", "nowhere"}, 3, "study make");
+  folder_.write("full/file.txt", "mine");
+  refused({"study", "make", "full", "--tasks", "tracing2d", "--practice", "0", "--recorded", "2",
+           "--participants", "2"},
+          2, "there already");
+  EXPECT_EQ(run({"study", "make", "s", "--tasks", "tracing2d", "--practice", "0", "--recorded", "2",
+                 "--participants", "2"})
+                .exit_code,
+            0);
+  refused({"study", "analyse", "s"}, 3, "no trial yet");
+  refused({"study", "simulate", "s", "--participant", "P09"}, 2, "P09");
+  refused({"study", "replay", "s"}, 2, "no such trial");
+}
+
+class OtherStudy : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(OtherStudy, RunsTheTaskOfItsProgram) {
+  const auto& [program, task] = GetParam();
+  TempFolder folder;
+  const auto run = [&, name = std::string(program)](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), bin(name).string());
+    arguments.emplace_back("--json");
+    const ProgramResult result = Program(arguments, folder.path()).finish();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return Json::parse(result.out, nullptr, false);
+  };
+  (void)run({"study", "make", "s", "--participants", "4", "--practice", "0", "--recorded", "4"});
+  EXPECT_EQ(run({"study", "simulate", "s"})["trials"], 16);
+  const Json analysed = run({"study", "analyse", "s"});
+  EXPECT_GT(analysed["tasks"][task]["difference_mm"].get<double>(), 0.0)
+      << "guidance helps: " << analysed.dump();
+  EXPECT_EQ(run({"study", "replay", "s"})["differ"], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Programs, OtherStudy,
+                         ::testing::Values(std::pair{"grid", "plane"}, std::pair{"cardiac", "fibre"},
+                                           std::pair{"dtmri", "bundle"}),
+                         [](const auto& info) { return std::string(info.param.first); });
+
+}  // namespace
+}  // namespace palpate::test
