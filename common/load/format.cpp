@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -186,20 +187,37 @@ bool is_bare_mesh(const FileHead& head, const FormatRow& row) {
   return text.front() == '#' || std::isdigit(static_cast<unsigned char>(text.front())) != 0;
 }
 
-/// Results of openCARP: .igb begins with words as "x:2502 t:101 type:float", .dat holds a number a line.
+/// Whether a line of a .dat file is a number, or a node and its time.
+bool is_carp_value(std::string_view line, bool table) {
+  const std::size_t gap = line.find_first_of(" \t");
+  if (!table) return line == "nan" || line == "NaN" || number(line);
+  const auto node = number(line.substr(0, gap));
+  return gap != std::string_view::npos && node && *node >= 0.0 && *node == std::floor(*node) &&
+         number(trimmed(line.substr(gap)));
+}
+
+/// Results of openCARP: .igb begins with words as "x:2502 t:101 type:float", .dat holds a number a line, or a
+/// node and a time.
 bool is_carp_result(const FileHead& head) {
   std::string_view text = text_after_blanks(head);
-  if (head.ending == ".igb") return has(text, "x:") && has(text, "type:");
+  if (head.ending == ".igb") {
+    const std::string words = lowered(text);
+    return has(words, "x:") && has(words, "type:");
+  }
   if (head.ending != ".dat") return false;
   constexpr int kLines = 4;  // grids of PLOT3D in text have several numbers on one of them
-  for (int line = 0; line < kLines && !text.empty(); ++line) {
+  bool values = true, table = true;
+  for (int line = 0; line < kLines && !text.empty();) {
     const std::string_view here = trimmed(text.substr(0, text.find('\n')));
-    const bool none = here == "nan" || here == "NaN";
-    if (!none && !number(here)) return false;
+    if (!here.empty() && !here.starts_with("#")) {
+      values = values && is_carp_value(here, false);
+      table = table && is_carp_value(here, true);
+      ++line;
+    }
     const std::size_t end = text.find('\n');
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
   }
-  return true;
+  return values || table;
 }
 bool looks_like_carp(const FileHead& head, const FormatRow& row) {
   return is_bare_mesh(head, row) || is_carp_result(head);

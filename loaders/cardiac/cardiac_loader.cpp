@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <span>
 #include <utility>
@@ -26,6 +27,12 @@ namespace {
 constexpr int kRefine = 4;
 /// Of the quadrature: nine points are exact to rounding on elements that hardly bend within themselves.
 constexpr int kQuadrature = 9;
+
+/// What a result is called: "vm" for heart.vm.igb beside heart.pts. @param name that of its file.
+std::string result_name(const std::string& name, const std::string& pts) {
+  const std::string start = std::filesystem::path(stem_of(pts)).filename().string() + ".";
+  return name.starts_with(start) && name.size() > start.size() ? name.substr(start.size()) : name;
+}
 
 /// "beside" files of an EX model: nodes and elements come as a pair.
 std::vector<std::string> ex_files(const std::vector<std::string>& named) {
@@ -92,15 +99,25 @@ class CardiacLoader : public Loader {
  private:
   void open_carp(const CarpFiles& files, FileInfo& info) {
     mesh_ = read_carp(files, info.notes);
+    const auto taken = [this](const std::string& name) {
+      return std::any_of(mesh_.arrays.begin(), mesh_.arrays.end(),
+                         [&](const DataArray& array) { return array.name == name; }) ||
+             std::any_of(series_.begin(), series_.end(),
+                         [&](const IgbFile& series) { return series.info().name == name; });
+    };
     for (const std::string& file : files.results) {
       if (ending_of(file) == ".dat") {
-        mesh_.arrays.push_back(read_dat(file, mesh_.point_count(), mesh_.cell_count()));
+        DataArray values = read_dat(file, mesh_.point_count(), mesh_.cell_count(), info.notes);
+        if (const std::string name = result_name(values.name, files.pts); !taken(name)) values.name = name;
+        mesh_.arrays.push_back(std::move(values));
         continue;
       }
-      series_.emplace_back(file, mesh_.point_count(), mesh_.cell_count());
-      const IgbFile& series = series_.back();
+      IgbFile series(file, mesh_.point_count(), mesh_.cell_count());
+      if (const std::string name = result_name(series.info().name, files.pts); !taken(name))
+        series.set_name(name);
       info.notes.insert(info.notes.end(), series.notes().begin(), series.notes().end());
       if (!series.unit().empty()) info.notes.push_back(series.info().name + " in " + series.unit());
+      series_.push_back(std::move(series));
     }
     if (series_.empty()) return;
     shared_ = shared_times(series_);

@@ -40,13 +40,30 @@ constexpr std::array<CellKind, 7> kKinds{{{"Ln", kVtkLine, 2},
                                           {"Pr", kVtkWedge, 6},
                                           {"Hx", kVtkHexahedron, 8}}};
 
+/// @throws Error (bad input) where text follows the `count` rows that the first line promises.
+void refuse_more(TextLines& lines, std::size_t count, const std::string& what) {
+  if (!lines.word().empty())
+    lines.refuse("goes on after " + counted(count, what), "as many as the first line says");
+}
+
 std::vector<double> read_points(const std::string& file) {
   constexpr std::size_t kLeastBytes = 6;  // "0 0 0\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of points", kLeastBytes);
   std::vector<double> positions;
-  for (std::size_t n = 0; n < 3 * count; ++n)
-    positions.push_back(lines.number("a coordinate") * kMillimetres);
+  for (std::size_t p = 0; p < count; ++p) {
+    // Row by row: numbers too many in one would shift all that follow.
+    std::size_t words = 0;
+    for (std::string_view word = lines.word(); !word.empty(); word = lines.word_here(), ++words) {
+      const auto value = number(word);
+      if (!value || !std::isfinite(*value))
+        lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a coordinate");
+      if (words < 3) positions.push_back(*value * kMillimetres);
+    }
+    if (words == 0) lines.refuse("ends after " + counted(p, "point"), std::to_string(count));
+    if (words != 3) lines.refuse("has " + counted(words, "number"), "x y z of a point");
+  }
+  refuse_more(lines, count, "point");
   return positions;
 }
 
@@ -123,6 +140,7 @@ Elements read_elements(TextLines& lines, std::size_t count, std::size_t points) 
     topology.types.push_back(kind->vtk);
     topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   }
+  refuse_more(lines, count, "element");
   return elements;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <span>
@@ -78,11 +79,18 @@ class PackedFile {
   gzFile file_;
 };
 
+/// Whether a file is packed, by its first bytes: not every packed one is called so.
+bool is_packed(const std::string& path) {
+  std::array<char, 2> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  return head == std::array<char, 2>{'\x1f', '\x8b'};
+}
+
 /// Of the file as it is unpacked: what can be read of one that is damaged.
 std::uint64_t unpacked_bytes(const std::string& path) {
   std::error_code error;
   const std::uintmax_t stored = std::filesystem::file_size(path, error);
-  if (!lowered(path).ends_with(".gz")) return error ? 0 : stored;
+  if (!is_packed(path)) return error ? 0 : stored;
   PackedFile file(path);
   std::vector<char> piece(std::size_t{1} << 20U);
   std::uint64_t bytes = 0;
@@ -94,16 +102,19 @@ std::string array_name(const std::string& file) {
   return std::filesystem::path(stem_of(file)).filename().string();
 }
 
-/// The words "key:value" of a header; lines that begin with '#' are remarks.
+/// The words "key:value" of a header, keys in lower case; lines that begin with '#' are remarks. Between words
+/// stand blanks, commas or semicolons.
 std::map<std::string, std::string> words_of(const std::string& header) {
   std::map<std::string, std::string> words;
   std::istringstream lines(header.substr(0, header.find_first_of(std::string("\0\f", 2))));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("#")) continue;
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == ',' || c == ';'; }, ' ');
     std::istringstream in(line);
     for (std::string word; in >> word;) {
       const std::size_t colon = word.find(':');
-      if (colon != std::string::npos) words[word.substr(0, colon)] = word.substr(colon + 1);
+      if (colon != std::string::npos) words[lowered(word.substr(0, colon))] = word.substr(colon + 1);
     }
   }
   return words;
@@ -149,12 +160,12 @@ IgbFile::IgbFile(std::string file, std::size_t points, std::size_t cells) : file
            std::to_string(points) + " points or " + std::to_string(cells) + " elements as the mesh has");
   const std::size_t tuples = of_points ? points : cells;
   const std::uint64_t promised = count("t", 1);
-  const std::string type = word("type");
+  const std::string type = lowered(word("type"));
   const auto* const known =
       std::find_if(kTypes.begin(), kTypes.end(), [&](const IgbType& t) { return t.word == type; });
   if (known == kTypes.end()) refuse("type:" + type.substr(0, 20), "float, double, short, long, vec3f, …");
   stored_ = known->type;
-  const std::string order = word("systeme");
+  const std::string order = lowered(word("systeme"));
   if (order != "little_endian" && order != "big_endian")
     refuse(order.empty() ? "has no systeme:" : "systeme:" + order.substr(0, 20),
            "little_endian or big_endian");
@@ -261,8 +272,44 @@ SharedTimes shared_times(const std::vector<IgbFile>& results) {
   return shared;
 }
 
-DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells) {
+namespace {
+
+/// Rows "node time" of openCARP's activations: a node may be activated again, or never.
+DataArray read_node_times(const std::string& file, std::size_t points, std::vector<std::string>& notes) {
   TextLines lines(file, '#');
+  std::vector<double> times(points, std::numeric_limits<double>::quiet_NaN());
+  std::size_t again = 0;
+  while (lines.next()) {
+    if (lines.line().empty()) continue;
+    const auto node = number(lines.word_here());
+    const auto time = number(lines.word_here());
+    if (!node || !time || !lines.word_here().empty())
+      lines.refuse("is no node with a time", "two numbers a row");
+    if (!(*node >= 0.0 && *node < static_cast<double>(points)) || *node != std::floor(*node))
+      lines.refuse("names node " + short_number(*node), "0 to " + std::to_string(points) + " less one");
+    double& first = times[static_cast<std::size_t>(*node)];
+    again += std::isnan(first) ? 0 : 1;
+    if (std::isnan(first) || *time < first) first = *time;
+  }
+  const auto without = std::count_if(times.begin(), times.end(), [](double t) { return std::isnan(t); });
+  notes.push_back(
+      file + ": a table of nodes and times" +
+      (again > 0 ? "; of nodes with several times the first is taken, " + std::to_string(again) + " left out"
+                 : "") +
+      (without > 0 ? "; " + counted(static_cast<std::uint64_t>(without), "point") + " without a time" : ""));
+  return make_array(array_name(file), Association::kPoint, 1, std::span<const double>(times));
+}
+
+}  // namespace
+
+DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells,
+                   std::vector<std::string>& notes) {
+  TextLines lines(file, '#');
+  std::size_t words = 0;
+  while (words == 0 && lines.next())
+    while (!lines.word_here().empty()) ++words;
+  if (words == 2) return read_node_times(file, points, notes);
+  lines.give_back();
   std::vector<double> values;
   while (true) {
     const std::string_view word = lines.word();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/field/data_set.h"
@@ -10,7 +11,7 @@
 
 namespace palpate {
 
-/// A .igb file, packed with gzip or not: a header of 1024 bytes of text ("x:2502 t:101 type:float
+/// A .igb file, packed with gzip or not, whatever its name says: a header of 1024 bytes of text ("x:2502 t:101 type:float
 /// systeme:little_endian …"), then the numbers of all points or of all cells, one time step after the other.
 /// Only the header is read at once. Types as openCARP's IGB library has them: long has 8 bytes, vec3f 3
 /// numbers a point, vec4f 4, complex 2, rgba 4. Of a run that was cut off the whole steps are there, and
@@ -26,6 +27,7 @@ class IgbFile {
   [[nodiscard]] DataArray read(std::size_t step) const;
 
   [[nodiscard]] const ArrayInfo& info() const noexcept { return info_; }
+  void set_name(std::string name) { info_.name = std::move(name); }
   [[nodiscard]] const std::vector<double>& times() const noexcept { return times_; }
   /// "ms", "mV" as the header states them, or empty.
   [[nodiscard]] const std::string& time_unit() const noexcept { return time_unit_; }
@@ -59,9 +61,11 @@ struct SharedTimes {
 /// times, where others have several.
 [[nodiscard]] SharedTimes shared_times(const std::vector<IgbFile>& results);
 
-/// A .dat file: a number a line for each point, or for each cell ("nan" is none). Named as the file without
-/// its ending.
+/// A .dat file: a number a line for each point, or for each cell ("nan" is none); or rows "node time", of which
+/// the first time of a node is taken. Named as the file without its ending.
+/// @param notes gets what is to be said of such a table.
 /// @throws Error (bad input) naming file and line where something else stands there or counts disagree.
-[[nodiscard]] DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells);
+[[nodiscard]] DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells,
+                                 std::vector<std::string>& notes);
 
 }  // namespace palpate

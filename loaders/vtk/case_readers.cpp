@@ -1,6 +1,7 @@
 /// Cases of several files, EnSight and OpenFOAM, through VTK's readers: both offer their arrays by name and
 /// their time steps one by one.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -59,8 +60,13 @@ class EnsightCase {
       tuples = 0;
       for (const DataArray& part : parts) tuples = std::max(tuples, part.tuples);
     }
-    check_ensight_values(file, parts.front().name, parts.front().association,
-                         tuples * static_cast<std::size_t>(parts.front().components), step, steps);
+    std::size_t missing = 0;
+    for (const DataArray& part : parts)
+      for (std::size_t t = 0; t < part.tuples; ++t)
+        for (int c = 0; c < part.components; ++c) missing += std::isnan(part.at(t, c)) ? 1 : 0;
+    const std::size_t values = tuples * static_cast<std::size_t>(parts.front().components);
+    check_ensight_values(file, parts.front().name, parts.front().association, values,
+                         std::min(missing, values), step, steps);
   }
 
  private:

@@ -33,9 +33,10 @@ struct EnsightVariable {
 [[nodiscard]] bool is_ensight6(std::string_view case_text);
 
 /// Checks that the file of a variable at time step `step` of `steps` is large enough for `values` numbers: 12
-/// characters each in text, 4 bytes in binary (EnSight User Manual, ch. 9).
+/// characters each in text, 4 bytes in binary (EnSight User Manual, ch. 9). Of these the file need not hold
+/// `missing` ones, those that were read as NaN, where it has a block "partial".
 /// @throws Error (bad input).
 void check_ensight_values(const std::string& case_file, const std::string& variable, Association association,
-                          std::size_t values, std::size_t step, std::size_t steps);
+                          std::size_t values, std::size_t missing, std::size_t step, std::size_t steps);
 
 }  // namespace palpate

@@ -1,5 +1,6 @@
 // EnSight and OpenFOAM cases through the helper program.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -61,6 +62,34 @@ TEST(Ensight, ATruncatedBinaryVariableIsRefused) {
   std::filesystem::resize_file(folder.path("b.vel1"), 300);
   EXPECT_NO_THROW((void)source.read({"velocity"}, 0));
   EXPECT_THROW((void)source.read({"velocity"}, 1), Error);
+}
+
+// Values at two nodes of eight: there are none at the others, and the file is not cut off.
+TEST(Ensight, PartialVariablesHaveNoDataAtOtherNodes) {
+  const test::TempFolder folder;
+  const auto file = test::write_ensight_text(folder);
+  std::string velocity =
+      "velocity\npart\n         1\ncoordinates partial\n         2\n         3\n         7\n";
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const std::size_t corner : {2U, 6U}) {
+      std::array<char, 32> text{};
+      std::snprintf(text.data(), text.size(), "%12.5e\n", test::cube_velocity(corner, 1)[c]);
+      velocity += text.data();
+    }
+  }
+  folder.write("cube.vel1", velocity);
+  Source source = Source::open({{file}, {}});
+  const auto blocks = source.read({"velocity"}, 1);
+  const DataArray* read = blocks.at(0).find("velocity", Association::kPoint);
+  ASSERT_NE(read, nullptr);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    for (int c = 0; c < 3; ++c) {
+      if (corner == 2 || corner == 6)
+        EXPECT_EQ(read->at(corner, c), test::cube_velocity(corner, 1)[static_cast<std::size_t>(c)]) << corner;
+      else
+        EXPECT_TRUE(std::isnan(read->at(corner, c))) << corner;
+    }
+  }
 }
 
 TEST(Ensight, BinaryGeometryIsRead) {

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include "common/base/error.h"
 #include "common/load/load.h"
@@ -65,6 +66,25 @@ TEST(Carp, MicrometresRegionsAndDirectionsAreRead) {
   expect_refused(elem, "Xx");
   folder.write("m.elem", "1\nTt 0 1 2 3 9\n");
   expect_refused(elem, "m.lon");
+}
+
+// What stands in a row too many would shift all that follows.
+TEST(Carp, RowsThatAreNoPointsAndRowsTooManyAreRefusedWithTheirLine) {
+  const test::TempFolder folder;
+  const auto elem = folder.write("m.elem", "1\nTt 0 1 2 3 9\n");
+  const auto refuse_points = [&](const std::string& rows, const std::string& word) {
+    folder.write("m.pts", rows);
+    expect_refused(elem, word);
+  };
+  refuse_points("4\n0 0 0 1\n1000 0 0 1\n0 1000 0 1\n0 0 1000 1\n", "line 2: has 4 numbers");
+  refuse_points("4\n0 0 0\n1000 0 0\n0 1000\n0 0 0 1000\n", "line 4: has 2 numbers");
+  refuse_points("4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n5 5 5\n", "line 6: goes on after 4 points");
+  refuse_points("4\n0 0 0\n1000 0 0\n0 1000 0\n", "ends after 3 points");
+  refuse_points("4\n0 0 0\n1000 0 nan\n0 1000 0\n0 0 1000\n", "line 3: has \"nan\"");
+  folder.write("m.pts", "# a remark\n4 # points\n\n0 0 0\n1000, 0, 0\n0 1000 0 # one\n0 0 1000\n\n# end\n");
+  EXPECT_EQ(open(elem).read({}).at(0).point_count(), 4U);
+  folder.write("m.elem", "1\nTt 0 1 2 3 9\nTt 3 2 1 0 9\n");
+  expect_refused(elem, "line 3: goes on after 1 element");
 }
 
 std::vector<std::string> notes_of(const std::filesystem::path& file) { return open(file).info().notes; }
@@ -370,6 +390,46 @@ TEST_F(CarpResults, ActivationTimesAreANumberALine) {
   expect_result_refused("short.dat", "1\n2\n3\n", "ends after 3");
   expect_result_refused("long.dat", "1\n2\n3\n4\n5\n", "line 5");
   expect_result_refused("word.dat", "1\n2\n3\n4\nx\n", "line 5");
+}
+
+TEST_F(CarpResults, TablesOfNodesAndTimesHaveTheFirstOfEach) {
+  folder_.write("act.dat", "# node time\n2 7.5\n0 3\n\n2\t5.5\n3 1e2\n0 4\n");
+  Source source = together("act.dat");
+  EXPECT_TRUE(says(source.info().notes, "2 left out"));
+  EXPECT_TRUE(says(source.info().notes, "1 point without a time"));
+  const auto blocks = source.read({"act"});
+  const DataArray* act = blocks.at(0).find("act", Association::kPoint);
+  ASSERT_NE(act, nullptr);
+  EXPECT_EQ(act->at(0), 3.0);
+  EXPECT_TRUE(std::isnan(act->at(1)));
+  EXPECT_EQ(act->at(2), 5.5);
+  EXPECT_EQ(act->at(3), 100.0);
+  expect_result_refused("far.dat", "0 1\n4 1\n", "line 2: names node 4");
+  expect_result_refused("half.dat", "0 1\n1 1\n2 1\n3 1\n0.5 1\n", "line 5: names node 0.5");
+  expect_result_refused("three.dat", "0 1\n1 1\n2 1\n3 1\n0 1 2\n", "line 5");
+}
+
+TEST_F(CarpResults, HeadersOfOtherSpellingsAndPackedFilesOfAnyNameAreRead) {
+  const std::vector<float> values{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::string plain = igb("x:4 t:3 inc_t:5", values, false);
+  for (const std::string words : {"x:4,y:1,z:1,t:3,inc_t:5,type:float,systeme:little_endian",
+                                  "x:4; y:1; z:1; t:3; inc_t:5; type:float; systeme:little_endian;",
+                                  "X:4 Y:1 Z:1 T:3 Inc_t:5 TYPE:FLOAT SYSTEME:Little_Endian"}) {
+    std::string head = words + "\r\n";
+    head.resize(1024, ' ');
+    folder_.write("vm.igb", head + plain.substr(1024));
+    Source source = together("vm.igb");
+    EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 5.0, 10.0})) << words;
+    EXPECT_EQ(source.read({"vm"}, 2).at(0).find("vm", Association::kPoint)->at(3), 12.0) << words;
+  }
+  const std::filesystem::path packed = folder_.path("vm.igb");
+  gzFile file = gzopen(packed.c_str(), "wb");
+  ASSERT_NE(file, nullptr);
+  ASSERT_EQ(gzwrite(file, plain.data(), static_cast<unsigned>(plain.size())), static_cast<int>(plain.size()));
+  gzclose(file);
+  Source source = together("vm.igb");
+  EXPECT_EQ(source.info().times.size(), 3U);
+  EXPECT_EQ(source.read({"vm"}, 1).at(0).find("vm", Association::kPoint)->at(0), 5.0);
 }
 
 std::string tetrahedron(int first, bool quadratic) {
