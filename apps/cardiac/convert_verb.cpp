@@ -1,13 +1,16 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -24,47 +27,66 @@ namespace {
 
 constexpr double kMicrometres = 1000.0;  // of a millimetre
 
-/// Arrays of the input in tetrahedra.
-class Tetrahedra {
+/// Cells as they are written, and the way back to the input's arrays.
+class WrittenCells {
  public:
-  Tetrahedra(const DataSet& mesh, const std::string& file)
-      : split_(split_into_tetrahedra(std::span(&mesh, 1), file)), input_of_(split_.points.size()) {
-    for (std::size_t i = 0; i < split_.point_of_input.size(); ++i)
-      if (split_.point_of_input[i] < input_of_.size()) input_of_[split_.point_of_input[i]] = i;
+  /// @param own the input's cells are written where openCARP has all their kinds, tetrahedra otherwise.
+  WrittenCells(const DataSet& mesh, const std::string& file, bool own) {
+    const auto* const cells = std::get_if<UnstructuredTopology>(&mesh.topology);
+    if (own && cells != nullptr && mesh.visible.empty() && mesh.hidden_cells.empty() && all_in_carp(*cells)) {
+      topology_ = *cells;
+      return;
+    }
+    split_ = split_into_tetrahedra(std::span(&mesh, 1), file);
+    input_of_.resize(split_->points.size());
+    for (std::size_t i = 0; i < split_->point_of_input.size(); ++i)
+      if (split_->point_of_input[i] < input_of_.size()) input_of_[split_->point_of_input[i]] = i;
+    topology_ = cells_of(split_->points, split_->tets);
+    const auto tetrahedra = cells == nullptr ? 0 : std::count(cells->types.begin(), cells->types.end(), 10);
+    others_ = mesh.cell_count() - as_size(tetrahedra);
   }
 
-  [[nodiscard]] const SplitMesh& mesh() const { return split_; }
+  [[nodiscard]] const UnstructuredTopology& topology() const { return topology_; }
+  /// @pre not `own`.
+  [[nodiscard]] const SplitMesh& split() const { return *split_; }
+  /// What has become of cells that are no tetrahedra; empty: nothing.
+  [[nodiscard]] std::string note() const {
+    if (others_ == 0) return {};
+    return counted(others_, "cell") + " that " + (others_ == 1 ? "is" : "are") +
+           " no tetrahedra are written as tetrahedra, " + counted(topology_.types.size(), "element") +
+           " in all: results of elements do not fit the input's";
+  }
   /// The places among the input's tuples that an array of points or of cells is taken from.
   [[nodiscard]] std::size_t source(Association association, std::size_t at) const {
-    return association == Association::kPoint ? input_of_[at] : split_.source_cell[at];
+    if (!split_) return at;
+    return association == Association::kPoint ? input_of_[at] : split_->source_cell[at];
   }
   [[nodiscard]] std::size_t count(Association association) const {
-    return association == Association::kPoint ? split_.points.size() : split_.tets.size();
+    return association == Association::kPoint ? topology_.positions.tuples : topology_.types.size();
   }
   [[nodiscard]] std::vector<double> values(const DataArray& array) const {
-    std::vector<double> values(count(array.association) * static_cast<std::size_t>(array.components));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto c = static_cast<int>(i % static_cast<std::size_t>(array.components));
-      values[i] = array.at(source(array.association, i / static_cast<std::size_t>(array.components)), c);
-    }
+    std::vector<double> values(count(array.association) * as_size(array.components));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = array.at(source(array.association, i / as_size(array.components)),
+                           static_cast<int>(i % as_size(array.components)));
     return values;
   }
-  /// Of each tetrahedron: directions of points by the mean of their outer products, which knows no signs.
+  /// Of each cell: directions of points by the mean of their outer products, which knows no signs.
   [[nodiscard]] std::vector<Vec3> directions(const DataArray& array) const {
     const auto at = [&](std::size_t i) {
       const std::size_t s = source(array.association, i);
       return Vec3{array.at(s, 0), array.at(s, 1), array.at(s, 2)};
     };
     std::vector<Vec3> found;
-    found.reserve(split_.tets.size());
-    for (std::size_t t = 0; t < split_.tets.size(); ++t) {
+    found.reserve(topology_.types.size());
+    for (std::size_t c = 0; c < topology_.types.size(); ++c) {
       if (array.association == Association::kCell) {
-        found.push_back(at(t));
+        found.push_back(at(c));
         continue;
       }
       Mat3 sum{0.0};
-      for (const std::uint32_t p : split_.tets[t]) {
-        const Vec3 d = at(p);
+      for (std::int64_t i = topology_.offsets[c]; i < topology_.offsets[c + 1]; ++i) {
+        const Vec3 d = at(as_size(topology_.connectivity[as_size(i)]));
         const double length = glm::length(d);
         if (length > 0.0 && std::isfinite(length)) sum += glm::outerProduct(d / length, d / length);
       }
@@ -74,9 +96,15 @@ class Tetrahedra {
   }
 
  private:
-  SplitMesh split_;
-  std::vector<std::size_t> input_of_;
+  UnstructuredTopology topology_;
+  std::optional<SplitMesh> split_;
+  std::vector<std::size_t> input_of_;  ///< of its points
+  std::size_t others_ = 0;
 };
+
+bool is_region(const ArrayInfo& array) {
+  return array.name == "region" && array.association == Association::kCell;
+}
 
 /// The input's steps in the order of time, and what of it is written.
 struct Task {
@@ -84,7 +112,7 @@ struct Task {
   std::vector<std::size_t> steps;
   std::vector<double> times;
   std::optional<HeartChoice> heart;
-  std::vector<ArrayInfo> scalars;
+  std::vector<ArrayInfo> results;  ///< all arrays but fibres, sheets and regions
 
   [[nodiscard]] DataSet read(std::size_t step, const std::vector<std::string>& names) const {
     if (!times.empty()) input.set_time_step(steps[step]);
@@ -95,20 +123,30 @@ struct Task {
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all;
+    for (const ArrayInfo& array : input.arrays())
+      if (is_region(array)) all.push_back(array.name);
     if (heart) all.push_back(heart->fibre.array);
     if (heart && !heart->sheet.array.empty()) all.push_back(heart->sheet.array);
-    for (const ArrayInfo& scalar : scalars) all.push_back(scalar.name);
+    for (const ArrayInfo& result : results) all.push_back(result.name);
     return all;
   }
 };
 
+bool is_named(const ArrayInfo& array, const DirectionChoice& choice) {
+  return array.name == choice.array && array.association == choice.association;
+}
+
 Task task_of(Input& input) {
-  Task task{.input = input, .steps = steps_in_order(input.times()), .times = {}, .heart = {}, .scalars = {}};
+  Task task{.input = input, .steps = steps_in_order(input.times()), .times = {}, .heart = {}, .results = {}};
+  if (!input.spec().time.empty()) task.steps = {input.time().step};
   if (!input.times().empty())
     for (const std::size_t step : task.steps) task.times.push_back(input.times()[step]);
   if (!fibre_choices(input.arrays()).empty()) task.heart = input.heart_choice();
-  for (const ArrayInfo& array : input.arrays())
-    if (array.components == 1) task.scalars.push_back(array);
+  for (const ArrayInfo& array : input.arrays()) {
+    const bool direction =
+        task.heart && (is_named(array, task.heart->fibre) || is_named(array, task.heart->sheet));
+    if (!is_region(array) && !direction) task.results.push_back(array);
+  }
   return task;
 }
 
@@ -118,63 +156,97 @@ const DataArray& array_of(const DataSet& data, const std::string& name, Associat
   return *array;
 }
 
-/// Which scalars differ between time steps. Every step is read.
-std::vector<bool> changing(const Task& task, const Tetrahedra& cells, const DataSet& first,
+/// Which results differ between time steps. Every step is read.
+std::vector<bool> changing(const Task& task, const WrittenCells& cells, const DataSet& first,
                            Progress& progress) {
-  std::vector<bool> changes(task.scalars.size());
+  std::vector<bool> changes(task.results.size());
   for (std::size_t step = 1; step < task.times.size(); ++step) {
     progress.check();
     const DataSet data = task.read(step, task.names());
-    for (std::size_t s = 0; s < task.scalars.size(); ++s) {
-      if (changes[s]) continue;
-      const ArrayInfo& scalar = task.scalars[s];
-      const DataArray& a = array_of(first, scalar.name, scalar.association);
-      const DataArray& b = array_of(data, scalar.name, scalar.association);
-      for (std::size_t i = 0; i < cells.count(scalar.association) && !changes[s]; ++i) {
-        const std::size_t from = cells.source(scalar.association, i);
-        const double was = a.at(from), is = b.at(from);
-        changes[s] = !(was == is || (std::isnan(was) && std::isnan(is)));
+    for (std::size_t r = 0; r < task.results.size(); ++r) {
+      if (changes[r]) continue;
+      const ArrayInfo& result = task.results[r];
+      const DataArray& a = array_of(first, result.name, result.association);
+      const DataArray& b = array_of(data, result.name, result.association);
+      const std::size_t components = as_size(result.components);
+      for (std::size_t i = 0; i < components * cells.count(result.association) && !changes[r]; ++i) {
+        const std::size_t from = cells.source(result.association, i / components);
+        const int component = static_cast<int>(i % components);
+        const double was = a.at(from, component), is = b.at(from, component);
+        changes[r] = !(was == is || (std::isnan(was) && std::isnan(is)));
       }
     }
   }
   return changes;
 }
 
-std::vector<std::filesystem::path> write_carp(const Task& task, const Document& options,
-                                              const VerbContext& context) {
-  const IgbTimes times = igb_times(task.times, task.input.title());
-  CarpOutput out(options.output.file, options.common.force);
-  const DataSet first = task.read(0, task.names());
-  const Tetrahedra cells(first, task.input.title());
-  std::vector<int> regions;
-  if (const DataArray* region = first.find("region", Association::kCell))
-    for (const double value : cells.values(*region)) regions.push_back(static_cast<int>(value));
-  out.write_mesh(cells.mesh().points, kMicrometres, cells.mesh().tets, regions);
-  std::vector<Vec3> fibres(cells.mesh().tets.size(), Vec3{0.0}), sheets;
+/// Whether a name says that an array holds fibres: others may be taken for them, and are results, too.
+bool means_fibres(const std::string& name) {
+  const std::string low = lowered(name);
+  return low.find("fib") != std::string::npos || low == "f" || low == "f0";
+}
+
+void write_directions(const Task& task, const DataSet& first, const WrittenCells& cells, CarpOutput& out) {
+  std::vector<Vec3> fibres(cells.topology().types.size(), Vec3{0.0}), sheets;
   if (task.heart) {
     fibres = cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
     if (!task.heart->sheet.array.empty())
       sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
   }
   out.write_directions(fibres, sheets);
+}
+
+std::vector<std::filesystem::path> write_carp(Task task, const Document& options,
+                                              const VerbContext& context) {
+  const IgbTimes times = igb_times(task.times, task.input.title());
+  keep_carp_inputs(options.input.files);
+  CarpOutput out(options.output.file, options.common.force);
+  if (task.heart && !means_fibres(task.heart->fibre.array)) {
+    const std::string& array = task.heart->fibre.array;
+    context.console.note("directions of .lon are those of the array " + array +
+                         ": --field names another one");
+    for (const ArrayInfo& each : task.input.arrays())
+      if (is_named(each, task.heart->fibre)) task.results.push_back(each);
+  }
+  // The normals of fibres and sheets come back with them; .igb has tuples of one to four numbers.
+  constexpr int kMostComponents = 4;
+  std::erase_if(task.results, [&](const ArrayInfo& array) {
+    const bool normal = array.name == "normal" && task.heart && !task.heart->sheet.array.empty();
+    const bool wide = array.components > kMostComponents;
+    if (wide)
+      context.console.note(array.name + " has " + std::to_string(array.components) +
+                           " numbers a place, which .igb does not hold: left out; .pvd holds them");
+    return normal || wide;
+  });
+  const DataSet first = task.read(0, task.names());
+  const WrittenCells cells(first, task.input.title(), true);
+  if (!cells.note().empty()) context.console.note(cells.note());
+  std::vector<int> regions;
+  if (const DataArray* region = first.find("region", Association::kCell))
+    for (const double value : cells.values(*region)) regions.push_back(static_cast<int>(value));
+  out.write_mesh(cells.topology(), kMicrometres, regions);
+  write_directions(task, first, cells, out);
   const std::vector<bool> changes = changing(task, cells, first, context.progress);
-  std::vector<std::pair<std::size_t, std::size_t>> series;  // of a scalar, of the output
-  for (std::size_t s = 0; s < task.scalars.size(); ++s) {
-    const ArrayInfo& scalar = task.scalars[s];
-    if (scalar.name == "region") continue;
-    if (!changes[s]) {
-      out.write_values(scalar.name, cells.values(array_of(first, scalar.name, scalar.association)));
-    } else if (scalar.association == Association::kPoint) {
-      series.emplace_back(s, out.begin_series(scalar.name, cells.mesh().points.size(), times));
+  std::vector<std::pair<std::size_t, std::size_t>> series;  // of a result, of the output
+  for (std::size_t r = 0; r < task.results.size(); ++r) {
+    const ArrayInfo& result = task.results[r];
+    const DataArray& values = array_of(first, result.name, result.association);
+    const std::size_t count = cells.count(result.association);
+    if (changes[r]) {
+      series.emplace_back(r, out.begin_series(result.name, count, result.components, times));
+    } else if (result.components == 1) {
+      out.write_values(result.name, cells.values(values));
     } else {
-      context.console.note(scalar.name + " changes in cells, which .igb does not hold: left out");
+      const IgbTimes once{.first = times.first, .apart = 1.0, .count = 1};
+      out.write_step(out.begin_series(result.name, count, result.components, once), cells.values(values));
     }
   }
   for (std::size_t step = 0; step < task.times.size() && !series.empty(); ++step) {
     context.progress.check();
     const DataSet data = task.read(step, task.names());
-    for (const auto& [scalar, file] : series)
-      out.write_step(file, cells.values(array_of(data, task.scalars[scalar].name, Association::kPoint)));
+    for (const auto& [result, file] : series)
+      out.write_step(
+          file, cells.values(array_of(data, task.results[result].name, task.results[result].association)));
   }
   out.finish();
   return out.files();
@@ -199,15 +271,16 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Document& o
   for (std::size_t step = 0; step < steps; ++step) {
     context.progress.check();
     const DataSet data = task.read(step, task.names());
-    const Tetrahedra cells(data, task.input.title());
+    const WrittenCells cells(data, task.input.title(), false);
+    if (step == 0 && !cells.note().empty()) context.console.note(cells.note());
     std::vector<MeshColumn> columns;
     for (const DataArray& array : data.arrays)
       columns.push_back({.name = array.name,
                          .values = cells.values(array),
-                         .components = static_cast<std::size_t>(array.components),
+                         .components = as_size(array.components),
                          .of_cells = array.association == Association::kCell});
     files.push_back(step_file(options.output.file, step));
-    write_mesh(files.back(), cells.mesh().points, cells.mesh().tets, columns, options.common.force,
+    write_mesh(files.back(), cells.split().points, cells.split().tets, columns, options.common.force,
                task.input.file()->long_axis);
     collection.write("<DataSet timestep=\"" + exact_number(task.times.empty() ? 0.0 : task.times[step]) +
                      "\" file=\"" + files.back().filename().string() + "\"/>\n");
@@ -255,6 +328,9 @@ ExitCode run_convert(const Document& options, const VerbContext& context) {
 Verb convert_verb(std::vector<UsageExample> examples) {
   return {.name = "convert",
           .summary = "write mesh, fibres and results for openCARP or as a time series of VTK",
+          .details =
+              "NAME.pts keeps the elements of the file; results become NAME.RESULT.igb and NAME.RESULT.dat. "
+              "NAME.pvd has tetrahedra. All times are written, or the one of --time.",
           .groups = {Group::kInput, Group::kOut},
           .examples = std::move(examples),
           .run = run_convert};

@@ -1,12 +1,16 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
@@ -14,6 +18,7 @@
 #include "common/field/heart/fibre_rule.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
+#include "common/math/symmetric3.h"
 #include "common/scene/wall/open_wall.h"
 
 namespace palpate {
@@ -64,16 +69,78 @@ RuledMesh ruled_mesh(const OpenWall& wall, const RuleFibres& made) {
   return mesh;
 }
 
-std::vector<std::filesystem::path> write_carp_mesh(const RuledMesh& mesh, const Document& options) {
+/// Directions of the file's own cells: the mean axis of those of a cell's tetrahedra, by volume.
+/// @param across where not empty: made square to these.
+std::vector<Vec3> means_in_cells(const OpenWall& wall, const std::vector<Vec3>& of_tets,
+                                 const std::vector<Vec3>& across) {
+  const TetMesh& tets = *wall.grid->tets;
+  std::vector<Mat3> sums(wall.mesh.cell_count(), Mat3{0.0});
+  for (std::size_t t = 0; t < of_tets.size(); ++t) {
+    const double length = glm::length(of_tets[t]);
+    if (!(length > 0.0) || !std::isfinite(length)) continue;
+    const auto& corners = tets.cells()[t];
+    const Vec3 a = tets.points()[corners[0]];
+    const double volume =
+        std::abs(glm::dot(tets.points()[corners[1]] - a,
+                          glm::cross(tets.points()[corners[2]] - a, tets.points()[corners[3]] - a)));
+    sums[wall.grid->source_cell[t]] += volume * glm::outerProduct(of_tets[t] / length, of_tets[t] / length);
+  }
+  std::vector<Vec3> means;
+  means.reserve(sums.size());
+  for (std::size_t c = 0; c < sums.size(); ++c) {
+    Vec3 mean = sums[c] == Mat3{0.0} ? Vec3{0.0} : symmetric_eigen(sums[c]).vectors[0];
+    if (!across.empty()) mean -= glm::dot(mean, across[c]) * across[c];
+    means.push_back(mean);
+  }
+  return means;
+}
+
+/// The cells of the file where .elem has their kinds; null: tetrahedra are written.
+const UnstructuredTopology* own_cells(const OpenWall& wall) {
+  const auto* const cells = std::get_if<UnstructuredTopology>(&wall.mesh.topology);
+  return cells != nullptr && all_in_carp(*cells) ? cells : nullptr;
+}
+
+std::vector<std::filesystem::path> write_carp_mesh(const OpenWall& wall, const RuleFibres& made,
+                                                   const Document& options) {
+  keep_carp_inputs(options.input.files);
   CarpOutput out(options.output.file, options.common.force);
   std::vector<int> regions;
-  for (const MeshColumn& scalar : mesh.scalars)
-    if (scalar.name == "region" && scalar.of_cells)
-      for (const double value : scalar.values) regions.push_back(static_cast<int>(std::lround(value)));
-  out.write_mesh(mesh.points, kMicrometre, mesh.cells, regions);
-  out.write_directions(mesh.fibres, mesh.sheets);
+  if (const UnstructuredTopology* const cells = own_cells(wall)) {
+    if (const DataArray* const array = wall.mesh.find("region", Association::kCell))
+      for (std::size_t c = 0; c < array->tuples; ++c)
+        regions.push_back(static_cast<int>(std::lround(array->at(c))));
+    out.write_mesh(*cells, kMicrometre, regions);
+    const std::vector<Vec3> fibres = means_in_cells(wall, made.fibres, {});
+    out.write_directions(fibres, means_in_cells(wall, made.sheets, fibres));
+  } else {
+    const RuledMesh mesh = ruled_mesh(wall, made);
+    for (const MeshColumn& scalar : mesh.scalars)
+      if (scalar.name == "region" && scalar.of_cells)
+        for (const double value : scalar.values) regions.push_back(static_cast<int>(std::lround(value)));
+    out.write_mesh(cells_of(mesh.points, mesh.cells), kMicrometre, regions);
+    out.write_directions(mesh.fibres, mesh.sheets);
+  }
   out.finish();
   return out.files();
+}
+
+/// What becomes of cells that are no tetrahedra; empty: there are none.
+std::string note_on_cells(const OpenWall& wall, bool carp) {
+  constexpr std::uint8_t kTetrahedron = 10;
+  const auto* const cells = std::get_if<UnstructuredTopology>(&wall.mesh.topology);
+  const auto tetrahedra =
+      cells == nullptr ? 0 : std::count(cells->types.begin(), cells->types.end(), kTetrahedron);
+  const std::size_t others = wall.mesh.cell_count() - as_size(tetrahedra);
+  if (others == 0) return {};
+  const std::string made = counted(wall.grid->tets->cells().size(), "tetrahedron");
+  if (carp && own_cells(wall) != nullptr)
+    return "the file's " + counted(wall.mesh.cell_count(), "element") +
+           " are kept: each has the mean of the " + "rule in its parts, " + made + " in all";
+  return counted(others, "cell") + " that " + (others == 1 ? "is" : "are") +
+         " no tetrahedra are written as tetrahedra, " + made +
+         " in all: they do not fit the input's elements" +
+         (carp ? "" : "; .pts keeps hexahedra, prisms and pyramids");
 }
 
 std::vector<std::filesystem::path> write_vtu_mesh(RuledMesh mesh, const Document& options,
@@ -163,10 +230,11 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                             " time steps is written; 'convert' writes series");
   if (ending == ".pts" && input.file()->units.find("mm") == std::string::npos)
     summary.notes.emplace_back("the file states no unit: its coordinates are written as millimetres");
-  RuledMesh mesh = ruled_mesh(wall, made);
+  if (const std::string note = note_on_cells(wall, ending == ".pts"); !note.empty())
+    summary.notes.push_back(note);
   for (const auto& file : ending == ".pts"
-                              ? write_carp_mesh(mesh, options)
-                              : write_vtu_mesh(std::move(mesh), options, input.file()->long_axis)) {
+                              ? write_carp_mesh(wall, made, options)
+                              : write_vtu_mesh(ruled_mesh(wall, made), options, input.file()->long_axis)) {
     summary.files.push_back(file.string());
     context.interrupt.keep(file);
   }
@@ -185,7 +253,8 @@ Verb fibers_verb(std::vector<UsageExample> examples) {
       .details =
           "The rule is that of Bayer et al., Ann Biomed Eng 40 (2012) 2243: directions along and through the "
           "wall come from Laplace's equation between the surfaces that 'info --surfaces' shows, and the "
-          "fibre turns from one angle on the inner surface to another one on the outer.",
+          "fibre turns from one angle on the inner surface to another one on the outer. NAME.pts keeps the "
+          "elements of the file; NAME.vtu has tetrahedra.",
       .groups = {Group::kInput, Group::kRule, Group::kOut},
       .examples = std::move(examples),
       .run = run_fibers};

@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
                            {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
               convert_verb(
                   {{"cardiac convert --example wave --out wave.pts",
-                    "for openCARP: mesh, fibres, potential.igb, activation.dat"},
+                    "for openCARP: mesh, fibres, wave.potential.igb, wave.activation.dat"},
                    {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
               fibers_verb(
                   {{"cardiac fibers mesh.pts --rule bayer --endo 60 --epi -60 --out with_fibres.pts",

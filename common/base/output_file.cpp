@@ -15,6 +15,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/kept_files.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -77,7 +78,38 @@ UnfinishedOutputs& unfinished_outputs() {
   return outputs;
 }
 
+/// What keep_from_outputs() was told.
+struct KeptFiles {
+  std::mutex mutex;
+  std::vector<std::filesystem::path> files;
+};
+
+KeptFiles& kept_files() {
+  static KeptFiles kept;
+  return kept;
+}
+
+/// @throws Error (usage) where `path` is one of them.
+void refuse_kept(const std::filesystem::path& path) {
+  KeptFiles& kept = kept_files();
+  const std::lock_guard lock(kept.mutex);
+  for (const std::filesystem::path& file : kept.files) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(path, file, ignored))
+      throw usage_error(path.string() + " is the input " + file.string() + "; give the output another name");
+  }
+}
+
 }  // namespace
+
+void keep_from_outputs(std::span<const std::filesystem::path> files) {
+  KeptFiles& kept = kept_files();
+  const std::lock_guard lock(kept.mutex);
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    if (!file.empty() && std::filesystem::is_regular_file(file, ignored)) kept.files.push_back(file);
+  }
+}
 
 void remove_unfinished_outputs() noexcept {
   UnfinishedOutputs& outputs = unfinished_outputs();
@@ -91,6 +123,7 @@ void check_output(const std::filesystem::path& path, bool overwrite) {
     if (S_ISDIR(status.st_mode)) throw work_error(path.string() + ": is a folder");
     if (!S_ISREG(status.st_mode) && !S_ISLNK(status.st_mode))
       throw work_error(path.string() + ": is not a regular file");
+    refuse_kept(path);
     if (!overwrite) refuse_overwrite(path);
   }
   const std::filesystem::path folder = folder_of(path);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/kept_files.h"
 #include "common/cli/command_line.h"
 #include "common/cli/explorer.h"
 #include "common/cli/json/json_output.h"
@@ -60,6 +61,14 @@ void check_outputs(const Document& options) {
   }
 }
 
+/// What a verb names after its outputs or its data is no input either.
+void keep_inputs(const InputOptions& input) {
+  keep_from_outputs(input.files);
+  const std::array<std::filesystem::path, 3> others{input.solution.value_or(std::filesystem::path()),
+                                                    input.tensor.bval, input.tensor.bvec};
+  keep_from_outputs(others);
+}
+
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
 ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& context) {
   const auto interrupted = [&] {
@@ -69,6 +78,7 @@ ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& 
   };
   try {
     check_outputs(options);
+    keep_inputs(options.input);
     const ExitCode code = verb.run(options, context);
     context.console.finish();
     return code;

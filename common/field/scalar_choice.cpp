@@ -1,10 +1,20 @@
 #include "common/field/scalar_choice.h"
 
 #include <algorithm>
+#include <array>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/region_names.h"
 
 namespace palpate {
+
+bool numbers_regions(const std::string& name) {
+  constexpr std::array<std::string_view, 14> kNames{
+      "region",   "regions",     "region_id", "regionid",  "tag",           "tags",          "elemtag",
+      "elem_tag", "element_tag", "material",  "materials", "cellentityids", "gmsh:physical", "label"};
+  return std::find(kNames.begin(), kNames.end(), lowered(name)) != kNames.end();
+}
 
 double number_of(const DataArray& array, std::size_t tuple, int component) noexcept {
   if (component != ScalarChoice::kMagnitude) return array.at(tuple, component);
@@ -38,6 +48,10 @@ std::vector<ScalarChoice> scalar_choices(const std::vector<ArrayInfo>& arrays) {
       components.push_back({array.name, array.association, c});
   }
   const auto on_cells = [](const ScalarChoice& choice) { return choice.association == Association::kCell; };
+  // What numbers regions is a result only where there is no other.
+  std::stable_partition(single.begin(), single.end(), [&](const ScalarChoice& choice) {
+    return !(on_cells(choice) && numbers_regions(choice.array));
+  });
   std::vector<ScalarChoice> all;
   for (auto* part : {&single, &magnitudes, &components}) {
     std::stable_partition(part->begin(), part->end(), [&](const auto& choice) { return !on_cells(choice); });

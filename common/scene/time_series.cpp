@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/region_names.h"
 #include "common/field/scalar_choice.h"
 
 namespace palpate {
@@ -21,11 +22,25 @@ bool same_cells(const DataSet& a, const DataSet& b) {
          std::ranges::equal(x->positions.bytes, y->positions.bytes);
 }
 
+/// The one that `value` names. Without a name the likeliest result: regions and directions do not change in time.
+ScalarChoice choose_result(const std::vector<ArrayInfo>& arrays, const std::string& value,
+                           const std::string& file) {
+  const ScalarChoice first = choose_scalar(arrays, value, file);
+  if (!value.empty() || !numbers_regions(first.array)) return first;
+  for (const ScalarChoice& choice : scalar_choices(arrays)) {
+    const std::string name = lowered(choice.array);
+    const bool direction = name.find("fib") != std::string::npos || name.find("sheet") != std::string::npos ||
+                           name.find("normal") != std::string::npos;
+    if (!numbers_regions(choice.array) && !direction) return choice;
+  }
+  return first;
+}
+
 }  // namespace
 
 TimeSeries::TimeSeries(Input input, const std::string& value, int threads)
     : input_(std::move(input)),
-      choice_(choose_scalar(input_.arrays(), value, input_.title())),
+      choice_(choose_result(input_.arrays(), value, input_.title())),
       name_(label_of(choice_, input_.arrays())),
       threads_(threads),
       steps_(steps_in_order(input_.times())) {

@@ -65,7 +65,7 @@ void make_files(const std::filesystem::path& folder) {
   }
   constexpr double kMicrometres = 1000.0;  // in a millimetre
   CarpOutput carp(folder / "bare.pts", true);
-  carp.write_mesh(mesh.points, kMicrometres, mesh.tets, {});
+  carp.write_mesh(cells_of(mesh.points, mesh.tets), kMicrometres, {});
   carp.write_directions(of_cells, {});
   carp.finish();
   std::printf("%zu points, %zu tetrahedra in %s\n", mesh.points.size(), mesh.tets.size(), folder.c_str());

@@ -1,6 +1,8 @@
 // The built-in wave, and `cardiac convert`: what is written opens again and says the same.
 #include <cmath>
 #include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "tests/e2e/explorer_test.h"
 
@@ -81,12 +83,12 @@ TEST_F(CardiacWave, IsWrittenForOpenCarpAndReadBack) {
   const Json written = json({"convert", "--example", "wave", "--out", "wave.pts"});
   EXPECT_EQ(written["times"], 81);
   for (const char* file :
-       {"wave.pts", "wave.elem", "wave.lon", "potential.igb", "activation.dat", "layer.dat"})
+       {"wave.pts", "wave.elem", "wave.lon", "wave.potential.igb", "wave.activation.dat", "wave.layer.dat"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path(file))) << file;
-  expect_same(built_in(), series({"wave.pts", "potential.igb"}, "potential"));
+  expect_same(built_in(), series({"wave.pts", "wave.potential.igb"}, "potential"));
   // Fibres of its elements turn as those of the points do, as far as the middle of the outermost layers'
   // cells.
-  const Json map = json({"map", "wave.pts", "layer.dat", "--angle", "helix"});
+  const Json map = json({"map", "wave.pts", "wave.layer.dat", "--angle", "helix"});
   EXPECT_NEAR(map["bands"].front()["mean"].get<double>(), 60.0, 12.0);
   EXPECT_NEAR(map["bands"].back()["mean"].get<double>(), -60.0, 12.0);
   EXPECT_EQ(run({"convert", "--example", "wave", "--out", "wave.pts", "--json"}).exit_code, 2)
@@ -111,6 +113,103 @@ TEST_F(CardiacWave, FibresAndRegionsOfCellsAreWrittenForVtkToo) {
   for (const char* line : {"fibre (cells, 3 x float64): 0 … 1, 0 … 0.6, 0 … 0.8",
                            "region (cells, 1 x float64): 7 … 9", "field      fibre"})
     EXPECT_NE(info.out.find(line), std::string::npos) << line << "\n" << info.out;
+}
+
+/// A .igb file of three steps: numbers that count from `first` on.
+std::string igb(const std::string& words, std::size_t numbers, float first) {
+  std::string file = words + " y:1 z:1 t:3 org_t:0 inc_t:5 systeme:little_endian\r\n";
+  file.resize(1024, ' ');
+  for (std::size_t n = 0; n < 3 * numbers; ++n) {
+    const float value = first + static_cast<float>(n);
+    file.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  return file;
+}
+
+/// A hexahedron of 2 mm, a prism on it and a tetrahedron beside, with results of points and elements.
+class CardiacConvert : public CardiacWave {
+ protected:
+  static constexpr const char* kElements = "3\nHx 0 1 2 3 4 7 6 5 7\nPr 4 5 8 7 9 6 9\nTt 1 2 5 10 7\n";
+  static constexpr const char* kFibres = "1\n1 0 0\n0 1 0\n0 0 1\n";
+  CardiacConvert() {
+    folder_.write("m.pts",
+                  "11\n0 0 0\n2000 0 0\n2000 2000 0\n0 2000 0\n0 0 2000\n2000 0 2000\n2000 2000 2000\n"
+                  "0 2000 2000\n0 0 4000\n0 2000 4000\n4000 1000 1000\n");
+    folder_.write("m.elem", kElements);
+    folder_.write("m.lon", kFibres);
+    folder_.write("vm.igb", igb("x:11 type:float", 11, 0.0F));
+    folder_.write("late.igb", igb("x:11 type:float", 11, 100.0F));
+    folder_.write("elem.igb", igb("x:3 type:float", 3, 0.0F));
+    folder_.write("flow.igb", igb("x:11 type:vec3f", 33, 0.0F));
+  }
+  std::string text(const std::string& file) const {
+    std::ifstream in(folder_.path(file), std::ios::binary);
+    std::ostringstream all;
+    all << in.rdbuf();
+    return all.str();
+  }
+};
+
+TEST_F(CardiacConvert, NamesResultsAfterTheOutputAndReplacesNoInput) {
+  const std::string vm = text("vm.igb");
+  (void)json({"convert", "m.pts", "vm.igb", "--out", "a.pts", "--force"});
+  folder_.write("vm.igb", text("late.igb"));
+  (void)json({"convert", "m.pts", "vm.igb", "--out", "b.pts", "--force"});
+  EXPECT_EQ(text("vm.igb"), text("late.igb")) << "an input";
+  // Two hearts of one folder, each with its own.
+  const std::vector<std::string> at{"--value", "vm", "--at", "0.5,0.5,0.5"};
+  const auto first = [&](const std::string& stem) {
+    std::vector<std::string> command{"series", stem + ".pts", stem + ".vm.igb"};
+    command.insert(command.end(), at.begin(), at.end());
+    return json(command)["places"][0]["values"][0].get<double>();
+  };
+  EXPECT_NEAR(first("b") - first("a"), 100.0, 1e-4);
+  // Whatever is read stays, also where it is not --out itself.
+  const std::string result = text("a.vm.igb");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"convert", "a.pts", "a.vm.igb", "--out", "a.pts"},
+        {"convert", "m.elem", "vm.igb", "--out", "m.pts"},
+        {"convert", "m.lon", "--out", "m.pts"}}) {
+    std::vector<std::string> forced = command;
+    forced.emplace_back("--force");
+    const ProgramResult refused = run(forced);
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("is the input"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(text("a.vm.igb"), result);
+  EXPECT_EQ(text("m.elem"), kElements);
+}
+
+TEST_F(CardiacConvert, KeepsTheElementsOfTheFile) {
+  EXPECT_EQ(json({"convert", "m.pts", "--out", "c.pts"})["files"].size(), 3U);
+  EXPECT_EQ(text("c.elem"), kElements);
+  EXPECT_EQ(text("c.pts"), text("m.pts"));
+  EXPECT_EQ(text("c.lon"), kFibres);
+  // VTK is written in tetrahedra, and that is said.
+  const ProgramResult vtk = run({"convert", "m.pts", "--out", "c.pvd"});
+  EXPECT_NE(vtk.err.find("2 cells that are no tetrahedra"), std::string::npos) << vtk.err;
+}
+
+TEST_F(CardiacConvert, WritesEveryResultAndTheTimeThatIsAskedFor) {
+  (void)json({"convert", "m.pts", "vm.igb", "elem.igb", "flow.igb", "--out", "all.pts"});
+  for (const char* file : {"all.vm.igb", "all.elem.igb", "all.flow.igb"})
+    EXPECT_EQ(text(file).substr(1024), text(std::string(file).substr(4)).substr(1024)) << file;
+  const Json info = json({"info", "all.pts", "all.vm.igb", "all.elem.igb", "all.flow.igb"});
+  EXPECT_EQ(info["times"], Json({0.0, 5.0, 10.0}));
+  // One time of three.
+  EXPECT_EQ(json({"convert", "m.pts", "vm.igb", "flow.igb", "--time", "5", "--out", "one.pts"})["times"], 1);
+  EXPECT_EQ(text("one.vm.dat").substr(0, 6), "11\n12\n");
+  EXPECT_EQ(text("one.flow.igb").substr(1024), text("flow.igb").substr(1024 + 33 * 4, 33 * 4));
+  EXPECT_EQ(json({"convert", "m.pts", "vm.igb", "--time", "10", "--out", "one.pvd"})["files"].size(), 2U);
+}
+
+TEST_F(CardiacConvert, ASeriesIsOfTheResultNotOfRegions) {
+  for (const auto& [file, value] : std::vector<std::pair<std::string, std::string>>{
+           {"vm.igb", "vm"}, {"elem.igb", "elem"}, {"flow.igb", "flow:magnitude"}}) {
+    const Json series = json({"series", "m.pts", file, "--at", "0.5,0.5,0.5"});
+    EXPECT_EQ(series["value"], value);
+    EXPECT_EQ(series["times"].size(), 3U);
+  }
 }
 
 TEST_F(CardiacWave, WhatCannotBeWrittenIsNamedAndNothingIsLeft) {

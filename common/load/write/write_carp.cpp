@@ -1,9 +1,15 @@
 #include "common/load/write/write_carp.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/kept_files.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 
@@ -12,6 +18,27 @@ namespace {
 
 constexpr std::size_t kIgbHeader = 1024;
 constexpr double kUneven = 1e-3;
+constexpr std::array<const char*, 3> kMeshEndings{".pts", ".elem", ".lon"};
+
+/// A kind of cell as .elem and as VTK name it.
+struct CellWord {
+  std::uint8_t vtk;
+  std::string_view word;
+};
+constexpr std::uint8_t kVtkTetrahedron = 10, kVtkHexahedron = 12, kVtkWedge = 13;
+constexpr std::array<CellWord, 7> kWords{{{3, "Ln"},
+                                          {5, "Tr"},
+                                          {9, "Qd"},
+                                          {kVtkTetrahedron, "Tt"},
+                                          {14, "Py"},
+                                          {kVtkWedge, "Pr"},
+                                          {kVtkHexahedron, "Hx"}}};
+
+const CellWord* word_of(std::uint8_t type) {
+  const auto* const found =
+      std::find_if(kWords.begin(), kWords.end(), [type](const CellWord& word) { return word.vtk == type; });
+  return found == kWords.end() ? nullptr : found;
+}
 
 std::string triple(const Vec3& v) {
   return exact_number(v.x) + " " + exact_number(v.y) + " " + exact_number(v.z);
@@ -56,9 +83,38 @@ class CarpOutput::Files {
   std::vector<std::unique_ptr<OutputFile>> files_;
 };
 
+bool all_in_carp(const UnstructuredTopology& cells) {
+  return std::all_of(cells.types.begin(), cells.types.end(),
+                     [](std::uint8_t type) { return word_of(type) != nullptr; });
+}
+
+UnstructuredTopology cells_of(std::span<const Vec3> points, std::span<const TetMesh::Tet> tets) {
+  std::vector<double> positions;
+  positions.reserve(3 * points.size());
+  for (const Vec3& x : points) positions.insert(positions.end(), {x.x, x.y, x.z});
+  UnstructuredTopology cells;
+  cells.positions = make_array("points", Association::kPoint, 3, std::span<const double>(positions));
+  cells.types.assign(tets.size(), kVtkTetrahedron);
+  cells.offsets.push_back(0);
+  for (const TetMesh::Tet& tet : tets) {
+    cells.connectivity.insert(cells.connectivity.end(), tet.begin(), tet.end());
+    cells.offsets.push_back(static_cast<std::int64_t>(cells.connectivity.size()));
+  }
+  return cells;
+}
+
+void keep_carp_inputs(std::span<const std::filesystem::path> files) {
+  std::vector<std::filesystem::path> parts;
+  for (std::filesystem::path file : files) {
+    if (file.extension() == ".gz") file.replace_extension();
+    for (const char* ending : kMeshEndings) parts.push_back(file.replace_extension(ending));
+  }
+  keep_from_outputs(parts);
+}
+
 CarpOutput::CarpOutput(std::filesystem::path pts, bool overwrite)
     : pts_(std::move(pts)), files_(std::make_unique<Files>(overwrite)) {
-  for (const char* ending : {".pts", ".elem", ".lon"}) {
+  for (const char* ending : kMeshEndings) {
     names_.push_back(std::filesystem::path(pts_).replace_extension(ending));
     (void)files_->open(names_.back());
   }
@@ -66,16 +122,24 @@ CarpOutput::CarpOutput(std::filesystem::path pts, bool overwrite)
 
 CarpOutput::~CarpOutput() = default;
 
-void CarpOutput::write_mesh(std::span<const Vec3> points, double micrometres,
-                            std::span<const TetMesh::Tet> cells, std::span<const int> regions) {
+void CarpOutput::write_mesh(const UnstructuredTopology& mesh, double micrometres,
+                            std::span<const int> regions) {
   OutputFile& pts = files_->at(0);
-  pts.write(std::to_string(points.size()) + "\n");
-  for (const Vec3& x : points) pts.write(triple(micrometres * x) + "\n");
+  pts.write(std::to_string(mesh.positions.tuples) + "\n");
+  for (std::size_t p = 0; p < mesh.positions.tuples; ++p)
+    pts.write(triple(micrometres *
+                     Vec3{mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)}) +
+              "\n");
   OutputFile& elem = files_->at(1);
-  elem.write(std::to_string(cells.size()) + "\n");
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    std::string row = "Tt";
-    for (const std::uint32_t p : cells[c]) row += " " + std::to_string(p);
+  elem.write(std::to_string(mesh.types.size()) + "\n");
+  for (std::size_t c = 0; c < mesh.types.size(); ++c) {
+    std::vector<std::int64_t> points(mesh.connectivity.begin() + mesh.offsets[c],
+                                     mesh.connectivity.begin() + mesh.offsets[c + 1]);
+    // The second face of prisms and hexahedra runs the other way round than VTK's.
+    if (mesh.types[c] == kVtkWedge || mesh.types[c] == kVtkHexahedron)
+      std::reverse(points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2) + 1, points.end());
+    std::string row(word_of(mesh.types[c])->word);
+    for (const std::int64_t p : points) row += " " + std::to_string(p);
     elem.write(row + " " + std::to_string(regions.empty() ? 1 : regions[c]) + "\n");
   }
 }
@@ -88,18 +152,32 @@ void CarpOutput::write_directions(std::span<const Vec3> fibres, std::span<const 
               "\n");
 }
 
+std::filesystem::path CarpOutput::result(const std::string& name, const char* ending) const {
+  std::string safe = name;
+  for (char& c : safe)
+    if (c == '/' || c == '\\' || static_cast<unsigned char>(c) <= ' ') c = '_';
+  const std::string start = pts_.stem().string() + "." + safe;
+  std::filesystem::path path = pts_.parent_path() / (start + ending);
+  for (int n = 2; std::find(names_.begin(), names_.end(), path) != names_.end(); ++n)
+    path = pts_.parent_path() / (start + "_" + std::to_string(n) + ending);
+  return path;
+}
+
 void CarpOutput::write_values(const std::string& name, std::span<const double> values) {
-  names_.push_back(pts_.parent_path() / (name + ".dat"));
+  names_.push_back(result(name, ".dat"));
   OutputFile& file = files_->open(names_.back());
   for (const double value : values) file.write((std::isnan(value) ? "nan" : exact_number(value)) + "\n");
 }
 
-std::size_t CarpOutput::begin_series(const std::string& name, std::size_t points, const IgbTimes& times) {
-  names_.push_back(pts_.parent_path() / (name + ".igb"));
+std::size_t CarpOutput::begin_series(const std::string& name, std::size_t tuples, int components,
+                                     const IgbTimes& times) {
+  constexpr std::array<const char*, 4> kTypes{"float", "complex", "vec3f", "vec4f"};
+  names_.push_back(result(name, ".igb"));
   OutputFile& file = files_->open(names_.back());
   const auto steps = static_cast<double>(times.count);
-  std::string header = "x:" + std::to_string(points) + " y:1 z:1 t:" + std::to_string(times.count) +
-                       " type:float systeme:little_endian org_t:" + exact_number(times.first) +
+  std::string header = "x:" + std::to_string(tuples) + " y:1 z:1 t:" + std::to_string(times.count) +
+                       " type:" + kTypes.at(as_size(components - 1)) +
+                       " systeme:little_endian org_t:" + exact_number(times.first) +
                        " dim_t:" + exact_number((steps - 1.0) * times.apart) +
                        " inc_t:" + exact_number(times.apart) + " facteur:1 zero:0\r\n";
   header.resize(kIgbHeader - 1, ' ');

@@ -1,5 +1,5 @@
-/// Writing meshes and results for openCARP: STEM.pts (micrometres), STEM.elem and STEM.lon, results beside
-/// them. Formats: openCARP user's manual, "Mesh files" and "IGB files".
+/// Writing meshes and results for openCARP: STEM.pts (micrometres), STEM.elem and STEM.lon, results as
+/// STEM.NAME.dat and STEM.NAME.igb. Formats: openCARP user's manual, "Mesh files" and "IGB files".
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/field/data_set.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/math/vec.h"
 
@@ -23,6 +24,16 @@ struct IgbTimes {
 /// @throws Error (bad input) with `file` where they are not rising and evenly apart to a thousandth.
 [[nodiscard]] IgbTimes igb_times(const std::vector<double>& times, const std::string& file);
 
+/// Whether all cells are of kinds that .elem has: lines, triangles, quadrilaterals, tetrahedra, pyramids,
+/// prisms, hexahedra.
+[[nodiscard]] bool all_in_carp(const UnstructuredTopology& cells);
+
+/// Tetrahedra as cells.
+[[nodiscard]] UnstructuredTopology cells_of(std::span<const Vec3> points, std::span<const TetMesh::Tet> tets);
+
+/// What belongs to inputs of openCARP, beside those that are named: keep_from_outputs().
+void keep_carp_inputs(std::span<const std::filesystem::path> files);
+
 /// A set of files; none of them is there under its name before finish().
 class CarpOutput {
  public:
@@ -30,17 +41,19 @@ class CarpOutput {
   CarpOutput(std::filesystem::path pts, bool overwrite);
   ~CarpOutput();
 
-  /// @param micrometres of a unit of `points`. @param regions one a cell, or none: 1 for all.
-  void write_mesh(std::span<const Vec3> points, double micrometres, std::span<const TetMesh::Tet> cells,
-                  std::span<const int> regions);
+  /// @param micrometres of a unit of its positions. @param regions one a cell, or none: 1 for all.
+  /// @pre all_in_carp(mesh).
+  void write_mesh(const UnstructuredTopology& mesh, double micrometres, std::span<const int> regions);
   /// One a cell, of any length; zero or not finite: written as zeros, which mean no direction.
   /// @param sheets as many, or none.
   void write_directions(std::span<const Vec3> fibres, std::span<const Vec3> sheets);
-  /// NAME.dat: numbers of points or of cells.
+  /// STEM.NAME.dat: numbers of points or of cells. What no file name can hold of NAME becomes '_', and a name
+  /// that is taken gets a number.
   void write_values(const std::string& name, std::span<const double> values);
-  /// NAME.igb, whose steps follow by write_step() in their order.
-  /// @return its number.
-  std::size_t begin_series(const std::string& name, std::size_t points, const IgbTimes& times);
+  /// STEM.NAME.igb, whose steps follow by write_step() in their order.
+  /// @param tuples points or cells. @param components 1 to 4. @return its number.
+  std::size_t begin_series(const std::string& name, std::size_t tuples, int components,
+                           const IgbTimes& times);
   void write_step(std::size_t series, std::span<const double> values);
 
   void finish();
@@ -48,6 +61,7 @@ class CarpOutput {
 
  private:
   class Files;
+  [[nodiscard]] std::filesystem::path result(const std::string& name, const char* ending) const;
   std::filesystem::path pts_;
   std::vector<std::filesystem::path> names_;
   std::unique_ptr<Files> files_;
