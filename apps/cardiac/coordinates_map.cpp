@@ -73,7 +73,7 @@ ExitCode map_coordinates(const Document& options, const VerbContext& context) {
                              .apex_outer = place(made.axis.apex.back()),
                              .points = wall.grid->tets->points().size(),
                              .columns = {},
-                             .notes = notes_of(wall.surfaces)};
+                             .notes = wall.notes};
   summary.notes.insert(summary.notes.end(), made.notes.begin(), made.notes.end());
   if (wall.surfaces.pieces[as_size(BorderRole::kInner)] > 1)
     summary.notes.push_back(

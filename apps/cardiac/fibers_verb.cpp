@@ -215,7 +215,7 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                            .median_turn = made.median_turn / kRadian,
                            .most_turn = made.most_turn / kRadian,
                            .two = wall.surfaces.has(BorderRole::kRight),
-                           .notes = notes_of(wall.surfaces)};
+                           .notes = wall.notes};
   constexpr double kCoarse = 20.0;  // degrees
   if (summary.most_turn > kCoarse)
     summary.notes.push_back(

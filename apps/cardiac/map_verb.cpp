@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/coordinates_map.h"
+#include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -20,9 +22,12 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/compose/plane_image_text.h"
+#include "common/field/field_on_grid.h"
 #include "common/field/grid/tet_mesh.h"
+#include "common/field/layer/wall_layer.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_mesh.h"
+#include "common/scene/wall/open_wall.h"
 #include "common/trace/isosurface/surface_contours.h"
 
 namespace palpate {
@@ -200,6 +205,48 @@ std::string summary_text(const MapSummary& summary) {
   return text;
 }
 
+void write_columns(const ScalarField& layer, const std::vector<MeshColumn>& columns,
+                   const std::optional<Vec3>& axis, const Document& options, const VerbContext& context) {
+  const TetMesh& mesh = *layer.tet_mesh();
+  std::vector<Vec3> points;
+  points.reserve(mesh.points().size());
+  for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
+  write_mesh(options.output.file, points, mesh.cells(), columns, options.common.force, axis);
+  context.interrupt.keep(options.output.file);
+}
+
+ExitCode report(MapSummary summary, const Input& input, const std::vector<double>& values,
+                const Document& options, const VerbContext& context) {
+  summary.input = input.title();
+  summary.output = options.output.file.string();
+  summary.points = values.size();
+  for (const double value : values) summary.undefined += std::isfinite(value) ? 0 : 1;
+  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
+  context.console.print(summary_text(summary));
+  context.console.print_json(map_json(summary));
+  return ExitCode::kDone;
+}
+
+/// The depth asks for no fibres.
+ExitCode map_depth(Input& input, const Document& options, const VerbContext& context) {
+  const Stopwatch watch;
+  const int threads = options.common.threads;
+  const OpenWall wall = open_wall(input, {}, threads, &context.progress);
+  WallLayer made = make_wall_layer(*wall.grid, wall.mesh, input.title(), threads);
+  for (const std::string& note : made.notes) context.console.note(input.title() + ": " + note);
+  DataSet mesh = wall.mesh;
+  mesh.arrays = {std::move(made.array)};
+  const auto layer = make_scalar_field(wall.grid, mesh, {.array = kLayerArray}, input.title(), threads);
+  const std::vector<double> depths = point_values(*layer);
+  MapSummary summary;
+  summary.angle = "depth";
+  summary.bands = bands_of(depths, depths, *layer, false);
+  if (!options.output.file.empty())
+    write_columns(*layer, {{"depth", depths}}, input.file()->long_axis, options, context);
+  summary.seconds_map = watch.seconds();
+  return report(std::move(summary), input, depths, options, context);
+}
+
 ExitCode run_map(const Document& options, const VerbContext& context) {
   Console& console = context.console;
   if (list_examples(options, context)) return ExitCode::kDone;
@@ -218,6 +265,8 @@ ExitCode run_map(const Document& options, const VerbContext& context) {
   }
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
+  if (!input.has_field() && options.heart.angle == "depth" && !as_lines)
+    return map_depth(input, options, context);
   const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
   for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
   const AngleProbe probe(heart, options.heart);
@@ -229,16 +278,11 @@ ExitCode run_map(const Document& options, const VerbContext& context) {
   depth_options.angle = "depth";
   const std::vector<double> depths = AngleProbe(heart, depth_options).map();
   MapSummary summary;
-  summary.input = input.title();
   summary.field = input.field_label();
-  summary.output = options.output.file.string();
   summary.angle = probe.name();
   if (probe.is_angle()) summary.convention = options.heart.convention;
   summary.axis = probe.axis();
-  summary.points = values.size();
-  for (const double value : values) summary.undefined += std::isfinite(value) ? 0 : 1;
   summary.bands = bands_of(values, depths, layer, probe.is_angle());
-  summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   summary.seconds_map = watch.seconds();
   if (as_lines) {
     const LayerContours contours = make_layer_contours(*heart, probe, options, &context.progress);
@@ -247,18 +291,11 @@ ExitCode run_map(const Document& options, const VerbContext& context) {
     write_lines(options.output.file, contours.lines, options.common.force, std::span(&contours.values, 1));
     context.interrupt.keep(options.output.file);
   } else if (!options.output.file.empty()) {
-    const TetMesh& mesh = *layer.tet_mesh();
-    std::vector<Vec3> points;
-    points.reserve(values.size());
-    for (const Vec3& x : mesh.points()) points.push_back(layer.frame().data_from_local(x));
     std::vector<MeshColumn> columns{{probe.name(), values}};
     if (probe.name() != "depth") columns.push_back({"depth", depths});
-    write_mesh(options.output.file, points, mesh.cells(), columns, options.common.force, heart->heart().axis);
-    context.interrupt.keep(options.output.file);
+    write_columns(layer, columns, heart->heart().axis, options, context);
   }
-  console.print(summary_text(summary));
-  console.print_json(map_json(summary));
-  return ExitCode::kDone;
+  return report(std::move(summary), input, values, options, context);
 }
 
 }  // namespace

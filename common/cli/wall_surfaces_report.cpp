@@ -46,12 +46,9 @@ WallSurfacesSummary report_wall_surfaces(Input& input, const Document& options, 
                               .thinnest = measures.thinnest,
                               .median = measures.median,
                               .thickest = measures.thickest,
-                              .notes = notes_of(wall.surfaces)};
-  constexpr double kMonotone = 0.99;
-  if (measures.monotone < kMonotone)
-    summary.notes.push_back("WARNING: the depth does not rise through the wall from " +
-                            percent(1.0 - measures.monotone) +
-                            " of the points: a surface may be taken for another one, or the mesh is coarse");
+                              .notes = wall.notes};
+  if (std::string doubt = monotone_doubt(measures.monotone); !doubt.empty())
+    summary.notes.push_back(std::move(doubt));
   SurfaceLabels labels{.name = kSurfaceArray, .of = {}, .words = {}};
   const bool two = wall.surfaces.has(BorderRole::kRight) || wall.surfaces.has(BorderRole::kSeptum);
   for (const BorderRole role : kNumbered) {

@@ -12,6 +12,7 @@
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/heart/tissue.h"
 #include "common/load/volume_block.h"
 #include "common/scene/layer_cache.h"
 #include "common/scene/raw_file.h"
@@ -437,10 +438,11 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   Stopwatch watch;
   const HeartChoice chosen = heart_choice();
   std::vector<std::string> names = chosen.arrays();
+  if (const std::string regions = region_array(arrays_); !regions.empty()) names.push_back(regions);
   std::optional<ScalarChoice> scalar;
   if (!value.empty()) {
     scalar = choose_scalar(arrays_, value, file_name());
-    names.push_back(scalar->array);
+    if (scalar->array != names.back()) names.push_back(scalar->array);
   }
   if (progress) progress->begin("reading " + title_, 0);
   const std::vector<DataSet> blocks = read(names, progress);

@@ -206,6 +206,10 @@ class Splitter {
         ++mesh_.unknown_cells;
         continue;
       }
+      if (hidden()) {
+        ++mesh_.blanked_cells;
+        continue;
+      }
       const auto begin = as_size(cells.offsets[c]);
       const auto end = as_size(cells.offsets[c + 1]);
       const std::span<const std::int64_t> stream(cells.connectivity.data() + begin, end - begin);

@@ -15,6 +15,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/mesh_quality.h"
+#include "common/field/heart/tissue.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -181,6 +182,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
                  LayersNeeded layers, CachedLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
+  const std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
@@ -198,7 +200,9 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   };
   Heart heart;
   heart.fibres = directions(choice.fibre);
-  heart.notes = heart.fibres->notes().lines;
+  heart.notes = tissue;
+  const std::vector<std::string>& of_fibres = heart.fibres->notes().lines;
+  heart.notes.insert(heart.notes.end(), of_fibres.begin(), of_fibres.end());
   if (const std::size_t folded = folded_faces(*grid->tets); folded > 0)
     heart.notes.push_back(
         counted(folded, "face") +

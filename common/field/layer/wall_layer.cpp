@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "common/base/text.h"
 #include "common/field/layer/laplace.h"
+#include "common/field/layer/wall_measures.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -22,6 +25,8 @@ WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std:
 
   WallLayer layer;
   layer.notes = notes_of(surfaces);
+  if (std::string doubt = monotone_doubt(monotone_share(grid, surfaces, depth.values)); !doubt.empty())
+    layer.notes.push_back(std::move(doubt));
   layer.iterations = depth.iterations;
   layer.residual = depth.residual;
   std::vector<double> values(mesh.point_count(), kNaN);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/field/layer/way_lengths.h"
 
 namespace palpate {
@@ -36,17 +37,26 @@ std::vector<bool> leads_to(const TetMesh& mesh, std::span<const double> depth,
 
 }  // namespace
 
+double monotone_share(const FieldGrid& grid, const WallSurfaces& surfaces, std::span<const double> depth) {
+  const std::vector<bool> up = leads_to(*grid.tets, depth, surfaces.of_point, WallSurface::kOuter, 1.0);
+  const std::vector<bool> down = leads_to(*grid.tets, depth, surfaces.of_point, WallSurface::kInner, -1.0);
+  std::size_t both_ways = 0;
+  for (std::size_t p = 0; p < depth.size(); ++p) both_ways += up[p] && down[p] ? 1 : 0;
+  return static_cast<double>(both_ways) / static_cast<double>(std::max<std::size_t>(1, depth.size()));
+}
+
+std::string monotone_doubt(double share) {
+  constexpr double kMonotone = 0.97;  // rims of a septum lose some points
+  if (!(share < kMonotone)) return {};
+  return "WARNING: the depth does not rise through the wall from " +
+         short_number(std::round(1000.0 * (1.0 - share)) / 10.0) +
+         " % of the points: a surface may be taken for another one, or the mesh is coarse";
+}
+
 WallMeasures measure_wall(const FieldGrid& grid, const WallSurfaces& surfaces,
                           std::span<const double> depth) {
   const TetMesh& mesh = *grid.tets;
-  WallMeasures measures;
-  const std::vector<bool> up = leads_to(mesh, depth, surfaces.of_point, WallSurface::kOuter, 1.0);
-  const std::vector<bool> down = leads_to(mesh, depth, surfaces.of_point, WallSurface::kInner, -1.0);
-  std::size_t both_ways = 0;
-  for (std::size_t p = 0; p < depth.size(); ++p) both_ways += up[p] && down[p] ? 1 : 0;
-  measures.monotone =
-      static_cast<double>(both_ways) / static_cast<double>(std::max<std::size_t>(1, depth.size()));
-
+  WallMeasures measures{.monotone = monotone_share(grid, surfaces, depth), .thickness = {}};
   const std::vector<double> inwards = way_lengths(mesh, depth, WayAlong::kFalling);
   const std::vector<double> outwards = way_lengths(mesh, depth, WayAlong::kRising);
   const double scale = grid.frame.length_scale();

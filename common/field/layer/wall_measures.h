@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/field/field_grid.h"
@@ -9,8 +10,15 @@
 
 namespace palpate {
 
+/// The share of points from which the depth rises, edge by edge, to the outer surface and falls to an inner one.
+/// @param depth as for measure_wall().
+[[nodiscard]] double monotone_share(const FieldGrid& grid, const WallSurfaces& surfaces,
+                                    std::span<const double> depth);
+/// A WARNING where the share is below 97 %; else empty.
+[[nodiscard]] std::string monotone_doubt(double share);
+
 struct WallMeasures {
-  /// The share of points from which the depth rises, edge by edge, to the outer surface and falls to an inner one.
+  /// monotone_share().
   double monotone = 0.0;
   std::vector<double>
       thickness;  ///< of the wall through each point of the grid, along the gradient of the depth;

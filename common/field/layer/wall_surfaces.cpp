@@ -14,6 +14,8 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/part_rims.h"
+#include "common/field/layer/tagged_surfaces.h"
 #include "common/field/layer/wall_border.h"
 
 namespace palpate {
@@ -37,18 +39,6 @@ bool both(const std::vector<WallSurface>& of_point) {
   return has(WallSurface::kInner) && has(WallSurface::kOuter);
 }
 
-std::vector<WallSurface> tagged(const FieldGrid& grid, const DataArray& array) {
-  std::vector<WallSurface> of_point(grid.point_count(), WallSurface::kNone);
-  for (std::size_t p = 0; p < array.tuples; ++p) {
-    const double tag = array.at(p);
-    const std::size_t point = grid.point_of_input.empty() ? p : grid.point_of_input[p];
-    if (point >= of_point.size()) continue;  // no cell uses it
-    if (tag == 1.0) of_point[point] = WallSurface::kInner;
-    if (tag == 2.0) of_point[point] = WallSurface::kOuter;
-  }
-  return of_point;
-}
-
 /// The border at one crease, and what its parts are.
 class BorderReading {
  public:
@@ -64,6 +54,7 @@ class BorderReading {
     }
     for (const auto& [a, b] : border.joints)
       if (part_of_[a] != part_of_[b]) beside_.insert(std::minmax(part_of_[a], part_of_[b]));
+    rims_ = part_rims(mesh, border, part_of_, parts_.size());
     part_roles_.assign(parts_.size(), BorderRole::kLeft);
     find_outer();
     if (outer_ == parts_.size()) return;
@@ -91,6 +82,7 @@ class BorderReading {
 
   /// The roles of all triangles. @param doubts gets what should be looked at.
   std::vector<BorderRole> roles(std::vector<std::string>& doubts) {
+    doubt_rims(doubts);
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const std::uint32_t t : parts_[p].triangles) roles_[t] = part_roles_[p];
     if (cavities_.size() > 1) find_septum(doubts);
@@ -111,15 +103,83 @@ class BorderReading {
     return axis_ ? glm::dot(parts_[part].normal, *axis_) : 0.0;
   }
 
+  /// Whether a part is a ring, but for small holes.
+  [[nodiscard]] bool ring(std::size_t part) const {
+    constexpr double kHole = 0.1;  // of the longest rim
+    const std::vector<PartRim>& rims = rims_[part];
+    const auto rim = [&](std::size_t r) {
+      return r < rims.size() && rims[r].length > kHole * rims[0].length;
+    };
+    return rim(1) && !rim(2);
+  }
+  /// How much of a rim is the outer surface's.
+  [[nodiscard]] double outer_share(const PartRim& rim) const {
+    double outer = 0.0;
+    for (const PartRim::Beside& beside : rim.beside)
+      if (part_roles_[beside.part] == BorderRole::kOuter) outer += beside.length;
+    return outer / rim.length;
+  }
+  /// Whether a part goes round an opening: a ring from the outer surface to a part that other such rings
+  /// alone join to it. Which way it faces does not count: rims are flat, slanted or cones.
+  [[nodiscard]] bool round_opening(std::size_t part) const {
+    if (!ring(part)) return false;
+    const std::vector<PartRim>& rims = rims_[part];
+    const double first = outer_share(rims[0]), second = outer_share(rims[1]);
+    if (std::max(first, second) < kMost || std::min(first, second) > 1.0 - kMost) return false;
+    bool any = false;
+    for (const PartRim::Beside& behind : rims[first < second ? 0 : 1].beside) {
+      if (!large(behind.part) || part_roles_[behind.part] == BorderRole::kOuter) continue;
+      any = true;
+      for (const auto& [a, b] : beside_) {
+        if (a != behind.part && b != behind.part) continue;
+        const std::size_t next = a == behind.part ? b : a;
+        if (large(next) && !touches(next, BorderRole::kOuter)) return false;
+      }
+    }
+    return any;
+  }
+
+  /// Rings that may be something else, and cavities without a rim.
+  void doubt_rims(std::vector<std::string>& doubts) const {
+    constexpr double kAlongWall = 0.15;  // mean normal of a ring that faces the axis it goes round
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (part_roles_[p] == BorderRole::kBase && glm::length(parts_[p].normal) < kAlongWall &&
+          round_opening(p))
+        doubts.emplace_back(
+            "a ring between the outer surface and a cavity is taken for the rim of an opening");
+    double outer = 0.0, all = 0.0;
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (part_roles_[p] != BorderRole::kInner && part_roles_[p] != BorderRole::kRight) continue;
+      for (const PartRim& rim : rims_[p]) {
+        all += rim.length;
+        outer += rim.length * outer_share(rim);
+      }
+    }
+    constexpr double kMostOuter = 0.1;
+    if (outer > kMostOuter * all)
+      doubts.push_back("an inner surface meets the outer one along " +
+                       short_number(std::round(100.0 * outer / all)) +
+                       " % of its rim, with no cut of the wall between: the rim of an opening may be in it");
+  }
+
   void find_outer() {
     outer_ = parts_.size();
+    const auto larger = [this](std::size_t p, double extent) {
+      return large(p) && !parts_[p].flat() && parts_[p].bounds.diagonal() > extent;
+    };
     double extent = -1.0;
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (!large(p) || parts_[p].flat() || !(parts_[p].bounds.diagonal() > extent)) continue;
+      if (!larger(p, extent)) continue;
       outer_ = p;
       extent = parts_[p].bounds.diagonal();
     }
     if (outer_ == parts_.size()) return;
+    // The rim of a shallow cup can be a little larger than the cup.
+    constexpr double kNearly = 0.8;
+    extent *= kNearly;
+    for (std::size_t p = 0; p < parts_.size() && ring(outer_); ++p) {
+      if (larger(p, extent) && !ring(p) && parts_[p].bulge > kLevel) outer_ = p;
+    }
     part_roles_[outer_] = BorderRole::kOuter;
     const double length = glm::length(parts_[outer_].normal);
     if (length > kHasOpening) axis_ = -parts_[outer_].normal / length;
@@ -131,7 +191,8 @@ class BorderReading {
       more = false;
       for (std::size_t p = 0; p < parts_.size(); ++p) {
         if (!large(p) || part_roles_[p] != BorderRole::kLeft || parts_[p].flat()) continue;
-        if (parts_[p].bulge > kLevel && facing(p) < kFacesUp && touches(p, BorderRole::kOuter)) {
+        if (parts_[p].bulge > kLevel && facing(p) < kFacesUp && touches(p, BorderRole::kOuter) &&
+            !round_opening(p)) {
           part_roles_[p] = BorderRole::kOuter;
           more = true;
         }
@@ -141,7 +202,7 @@ class BorderReading {
       if (!large(p) || part_roles_[p] != BorderRole::kLeft) continue;
       const bool level = std::abs(parts_[p].bulge) < kLevel && (!axis_ || facing(p) > kFacesUp);
       const bool opening = facing(p) > kFacesOpening && touches(p, BorderRole::kOuter);
-      if (parts_[p].flat() || level || opening) part_roles_[p] = BorderRole::kBase;
+      if (parts_[p].flat() || level || opening || round_opening(p)) part_roles_[p] = BorderRole::kBase;
     }
   }
 
@@ -282,36 +343,13 @@ class BorderReading {
   std::vector<std::size_t> part_of_;  ///< of each triangle
   std::vector<BorderRole> roles_;     ///< of each triangle
   std::vector<BorderRole> part_roles_;
+  std::vector<std::vector<PartRim>> rims_;                ///< of each part
   std::set<std::pair<std::size_t, std::size_t>> beside_;  ///< parts that share an edge, the lower first
   double area_ = 0.0;
   std::size_t outer_ = 0;
   std::optional<Vec3> axis_;  ///< the way that the outer surface opens
   std::vector<Cavity> cavities_;
 };
-
-/// Roles of triangles by the tags of their points.
-std::vector<BorderRole> tagged_roles(const WallBorder& border, const std::vector<WallSurface>& of_point) {
-  std::vector<BorderRole> roles(border.triangles.size(), BorderRole::kLeft);
-  const auto all = [&](std::size_t t, WallSurface surface) {
-    return std::all_of(border.triangles[t].begin(), border.triangles[t].end(),
-                       [&](std::uint32_t p) { return of_point[p] == surface; });
-  };
-  Vec3 opening{0.0};
-  double outer = 0.0;
-  for (std::size_t t = 0; t < roles.size(); ++t) {
-    if (all(t, WallSurface::kInner)) roles[t] = BorderRole::kInner;
-    if (!all(t, WallSurface::kOuter)) continue;
-    roles[t] = BorderRole::kOuter;
-    opening -= border.areas[t];
-    outer += glm::length(border.areas[t]);
-  }
-  if (!(glm::length(opening) > kHasOpening * outer)) return roles;
-  // Where an inner surface meets an outer one, as at the rim of a septum, triangles have points of both, too.
-  for (std::size_t t = 0; t < roles.size(); ++t)
-    if (roles[t] == BorderRole::kLeft && glm::dot(border.normal(t), glm::normalize(opening)) > kFacesUp)
-      roles[t] = BorderRole::kBase;
-  return roles;
-}
 
 /// Areas, pieces and confidence of the roles.
 void measure(const FieldGrid& grid, const WallBorder& border, WallSurfaces& surfaces) {
@@ -394,7 +432,7 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   WallSurfaces surfaces;
   surfaces.triangles = border.triangles;
   if (const DataArray* array = mesh.find(kSurfaceArray, Association::kPoint)) {
-    surfaces.of_point = tagged(grid, *array);
+    surfaces.of_point = tagged_points(grid, *array);
     surfaces.note = std::string("inner and outer surface from the array '") + kSurfaceArray + "'";
     if (!both(surfaces.of_point)) refuse(std::string("has not both in its array '") + kSurfaceArray + "'");
     surfaces.roles = tagged_roles(border, surfaces.of_point);

@@ -51,7 +51,7 @@ struct WallSurfaces {
 /// a doubt). Parts below 1 % of its area have no role. Of the others
 /// - the one with the largest extent that is not flat is the outer surface, and so are those beside it that
 ///   bulge outwards (BorderPart::bulge);
-/// - flat ones, those that neither bulge nor lie along the wall, and those beside the outer surface that face
+/// - rings between the outer surface and a part that is no further joined to it, flat ones, those that neither bulge nor lie along the wall, and those beside the outer surface that face
 ///   the way in which it opens are the base: flat, slanted, a saddle or jagged;
 /// - the rest, by what hangs together, are cavities. Of several the roundest one is the left ventricle's
 ///   (volume squared over the cube of its area). Where the straight way through the wall from another one

@@ -1,11 +1,13 @@
 #include "common/scene/wall/open_wall.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/field/heart/heart.h"
+#include "common/field/heart/tissue.h"
 #include "common/scene/wall/remesh.h"
 
 namespace palpate {
@@ -17,11 +19,24 @@ OpenWall open_wall(Input& input, std::vector<std::string> names, int threads, Pr
     if (array.name == kSurfaceArray && array.components == 1 && array.association == Association::kPoint &&
         std::find(names.begin(), names.end(), array.name) == names.end())
       names.push_back(array.name);
-  OpenWall wall{.mesh = read_wall(input, names, progress), .grid = {}, .surfaces = {}};
+  // Fibres and regions say where tissue is, and are no part of what is asked for.
+  std::vector<std::string> all = names;
+  std::optional<DirectionChoice> fibre;
+  if (!fibre_choices(input.arrays()).empty()) fibre = input.heart_choice().fibre;
+  if (fibre) all.push_back(fibre->array);
+  if (const std::string regions = region_array(input.arrays());
+      fibre && !regions.empty() && std::find(all.begin(), all.end(), regions) == all.end())
+    all.push_back(regions);
+  OpenWall wall{.mesh = read_wall(input, all, progress), .grid = {}, .surfaces = {}, .notes = {}};
   if (progress) progress->begin("finding the surfaces of the wall", 0);
   join_same_points(wall.mesh);
+  if (fibre) wall.notes = hide_all_but_tissue(wall.mesh, *fibre);
+  std::erase_if(wall.mesh.arrays, [&names](const DataArray& array) {
+    return std::find(names.begin(), names.end(), array.name) == names.end();
+  });
   wall.grid = make_field_grid(std::span(&wall.mesh, 1), input.title(), threads);
   wall.surfaces = find_wall_surfaces(*wall.grid, wall.mesh, input.title());
+  for (std::string& note : notes_of(wall.surfaces)) wall.notes.push_back(std::move(note));
   return wall;
 }
 

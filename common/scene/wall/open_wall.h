@@ -14,9 +14,10 @@
 namespace palpate {
 
 struct OpenWall {
-  DataSet mesh;  ///< points at one place are joined, as make_heart() does
+  DataSet mesh;  ///< points at one place are joined and all but tissue is hidden, as make_heart() does
   std::shared_ptr<const FieldGrid> grid;
   WallSurfaces surfaces;
+  std::vector<std::string> notes;  ///< what was left out as no tissue, and notes_of() the surfaces
 };
 
 /// Reads the mesh with the arrays `names` and, where the file has it, the array kSurfaceArray.

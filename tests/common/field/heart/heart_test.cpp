@@ -18,6 +18,7 @@
 #include "common/field/heart/fibre_angles.h"
 #include "common/field/heart/wall_frame.h"
 #include "common/math/symmetric3.h"
+#include "tests/support/zone_mesh.h"
 
 namespace palpate {
 namespace {
@@ -133,6 +134,84 @@ TEST(Heart, LongAxisPointsFromApexToBase) {
   EXPECT_NEAR(axis->x, 0.0, 1e-12);
   EXPECT_NEAR(axis->y, 0.0, 1e-12);
   EXPECT_NEAR(axis->z, 1.0, 1e-12);
+}
+
+/// A shell whose fibres go round; in `depth` of the wall it is muscle, with region 1, elsewhere not.
+DataSet shell_in_bath(double inner, double outer, double from, double to, bool of_points, const char* name) {
+  const test::ZoneCells cells{.wall = 12, .along = 12, .around = 24};
+  DataSet mesh = test::zone_mesh(
+      [&](double s, double t, double angle) {
+        return test::on_sphere(inner + (outer - inner) * s, t * 100.0 * kDegree, angle);
+      },
+      cells, true);
+  const auto& topology = std::get<UnstructuredTopology>(mesh.topology);
+  const auto at = [&](std::int64_t p) {
+    const auto i = static_cast<std::size_t>(p);
+    return Vec3{topology.positions.at(i, 0), topology.positions.at(i, 1), topology.positions.at(i, 2)};
+  };
+  const auto fibre_at = [](const Vec3& x) { return Vec3{-x.y, x.x, 0.0}; };
+  constexpr double kRounding = 1e-9;
+  std::vector<double> fibres, regions;
+  for (std::size_t c = 0; c < topology.types.size(); ++c) {
+    Vec3 middle{0.0};
+    double radius = 0.0;
+    const auto corners = static_cast<double>(topology.offsets[c + 1] - topology.offsets[c]);
+    for (auto i = topology.offsets[c]; i < topology.offsets[c + 1]; ++i) {
+      const Vec3 x = at(topology.connectivity[static_cast<std::size_t>(i)]);
+      middle += x / corners;
+      radius += glm::length(x) / corners;
+    }
+    const bool muscle = radius > from && radius < to;
+    regions.push_back(muscle ? 1.0 : radius < from ? 2.0 : 3.0);
+    // Some elements of muscle have lost theirs.
+    const Vec3 fibre = muscle && c % 10 != 3 ? fibre_at(middle) : Vec3{0.0};
+    if (!of_points) fibres.insert(fibres.end(), {fibre.x, fibre.y, fibre.z});
+  }
+  for (std::size_t p = 0; of_points && p < mesh.point_count(); ++p) {
+    const Vec3 x = at(static_cast<std::int64_t>(p));
+    const double r = glm::length(x);
+    const Vec3 fibre = r > from - kRounding && r < to + kRounding ? fibre_at(x) : Vec3{0.0};
+    fibres.insert(fibres.end(), {fibre.x, fibre.y, fibre.z});
+  }
+  mesh.arrays.push_back(make_array("fibre", of_points ? Association::kPoint : Association::kCell, 3,
+                                   std::span<const double>(fibres)));
+  mesh.arrays.push_back(make_array(name, Association::kCell, 1, std::span<const double>(regions)));
+  return mesh;
+}
+
+// Bath outside and blood inside: depth of the potential of a shell, (1/a - 1/r) / (1/a - 1/b).
+TEST(Heart, LayersAreWhereFibresAre) {
+  for (const bool of_points : {false, true}) {
+    for (const auto& [inner, outer] : {std::pair{20.0, 44.0}, std::pair{8.0, 32.0}, std::pair{14.0, 38.0}}) {
+      const double from = 20.0, to = inner == 8.0 ? 32.0 : 30.0;
+      const Heart heart = heart_of(shell_in_bath(inner, outer, from, to, of_points, "region"));
+      const bool blood = inner < from;
+      std::string notes;
+      for (const std::string& note : heart.notes) notes += note + "\n";
+      EXPECT_NE(notes.find(blood ? "region 2" : "region 3"), std::string::npos) << notes;
+      EXPECT_EQ(notes.find("WARNING"), std::string::npos) << notes;
+      CellHint hint;
+      double worst = 0.0;
+      for (int i = 1; i < 20; ++i) {
+        const double r = from + (to - from) * i / 20.0;
+        const ScalarSample depth = heart.layer->sample(test::on_sphere(r, 0.9, 0.07 * i), hint);
+        ASSERT_EQ(depth.status, SampleStatus::kOk) << r;
+        worst = std::max(worst, std::abs(depth.value - (1.0 / from - 1.0 / r) / (1.0 / from - 1.0 / to)));
+      }
+      EXPECT_LT(worst, 0.03) << of_points << " " << inner << "\n" << notes;
+      for (const double r : {inner + 1.0, outer - 1.0}) {
+        const bool muscle = r > from && r < to;
+        const SampleStatus status = heart.fibres->sample(test::on_sphere(r, 0.9, 0.3), hint).status;
+        EXPECT_EQ(status == SampleStatus::kOk, muscle) << r;
+      }
+    }
+  }
+  // Without regions nothing tells, and that is said.
+  DataSet untold = shell_in_bath(20.0, 44.0, 20.0, 30.0, false, "potential");
+  std::string notes;
+  for (const std::string& note : heart_of(untold).notes) notes += note + "\n";
+  EXPECT_NE(notes.find("WARNING"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("without a fibre"), std::string::npos) << notes;
 }
 
 TEST(Heart, LayersWithoutAnArrayComeFromLaplace) {

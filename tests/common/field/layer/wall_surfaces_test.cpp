@@ -19,6 +19,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/layer/wall_layer.h"
 #include "tests/support/two_ventricles.h"
+#include "tests/support/zone_mesh.h"
 
 namespace palpate {
 namespace {
@@ -80,6 +81,87 @@ TEST(WallSurfacesByShape, RimsOfAnyShapeStayFree) {
         EXPECT_LT(worst, 1e-6) << name << " " << size << " " << mu_base << "\n" << text_of(found);
       }
     }
+  }
+}
+
+/// Areas of triangles, by what they are: all points inside, all outside, others.
+struct Found {
+  double wrong = 0.0, all = 0.0;
+  std::string notes;
+};
+
+Found found_on(const DataSet& mesh, int layers) {
+  const auto grid = make_field_grid(std::span(&mesh, 1), "wall", 0);
+  const WallSurfaces surfaces = find_wall_surfaces(*grid, mesh, "wall");
+  // Points are numbered through the wall last.
+  const std::size_t layer = mesh.point_count() / (static_cast<std::size_t>(layers) + 1);
+  std::vector<std::size_t> input(grid->point_count());
+  for (std::size_t i = 0; i < mesh.point_count(); ++i)
+    input[grid->point_of_input.empty() ? i : grid->point_of_input[i]] = i;
+  Found found;
+  for (const std::string& note : notes_of(surfaces)) found.notes += note + "\n";
+  const auto points = grid->tets->points();
+  for (std::size_t t = 0; t < surfaces.triangles.size(); ++t) {
+    const auto& [a, b, c] = surfaces.triangles[t];
+    const auto all = [&](std::size_t of) {
+      return input[a] / layer == of && input[b] / layer == of && input[c] / layer == of;
+    };
+    const BorderRole role = all(0)                                  ? BorderRole::kInner
+                            : all(static_cast<std::size_t>(layers)) ? BorderRole::kOuter
+                                                                    : BorderRole::kBase;
+    const double area = glm::length(glm::cross(points[b] - points[a], points[c] - points[a]));
+    found.all += area;
+    if (surfaces.roles[t] != role) found.wrong += area;
+  }
+  return found;
+}
+
+// Walls with one opening or two, whose rims are flat, slanted, wavy, or cones that face away from the axis.
+TEST(WallSurfacesByShape, RimsOfBothOpeningsAreRimsWhicheverWayTheyFace) {
+  const auto sphere = [](double from, double to, double inner = 20.0,
+                         double outer = 30.0) -> test::ZonePlace {
+    return [=](double s, double t, double angle) {
+      return test::on_sphere(inner + (outer - inner) * s, (from + (to - from) * t) * kPi / 180.0, angle);
+    };
+  };
+  const auto tube = [](double half, const std::function<double(double, double)>& low,
+                       const std::function<double(double, double)>& high) -> test::ZonePlace {
+    return [=](double s, double t, double angle) {
+      const double r = 20.0 + 10.0 * s, z0 = -half + low(s, angle), z1 = half + high(s, angle);
+      return Vec3{r * std::cos(angle), r * std::sin(angle), z0 + (z1 - z0) * t};
+    };
+  };
+  const auto flat = [](double, double) { return 0.0; };
+  const auto slant = [](double, double angle) { return 8.0 * std::cos(angle); };
+  const auto wave = [](double, double angle) { return 5.0 * std::cos(2.0 * angle); };
+  const auto cone = [](double s, double) { return 4.0 * s; };
+  const auto back = [](double s, double) { return -4.0 * s; };
+  struct Case {
+    std::string name;
+    test::ZonePlace place;
+    bool pole;
+  };
+  const std::vector<Case> cases{{"hole at the apex", sphere(20.0, 100.0), false},
+                                {"large hole", sphere(45.0, 100.0), false},
+                                {"ring", sphere(70.0, 100.0), false},
+                                {"thin ring", sphere(60.0, 110.0, 27.0, 30.0), false},
+                                {"cup", sphere(0.0, 60.0), true},
+                                {"shallow cup", sphere(0.0, 40.0), true},
+                                {"half", sphere(0.0, 90.0), true},
+                                {"nearly closed", sphere(0.0, 150.0), true},
+                                {"all but closed", sphere(0.0, 168.0), true},
+                                {"tube", tube(20.0, flat, flat), false},
+                                {"slanted tube", tube(20.0, slant, slant), false},
+                                {"wedge", tube(20.0, slant, flat), false},
+                                {"wavy tube", tube(20.0, wave, wave), false},
+                                {"one wavy rim", tube(20.0, wave, flat), false},
+                                {"bevelled tube", tube(20.0, back, cone), false},
+                                {"hollowed tube", tube(20.0, cone, back), false},
+                                {"short bevelled tube", tube(8.0, back, cone), false}};
+  for (const auto& [name, place, pole] : cases) {
+    const Found found = found_on(test::zone_mesh(place, {}, pole), 4);
+    EXPECT_LT(found.wrong, 1e-9 * found.all) << name << "\n" << found.notes;
+    EXPECT_EQ(found.notes.find("WARNING"), std::string::npos) << name << "\n" << found.notes;
   }
 }
 
