@@ -35,7 +35,7 @@ namespace {
 /// The device in the participant's hand: a mouse, a simulated hand that follows it, or a real one.
 class HandDevice {
  public:
-  explicit HandDevice(const ProbeSessionOptions& touch) : touch_(touch), mouse_(touch.limits) {
+  explicit HandDevice(const ProbeSessionOptions& touch) : mouse_(touch.limits) {
     if (touch.simulated) {
       SimulatedDeviceOptions simulated = *touch.simulated;
       simulated.limits = touch.limits;
@@ -64,7 +64,6 @@ class HandDevice {
   [[nodiscard]] std::string advice() const { return linked_ ? linked_->advice() : std::string(); }
 
  private:
-  const ProbeSessionOptions& touch_;
   MouseDevice mouse_;
   std::unique_ptr<SimulatedDevice> simulated_;
   std::unique_ptr<LinkedDevice> linked_;
