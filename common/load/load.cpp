@@ -171,6 +171,10 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });
+  if (request.diffusion && request.diffusion->names_gradients() && !state->info.diffusion.gradients) {
+    throw usage_error("--bval, --bvec: " + state->file + " (" + std::string(row_of(format).name) +
+                      ") holds no diffusion-weighted volumes to which they could belong");
+  }
   return Source(std::move(state));
 }
 

@@ -25,6 +25,8 @@ namespace palpate {
 struct DiffusionRequest {
   std::filesystem::path bval;  ///< b-values; empty: those beside the image
   std::filesystem::path bvec;  ///< gradient directions, likewise
+
+  [[nodiscard]] bool names_gradients() const { return !bval.empty() || !bvec.empty(); }
 };
 
 struct LoadRequest {

@@ -223,6 +223,8 @@ void Input::open_files(Progress* progress) {
 }
 
 void Input::open_example() {
+  if (!spec_.tensor.bval.empty() || !spec_.tensor.bvec.empty())
+    throw usage_error("--bval, --bvec: a built-in example has no volumes to which they could belong");
   if (spec_.kind == FieldKind::kVector) {
     (void)example(spec_.example);  // throws for an unknown name
     if (!spec_.field.empty() && spec_.field != kFormulaField)

@@ -115,21 +115,67 @@ void describe_pixels(const DicomScope& scope, DicomFrame& frame) {
     refuse_frame(frame.file, "has colours of " + std::to_string(frame.bits) + " bits as " + meaning, "8");
 }
 
+/// A number of the rescaling; nothing where the element is not there.
+std::optional<double> stated_number(const DicomScope& scope, DicomTag tag, const char* name,
+                                    const DicomFrame& frame) {
+  const std::string text = dicom_text(scope, tag);
+  const auto value = dicom_number(scope, tag);
+  if (value || text.empty()) return value;
+  refuse_frame(frame.file, std::string("has the ") + name + " '" + printable(text.substr(0, 40)) + "'",
+               "a finite number", "what its values are is not known; correct the header");
+}
+
+/// PS3.3 C.11.1: a table in the place of slope and intercept.
+void take_table(const DicomScope& scope, DicomFrame& frame) {
+  const DicomElement* sequence = nullptr;
+  for (const DicomSet* set : scope) {
+    if (sequence == nullptr) sequence = set->find(0x00283000);
+  }
+  if (sequence == nullptr || sequence->items.empty()) return;
+  const DicomScope item{&sequence->items.front()};
+  const auto described = dicom_numbers(item, 0x00283002);
+  const DicomElement* const data = find_dicom(item, 0x00283006);
+  constexpr double kMost = 65535.0;
+  const bool good = described.size() == 3 && data != nullptr && described[0] >= 0.0 &&
+                    described[0] <= kMost && std::abs(described[1]) <= kMost && described[2] >= 1.0 &&
+                    described[2] <= 16.0;
+  constexpr std::size_t kAll = 65536;  // which 16 bits cannot say
+  const std::size_t count = !good || described[0] == 0 ? kAll : static_cast<std::size_t>(described[0]);
+  if (!good || data->value.size() < (described[2] <= 8.0 ? count : 2 * count))
+    refuse_frame(frame.file, "has a Modality LUT Sequence without its table", "as many values as it says");
+  auto table = std::make_shared<DicomTable>();
+  table->first = static_cast<int>(described[1]);
+  // The dictionary does not say whether it has a sign: the pixels do.
+  if (frame.is_signed && table->first > 32767) table->first -= 65536;
+  const bool bytes = data->value.size() < 2 * count;
+  for (std::size_t i = 0; i < count; ++i) {
+    table->values.push_back(bytes ? static_cast<unsigned char>(data->value[i])
+                                  : number_at<std::uint16_t>(data->value, 2 * i, data->big_endian));
+  }
+  frame.table = std::move(table);
+  const std::string unit = dicom_text(item, 0x00283004);
+  frame.units = unit == "HU" ? unit : "";
+  frame.notes = "values by the table of the header (Modality LUT Sequence)";
+}
+
 /// How stored numbers become those that are measured, in which unit, and which of them are to be seen.
 void describe_values(const DicomScope& scope, bool dose, DicomFrame& frame) {
   const std::string modality = dicom_text(scope, 0x00080060);
   if (dose) {
-    frame.slope = dicom_number(scope, 0x3004000E).value_or(1.0);
-    frame.units = dicom_text(scope, 0x30040002) == "GY" ? "Gy" : "";
+    const auto scaling = stated_number(scope, 0x3004000E, "dose grid scaling", frame);
+    frame.slope = scaling.value_or(1.0);
+    if (scaling) frame.units = dicom_text(scope, 0x30040002) == "GY" ? "Gy" : "";
+    if (!scaling) frame.notes = "no Dose Grid Scaling in the header: numbers as they are stored, of no unit";
   } else {
-    frame.slope = dicom_number(scope, 0x00281053).value_or(1.0);
-    frame.intercept = dicom_number(scope, 0x00281052).value_or(0.0);
+    frame.slope = stated_number(scope, 0x00281053, "rescale slope", frame).value_or(1.0);
+    frame.intercept = stated_number(scope, 0x00281052, "rescale intercept", frame).value_or(0.0);
     const std::string type = dicom_text(scope, 0x00281054);
     const bool rescaled = find_dicom(scope, 0x00281053) != nullptr;
     if (modality == "CT" && rescaled && (type.empty() || type == "HU")) frame.units = "HU";
     if (modality == "PT") frame.units = lowered(dicom_text(scope, 0x00541001)) == "bqml" ? "Bq/ml" : "";
   }
   if (frame.slope == 0.0) refuse_frame(frame.file, "has a rescale slope of zero");
+  if (!dose) take_table(scope, frame);
   const auto middle = dicom_number(scope, 0x00281050), width = dicom_number(scope, 0x00281051);
   // PS3.3 C.11.2.1.2.1: the linear function.
   if (middle && width && *width >= 1.0)
@@ -239,6 +285,7 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
   DicomFrame frame{.file = file};
   frame.series = dicom_text(whole, 0x0020000e);
   frame.title = title_of(whole);
+  frame.image = dicom_text(whole, 0x00080018);
   if (dicom_text(whole, 0x00080008).find("MOSAIC") != std::string::npos) {
     refuse_frame(file, "is a mosaic: the slices of a volume side by side in one image",
                  "an image for each slice",

@@ -29,6 +29,11 @@ enum class DicomColors : std::uint8_t {
   kYbr,      ///< three: luminance and two differences of colour (PS3.3 C.7.6.3.1.2)
   kPalette,  ///< one, by a table
 };
+/// What stored numbers from `first` on stand for; those below and above have the first and last one.
+struct DicomTable {
+  int first = 0;
+  std::vector<std::uint16_t> values;
+};
 /// Red, green and blue of the stored numbers from `first` on; those below and above have the first and last one.
 struct DicomPalette {
   int first = 0;
@@ -40,6 +45,7 @@ struct DicomFrame {
   std::string file;        ///< empty: missing, where gaps are allowed
   std::size_t number = 0;  ///< of the frame in its file
   std::string series;      ///< its UID
+  std::string image;       ///< that of the image (SOP instance)
   std::string title;       ///< "301 T1 mprage"
   int columns = 0, rows = 0;
   Vec3 position{0.0};          ///< S
@@ -55,7 +61,8 @@ struct DicomFrame {
   int high_bit = 15;
   bool is_signed = false;
   double slope = 1.0, intercept = 0.0;
-  bool inverted = false;  ///< MONOCHROME1: large numbers are dark
+  std::shared_ptr<const DicomTable> table;  ///< in the place of slope and intercept (Modality LUT Sequence)
+  bool inverted = false;                    ///< MONOCHROME1: large numbers are dark
   DicomColors colors = DicomColors::kNone;
   bool planar = false;                          ///< colours plane by plane
   std::shared_ptr<const DicomPalette> palette;  ///< of kPalette

@@ -12,6 +12,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/dicom_mark.h"
 #include "common/load/volume_block.h"
@@ -73,8 +74,8 @@ std::string list_of(const std::vector<Listed>& all) {
   return text;
 }
 
-/// Series with images, in the order of their first files. A file that is damaged costs that file and a word in `notes`.
-std::vector<Listed> list_series(const Found& found, std::vector<std::string>& notes) {
+/// Series with images, in the order of their first files. A file that is damaged costs that file and a word in `lost`.
+std::vector<Listed> list_series(const Found& found, std::vector<std::string>& notes, std::string& lost) {
   std::vector<Listed> all;
   std::string damaged;
   std::size_t damaged_count = 0, without_image = 0;
@@ -100,8 +101,9 @@ std::vector<Listed> list_series(const Found& found, std::vector<std::string>& no
   }
   if (all.empty() && damaged_count > 0) throw Error(ExitCode::kBadInput, damaged);
   if (damaged_count > 0) {
-    notes.push_back(counted(damaged_count, "damaged file") + " left out: " + damaged +
-                    (damaged_count > 1 ? ", …" : ""));
+    lost =
+        counted(damaged_count, "damaged file") + " left out: " + damaged + (damaged_count > 1 ? ", …" : "");
+    notes.push_back(lost);
   }
   if (without_image > 0) notes.push_back(counted(without_image, "DICOM file") + " without an image left out");
   if (found.others > 0) notes.push_back(counted(found.others, "file") + " of other kinds left out");
@@ -117,20 +119,70 @@ const Listed& chosen(const std::vector<Listed>& all, const std::string& asked, c
   return *found;
 }
 
+/// The numbers of all frames as they stand in the file; packed ones are the rest of it.
+std::string_view pixels_of(const MappedFile& file, const DicomFrame& frame) {
+  return file.text().substr(std::min<std::size_t>(frame.pixels_at.value_or(0), file.text().size()));
+}
+
+/// Whether one is a copy of the other: of the same name, place and time, and with the same pixels. Programs that
+/// take names of patients off give all images one name.
+bool is_copy(const DicomFrame& a, const DicomFrame& b) {
+  const bool alike = a.image == b.image && a.position == b.position && a.along_row == b.along_row &&
+                     a.along_column == b.along_column && a.temporal == b.temporal &&
+                     a.acquisition == b.acquisition && a.instance == b.instance;
+  if (!alike || a.pixels_at.has_value() != b.pixels_at.has_value()) return false;
+  const MappedFile first(a.file), second(b.file);
+  return pixels_of(first, a) == pixels_of(second, b);
+}
+
+/// Of all files, those that are copies of others left out.
+std::vector<DicomFrame> frames_of(const std::vector<std::string>& files, std::vector<std::string>& notes) {
+  std::vector<DicomFrame> frames;
+  std::multimap<std::string, std::size_t> known;  // the first frame of each file by its name
+  std::size_t copies = 0;
+  std::string copy;
+  for (const std::string& file : files) {
+    const std::vector<DicomFrame> of_file = read_dicom_frames(file);
+    const DicomFrame& first = of_file.front();
+    const auto [from, to] = known.equal_range(first.image);
+    const auto original = first.image.empty() ? to : std::find_if(from, to, [&](const auto& one) {
+      return is_copy(frames[one.second], first);
+    });
+    if (original != to) {
+      if (copies++ == 0) copy = file + ", a copy of " + frames[original->second].file;
+      continue;
+    }
+    known.emplace(first.image, frames.size());
+    frames.insert(frames.end(), of_file.begin(), of_file.end());
+  }
+  if (copies > 0)
+    notes.push_back(counted(copies, "file") + " of images that are there twice left out: " + copy +
+                    (copies > 1 ? ", …" : ""));
+  return frames;
+}
+
 class DicomLoader : public Loader {
  public:
   FileInfo open(const LoadRequest& request, Format) override {
     gdcm::Trace::WarningOff();
     gdcm::Trace::ErrorOff();
-    FileInfo info;
-    std::string title;
-    const std::vector<std::string> files = choose_files(request, title, info.notes);
-    std::vector<DicomFrame> frames;
-    for (const std::string& file : files) {
-      const std::vector<DicomFrame> of_file = read_dicom_frames(file);
-      frames.insert(frames.end(), of_file.begin(), of_file.end());
+    if (request.diffusion && request.diffusion->names_gradients()) {
+      // Converters turn rows around and sort slices: the axes of their tables are not those of the images.
+      throw usage_error(
+          "--bval, --bvec: " + request.files.front().string() +
+          " is DICOM, whose gradients are taken from its images; convert it to NIfTI to fit it to a "
+          "table of the axes of that");
     }
-    series_ = sort_dicom_series(std::move(frames), request.allow_gaps);
+    FileInfo info;
+    std::string title, lost;
+    const std::vector<std::string> files = choose_files(request, title, info.notes, lost);
+    try {
+      series_ = sort_dicom_series(frames_of(files, info.notes), request.allow_gaps);
+    } catch (const Error& error) {
+      // What is missing may be what is damaged.
+      if (lost.empty()) throw;
+      throw Error(error.code(), std::string(error.what()) + "; " + lost);
+    }
 
     info.anatomical = true;
     info.units = "coordinates in mm";
@@ -164,7 +216,7 @@ class DicomLoader : public Loader {
  private:
   /// The files of the series that is meant: all of a folder's one, that of a file, or those that are named.
   static std::vector<std::string> choose_files(const LoadRequest& request, std::string& title,
-                                               std::vector<std::string>& notes) {
+                                               std::vector<std::string>& notes, std::string& lost) {
     const std::filesystem::path& first = request.files.front();
     std::error_code ignored;
     const bool folder = std::filesystem::is_directory(first, ignored);
@@ -187,7 +239,7 @@ class DicomLoader : public Loader {
                       : files_in(first.has_parent_path() ? first.parent_path() : ".", false);
       if (!several) found.others = 0;  // nobody asked for them
     }
-    const std::vector<Listed> all = list_series(found, notes);
+    const std::vector<Listed> all = list_series(found, notes, lost);
     if (all.empty()) throw input_error({place, "", "holds no image", "DICOM images", ""});
     const Listed* series = nullptr;
     if (!request.series.empty()) {

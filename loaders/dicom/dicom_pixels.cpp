@@ -159,6 +159,13 @@ void put(const DicomFrame& frame, const Pixels& pixels, T* out, std::size_t stri
   const auto samples = as_size(frame.samples());
   visit(frame, pixels, [&](std::size_t i, auto number) {
     T& value = out[i / samples * stride + i % samples];
+    if (frame.table) {
+      const auto& values = frame.table->values;
+      const std::int64_t at = static_cast<std::int64_t>(number) - frame.table->first;
+      value = static_cast<T>(
+          values[as_size(std::clamp<std::int64_t>(at, 0, static_cast<std::int64_t>(values.size()) - 1))]);
+      return;
+    }
     const double rescaled = frame.slope * static_cast<double>(number) + frame.intercept;
     if constexpr (std::is_floating_point_v<T>) {
       value = static_cast<T>(rescaled);
@@ -216,6 +223,10 @@ DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>&
 
 /// The least and the largest number that a frame may hold, rescaled.
 std::pair<double, double> range_of(const DicomFrame& frame) noexcept {
+  if (frame.table) {
+    const auto [least, most] = std::minmax_element(frame.table->values.begin(), frame.table->values.end());
+    return {*least, *most};
+  }
   const double steps = std::ldexp(1.0, frame.bits_stored);
   const double low = frame.is_signed ? -0.5 * steps : 0.0, high = low + steps - 1.0;
   const double a = frame.slope * low + frame.intercept, b = frame.slope * high + frame.intercept;
@@ -236,7 +247,7 @@ ScalarType dicom_value_type(const DicomSeries& series) noexcept {
   for (const DicomFrame& frame : series.frames) {
     missing = missing || frame.file.empty();
     if (frame.file.empty()) continue;
-    rescaled = rescaled || frame.slope != 1.0 || frame.intercept != 0.0;
+    rescaled = rescaled || frame.table || frame.slope != 1.0 || frame.intercept != 0.0;
     whole = whole && frame.slope == std::round(frame.slope) && frame.intercept == std::round(frame.intercept);
     low = std::min(low, range_of(frame).first);
     high = std::max(high, range_of(frame).second);

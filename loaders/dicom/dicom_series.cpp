@@ -23,21 +23,59 @@ constexpr int kMostMissing = 1000;  // between two slices
   throw input_error({frame.file, "", found, expected, remedy});
 }
 
+/// In what two images differ that cannot be slices of one volume; null where they can.
+const char* difference(const DicomFrame& a, const DicomFrame& b) {
+  const auto close = [](double x, double y) { return std::abs(x - y) <= kSameStep * std::abs(x); };
+  if (b.rows != a.rows || b.columns != a.columns) return "size";
+  if (b.bits != a.bits || b.is_signed != a.is_signed || b.colors != a.colors) return "type of pixels";
+  if (glm::distance(a.along_row, b.along_row) > kSameDirection ||
+      glm::distance(a.along_column, b.along_column) > kSameDirection) {
+    return "orientation";
+  }
+  if (!close(a.row_step, b.row_step) || !close(a.column_step, b.column_step)) return "pixel spacing";
+  return nullptr;
+}
+
+/// Leaves out the few images of another kind that scanners put into a series: localizers, and pictures of a report.
+void leave_out_others(std::vector<DicomFrame>& frames, std::vector<std::string>& notes) {
+  constexpr std::size_t kMostKinds = 8, kFew = 3, kSlices = 3;
+  std::vector<std::vector<std::size_t>> kinds;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) {
+      return difference(frames[kind.front()], frames[i]) == nullptr;
+    });
+    if (same != kinds.end()) {
+      same->push_back(i);
+    } else if (kinds.size() == kMostKinds) {
+      return;
+    } else {
+      kinds.push_back({i});
+    }
+  }
+  std::size_t largest = 0, most = 0;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (kinds[k].size() > most) largest = k, most = kinds[k].size();
+  }
+  const std::size_t others = frames.size() - most;
+  if (others == 0 || others > kFew || most < std::max(kSlices, 3 * others)) return;
+  std::vector<DicomFrame> kept;
+  for (const std::size_t i : kinds[largest]) kept.push_back(frames[i]);
+  std::string names;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (k == largest) continue;
+    for (const std::size_t i : kinds[k]) {
+      names += (names.empty() ? "" : ", ") + frames[i].file + " (of another " +
+               difference(kept.front(), frames[i]) + ")";
+    }
+  }
+  notes.push_back(counted(others, "image") + " that cannot be of the volume left out: " + names);
+  frames = std::move(kept);
+}
+
 void check_alike(const std::vector<DicomFrame>& frames) {
   const DicomFrame& a = frames.front();
-  const auto close = [](double x, double y) { return std::abs(x - y) <= kSameStep * std::abs(x); };
   for (const DicomFrame& b : frames) {
-    const char* differs = nullptr;
-    if (b.rows != a.rows || b.columns != a.columns) {
-      differs = "size";
-    } else if (b.bits != a.bits || b.is_signed != a.is_signed || b.colors != a.colors) {
-      differs = "type of pixels";
-    } else if (glm::distance(a.along_row, b.along_row) > kSameDirection ||
-               glm::distance(a.along_column, b.along_column) > kSameDirection) {
-      differs = "orientation";
-    } else if (!close(a.row_step, b.row_step) || !close(a.column_step, b.column_step)) {
-      differs = "pixel spacing";
-    }
+    const char* const differs = difference(a, b);
     if (differs != nullptr) {
       refuse(b, std::string("has another ") + differs + " than " + a.file + " of the same series",
              "images of one volume", "name the files that belong together");
@@ -142,6 +180,8 @@ void take_gradients(DicomSeries& series, std::size_t slices) {
 }  // namespace
 
 DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
+  DicomSeries series;
+  leave_out_others(frames, series.notes);
   check_alike(frames);
   const DicomFrame first = frames.front();
   const Vec3 normal = glm::normalize(glm::cross(first.along_row, first.along_column));
@@ -158,8 +198,7 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
     while (k + 1 < places.size() && std::abs(places[k + 1] - place) < std::abs(places[k] - place)) ++k;
     at[k].push_back(frames[i]);
   }
-  DicomSeries series;
-  series.volumes = at.front().size();
+  series.volumes = 0;
   for (const auto& images : at) series.volumes = std::max(series.volumes, images.size());
   for (std::size_t k = 0; k < at.size(); ++k) {
     auto& images = at[k];

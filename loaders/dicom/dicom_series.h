@@ -24,7 +24,8 @@ struct DicomSeries {
   std::vector<std::string> notes;
 };
 
-/// Sorts the frames of one series. @pre not empty.
+/// Sorts the frames of one series. Up to three images of another kind, a localizer, are left out and named. @pre not
+/// empty.
 /// @param allow_gaps slices may be missing: their frames have no file. Diffusion gradients are left aside then.
 /// @throws Error (bad input) naming a file: images of different sizes, orientations or steps; missing or
 /// doubled slices; slices that are not evenly spaced; different gradients within a volume.

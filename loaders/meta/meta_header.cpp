@@ -147,6 +147,8 @@ void read_field(std::string_view key, std::string_view value, Fields& fields, Me
     header.offset = numbers_in(key, value, header);
   } else if (key == "ElementSpacing") {
     header.spacing = numbers_in(key, value, header);
+  } else if (key == "ElementSize") {
+    header.element_size = numbers_in(key, value, header);
   } else if (key == "AnatomicalOrientation") {
     header.orientation = value;
   } else if (key == "DistanceUnits") {
@@ -176,6 +178,11 @@ void combine(const Fields& fields, MetaHeader& header) {
              wrong_count(header.spacing, axes)) {
     header.problem = "has not as many numbers in 'TransformMatrix', 'Offset' or 'ElementSpacing' as its " +
                      std::to_string(header.axes) + " axes need";
+  }
+  // As MetaIO has it: elements lie beside one another where nothing else is said.
+  if (header.spacing.empty() && header.element_size.size() == axes) {
+    header.spacing = header.element_size;
+    header.spaced_by_size = true;
   }
   if (!header.problem.empty()) return;
   constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;

@@ -36,8 +36,10 @@ struct MetaHeader {
   std::vector<double> matrix;  ///< axes x axes, a row the direction of an axis
   std::vector<double> offset;
   std::vector<double> spacing;
-  std::string orientation;  ///< "RAI"
-  std::string units;        ///< "mm"
+  std::vector<double> element_size;
+  bool spaced_by_size = false;  ///< the spacing is the size of the elements
+  std::string orientation;      ///< "RAI"
+  std::string units;            ///< "mm"
   bool intensity_function = false;
   /// @}
 

@@ -172,6 +172,7 @@ class MetaLoader : public Loader {
   }
 
   void place(FileInfo& info) {
+    if (header_.spaced_by_size) info.notes.emplace_back("no ElementSpacing: spacing taken from ElementSize");
     const int axes = std::min(3, header_.axes);
     topology_ = {};
     topology_.points = Index3{1};
@@ -279,8 +280,8 @@ class MetaLoader : public Loader {
       const std::uint64_t count = header_.bytes() / sizeof(T), first = step * (out.size() / sizeof(T));
       std::uint64_t found = 0;
       constexpr std::string_view kBlanks = " \t\r\n";
-      for (std::size_t at = text.find_first_not_of(kBlanks); at != std::string_view::npos && found < count;
-           ++found) {
+      std::size_t at = text.find_first_not_of(kBlanks);
+      for (; at != std::string_view::npos && found < count; ++found) {
         const std::size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
         const auto value = text_number<T>(text.substr(at, end - at));
         if (!value)
@@ -292,6 +293,15 @@ class MetaLoader : public Loader {
         at = text.find_first_not_of(kBlanks, end);
       }
       check_voxel_counts(file_, {.wanted = header_.bytes(), .found = found * sizeof(T)});
+      // What stands behind the numbers is nobody's business, unless it is one more.
+      const bool more =
+          at != std::string_view::npos &&
+          text_number<T>(text.substr(at, std::min(text.find_first_of(kBlanks, at), text.size()) - at));
+      if (more) {
+        throw input_error({file_, "",
+                           "has more numbers as text than the " + std::to_string(count) + " of its header",
+                           "", "one too many moves all behind it"});
+      }
     });
   }
 

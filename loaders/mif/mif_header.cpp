@@ -194,7 +194,7 @@ class HeaderReader {
       table.weightings.push_back(row[3]);
       table.directions.push_back(direction);
     }
-    header_.notes.emplace_back("gradients from dw_scheme, in RAS");
+    header_.notes.emplace_back(kGradientsOfHeader);
     header_.gradients = std::move(table);
   }
 

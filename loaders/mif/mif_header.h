@@ -19,6 +19,9 @@ struct MifAxis {
   bool backwards = false;  ///< its last voxel is stored first
 };
 
+/// The note of a header with gradients.
+inline constexpr const char* kGradientsOfHeader = "gradients from dw_scheme, in RAS";
+
 struct MifHeader {
   UniformTopology topology;        ///< RAS+ mm
   std::vector<MifAxis> axes;       ///< three of space, then perhaps one of volumes

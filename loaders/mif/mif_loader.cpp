@@ -1,16 +1,33 @@
 #include "loaders/mif/mif_loader.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/load/fsl_gradients.h"
 #include "common/load/volume_block.h"
 #include "loaders/mif/mif_values.h"
 
 namespace palpate {
 namespace {
+
+/// Steps along the axes in the order and the sense in which they are stored: those of the image that tables of FSL
+/// were made with, which MRtrix sorts and turns around towards RAS.
+Mat3 stored_axes(const MifHeader& header) {
+  std::array<int, 3> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&header](int a, int b) { return header.axes[as_size(a)].rank < header.axes[as_size(b)].rank; });
+  Mat3 axes;
+  for (int c = 0; c < 3; ++c) {
+    const int axis = order[as_size(c)];
+    axes[c] = (header.axes[as_size(axis)].backwards ? -1.0 : 1.0) * header.topology.axes[axis];
+  }
+  return axes;
+}
 
 class MifLoader : public Loader {
  public:
@@ -26,7 +43,7 @@ class MifLoader : public Loader {
     tuple_.resize(1);
     array_ = {"scalars", Association::kPoint, 1, value_type(header_), header_.voxels()};
     if (request.diffusion) {
-      describe_diffusion(volumes, info);
+      describe_diffusion(request.files.front().string(), *request.diffusion, volumes, info);
     } else {
       for (std::size_t v = 0; v < volumes && volumes > 1; ++v) info.times.push_back(static_cast<double>(v));
     }
@@ -44,7 +61,8 @@ class MifLoader : public Loader {
 
  private:
   /// The volumes are signals, a tensor's six numbers, or numbers of a kind that is not known.
-  void describe_diffusion(std::size_t volumes, FileInfo& info) {
+  void describe_diffusion(const std::string& file, const DiffusionRequest& request, std::size_t volumes,
+                          FileInfo& info) {
     constexpr std::size_t kTensor = 6;
     info.diffusion.layout = TensorLayout::kUnstated;
     if (volumes > kMostGradients) {
@@ -53,7 +71,15 @@ class MifLoader : public Loader {
     }
     tuple_.resize(volumes);
     std::iota(tuple_.begin(), tuple_.end(), 0);
-    if (header_.gradients) {
+    if (const auto named = named_fsl_gradients(file, request, volumes, stored_axes(header_), info.notes)) {
+      if (header_.gradients) {
+        std::erase(info.notes, kGradientsOfHeader);
+        info.notes.emplace_back("dw_scheme of the header left aside for them");
+      }
+      info.diffusion.gradients = named;
+      info.diffusion.gradient_frame = VectorFrame::kImage;
+      array_.name = kSignalArray;
+    } else if (header_.gradients) {
       info.diffusion.gradients = header_.gradients;
       array_.name = kSignalArray;
     } else if (volumes == kTensor) {

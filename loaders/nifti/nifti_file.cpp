@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/find_format.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/nifti/nifti_check.h"
@@ -120,7 +121,18 @@ struct NiftiFile::Image {
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});
     if (claims.pair) check_nifti_voxels(image_->iname, claims);
     place_ = place_of(claims, left_handed);
+    note_rest(claims);
     describe_values(fourth_axis);
+  }
+
+  /// What stands behind the voxels: all would be moved where they begin elsewhere than the header says.
+  void note_rest(const NiftiClaims& claims) {
+    if (claims.packed || std::string_view(image_->iname).ends_with(".gz")) return;
+    std::uint64_t end = claims.bytes_per_voxel;
+    for (std::size_t axis = 1; axis < 8; ++axis) end *= static_cast<std::uint64_t>(claims.size[axis]);
+    end += claims.offset;
+    const std::uint64_t there = read_head(image_->iname, 0).file_size;
+    if (there > end) place_.notes.push_back(counted(there - end, "byte") + " behind the voxels left unread");
   }
 
   NiftiPlace place_of(const NiftiClaims& claims, bool left_handed) const {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/load/fsl_gradients.h"
 #include "common/load/volume_block.h"
-#include "loaders/nifti/fsl_gradients.h"
 #include "loaders/nifti/nifti_file.h"
 
 namespace palpate {

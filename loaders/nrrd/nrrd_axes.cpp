@@ -59,6 +59,24 @@ double first_of(const NrrdAxisInfo& axis, double spacing) {
   return axis.min + (axis.center == nrrdCenterNode ? 0.0 : 0.5 * spacing);
 }
 
+/// Where more than three axes without directions may be of space: those of which three are so by what else the header
+/// says. None where nothing tells them apart.
+std::vector<unsigned> told_apart(const Nrrd& nrrd, const std::vector<unsigned>& axes) {
+  const auto those = [&](auto&& good) {
+    std::vector<unsigned> some;
+    std::copy_if(axes.begin(), axes.end(), std::back_inserter(some),
+                 [&](unsigned a) { return good(nrrd.axis[a]); });
+    return some.size() == 3 ? some : std::vector<unsigned>();
+  };
+  auto found = those([](const NrrdAxisInfo& axis) { return axis.kind == nrrdKindSpace; });
+  if (found.empty()) found = those([](const NrrdAxisInfo& axis) { return axis.kind != nrrdKindUnknown; });
+  if (found.empty()) found = those([](const NrrdAxisInfo& axis) { return !std::isnan(axis.spacing); });
+  const NrrdAxisInfo& last = nrrd.axis[axes.back()];
+  if (found.empty() && last.size == 1)
+    found = those([&](const NrrdAxisInfo& axis) { return &axis != &last; });
+  return found;
+}
+
 }  // namespace
 
 std::optional<std::string> nrrd_key(const Nrrd& nrrd, const std::string& key) {
@@ -87,9 +105,20 @@ NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string&
       others.push_back(a);
     }
   }
-  if (nrrd.dim == 4 && spatial.size() == 4) {
-    others.push_back(spatial.front());
-    spatial.erase(spatial.begin());
+  if (!directed && spatial.size() > 3) {
+    const std::vector<unsigned> space = told_apart(nrrd, spatial);
+    if (space.empty()) {
+      throw input_error({file, "", "has " + std::to_string(spatial.size()) + " axes that may be of space",
+                         "three that kinds, space directions or spacings tell from the others",
+                         "state what they are in the header, as in \"kinds: space space space time\""});
+    }
+    for (const unsigned a : spatial) {
+      if (std::find(space.begin(), space.end(), a) != space.end()) continue;
+      others.push_back(a);
+      axes.notes.push_back("axis " + std::to_string(a + 1) +
+                           ", which is not said to be of space as the others, taken for components");
+    }
+    spatial = space;
   }
   if (spatial.size() != 3 || others.size() > 1) {
     throw input_error(

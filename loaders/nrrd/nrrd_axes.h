@@ -16,12 +16,13 @@ namespace palpate {
 struct NrrdAxes {
   std::optional<unsigned> components, time;
   std::array<unsigned, 3> space{};
+  std::vector<std::string> notes;
 };
 
 /// Time is an axis of kind `time`, one along the fourth direction of a space of four, or the index of a Slicer
-/// sequence. Without any word on it, the first of four axes is taken for the components, as NRRD files have it.
+/// sequence. Where four axes have no directions, kinds, spacings or a last size of one tell which are of space.
 /// @param as_components a time axis holds components, where there are no others.
-/// @throws Error (bad input) where the axes are of other kinds, or too many.
+/// @throws Error (bad input) where the axes are of other kinds, too many, or not told apart.
 [[nodiscard]] NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string& file);
 
 struct NrrdPlace {

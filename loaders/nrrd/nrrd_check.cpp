@@ -138,6 +138,7 @@ void read_field(const std::string& field, const std::string& value, NrrdClaims& 
     claims.encoding = lowered(value);
   } else if (field == "byte skip" || field == "byteskip" || field == "line skip" || field == "lineskip") {
     claims.skips = claims.skips || value != "0";
+    (field.starts_with("line") ? claims.line_skip : claims.byte_skip) = count_in(value).value_or(0);
     if (field.starts_with("byte")) claims.from_end = value.starts_with("-");
   } else if (field == "data file" || field == "datafile") {
     claims.detached = true;
@@ -243,6 +244,24 @@ NrrdWords words_of(std::string_view text, ScalarType type, std::uint64_t wanted)
 
 namespace {
 
+/// Data without what the header says is to be passed over.
+std::string_view after_skips(std::string_view text, const NrrdClaims& claims) {
+  for (std::uint64_t line = 0; line < claims.line_skip && !text.empty(); ++line)
+    text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(std::min<std::uint64_t>(claims.byte_skip, text.size()));
+}
+
+/// How many bytes stand behind the values of raw data: a value too many, or bytes in front, would move all.
+std::string raw_rest(const std::string& name, std::uint64_t first, const NrrdClaims& claims,
+                     std::uint64_t wanted) {
+  const MappedFile mapped(name);
+  const std::string_view data =
+      after_skips(mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first)), claims);
+  if (data.size() <= wanted) return {};
+  return counted(data.size() - wanted, "byte") + " behind the voxels left unread" +
+         (claims.skips ? "" : ": if they belong before them, state a byte skip");
+}
+
 /// Text in one file or several. @throws Error (bad input) where Teem would take its words for other numbers.
 void check_text(const std::string& file, const NrrdClaims& claims, const std::vector<std::string>& names,
                 std::uint64_t wanted) {
@@ -250,9 +269,9 @@ void check_text(const std::string& file, const NrrdClaims& claims, const std::ve
   for (const std::string& name : names) {
     const MappedFile mapped(name);
     const std::uint64_t first = claims.detached ? 0 : claims.header_bytes;
-    const NrrdWords words =
-        words_of(mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first)), *claims.type,
-                 wanted - found);
+    const NrrdWords words = words_of(
+        after_skips(mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first)), claims),
+        *claims.type, wanted - found);
     if (words.wrong) {
       throw input_error(
           {name, "value " + std::to_string(found + words.count), "is '" + *words.wrong + "'",
@@ -295,7 +314,7 @@ std::string check_nrrd(const std::string& file) {
   for (const std::uint64_t size : claims.sizes) wanted *= size;
   const std::string& encoding = claims.encoding;
   const bool text = encoding == "txt" || encoding == "text" || encoding == "ascii";
-  if (text && !claims.skips) {
+  if (text) {
     std::vector<std::string> names;
     for (const std::string& name : claims.data_files)
       names.push_back((std::filesystem::path(file).parent_path() / name).string());
@@ -305,6 +324,12 @@ std::string check_nrrd(const std::string& file) {
   }
   if (encoding == "raw" && claims.from_end && available > wanted)
     return taken_from_end_note(available - wanted);
+  if (encoding == "raw" && !claims.from_end && claims.data_files.size() <= 1) {
+    const std::filesystem::path data =
+        claims.detached ? std::filesystem::path(file).parent_path() / claims.data_files.front()
+                        : std::filesystem::path(file);
+    return raw_rest(data.string(), claims.detached ? 0 : claims.header_bytes, claims, wanted);
+  }
   const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
   if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
   if (!claims.detached) return gzip_rest(file, claims.header_bytes, wanted);

@@ -23,8 +23,9 @@ struct NrrdClaims {
   std::optional<ScalarType> type;  ///< of the values; none: not read yet
   std::string encoding = "raw";
   bool detached = false;
-  std::vector<std::string> data_files;  ///< as the header names them
-  bool skips = false;                   ///< lines or bytes before the values are left out
+  std::vector<std::string> data_files;         ///< as the header names them
+  bool skips = false;                          ///< lines or bytes before the values are left out
+  std::uint64_t line_skip = 0, byte_skip = 0;  ///< of each file, lines first
   bool from_end = false;  ///< the values are found from the end of the file, whatever stands before them
   std::uint64_t header_bytes = 0;  ///< where attached data begins
   std::string problem;             ///< what is wrong, or empty

@@ -12,6 +12,7 @@
 #include <teem/nrrd.h>
 
 #include "common/base/error.h"
+#include "common/load/fsl_gradients.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/nrrd/nrrd_axes.h"
@@ -176,14 +177,17 @@ class NrrdLoader : public Loader {
     FileInfo info;
     info.units = units_of(*nrrd, axes_);
     if (!rest.empty()) info.notes.push_back(rest);
+    info.notes.insert(info.notes.end(), axes_.notes.begin(), axes_.notes.end());
     NrrdPlace place = place_nrrd(*nrrd, axes_, file_);
     topology_ = place.topology;
     signs_ = place.signs;
     info.anatomical = place.anatomical;
     info.notes.insert(info.notes.end(), place.notes.begin(), place.notes.end());
     info.times = nrrd_times(*nrrd, axes_);
-    describe_values(*nrrd, request.diffusion.has_value(), info.notes);
-    if (request.diffusion) describe_gradients(*nrrd, info);
+    const bool named = request.diffusion && request.diffusion->names_gradients();
+    describe_values(*nrrd, request.diffusion.has_value() && !named, info.notes);
+    if (named) take_named_gradients(*nrrd, *request.diffusion, info);
+    if (request.diffusion && !named) describe_gradients(*nrrd, info);
 
     info.blocks.push_back(describe_image(topology_, array_));
     return info;
@@ -254,6 +258,18 @@ class NrrdLoader : public Loader {
       for (int r = 0; r < 3; ++r) off = std::max(off, std::abs(product[c][r] - (c == r ? 1.0 : 0.0)));
     if (off > kTurned)
       notes.emplace_back("the measurement frame is no rotation: lengths and angles change with it");
+  }
+
+  /// Volumes with the gradients that are named in place of those of the header.
+  void take_named_gradients(const Nrrd& nrrd, const DiffusionRequest& request, FileInfo& info) {
+    if (kind_ != TupleKind::kNumbers || !axes_.components) return;
+    info.diffusion.gradients = named_fsl_gradients(
+        file_, request, static_cast<std::size_t>(stored_components_), topology_.axes, info.notes);
+    info.diffusion.gradient_frame = VectorFrame::kImage;
+    if (nrrd_key(nrrd, "DWMRI_b-value"))
+      info.notes.emplace_back("gradients of the header left aside for them");
+    array_.name = kSignalArray;
+    std::erase(info.notes, kUnturned);
   }
 
   /// Diffusion-weighted volumes with their gradients, where the header states them.

@@ -2,7 +2,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
-#include "loaders/nifti/fsl_gradients.h"
+#include "common/load/fsl_gradients.h"
 #include "tests/fuzz/memory_path.h"
 
 using namespace palpate;

@@ -203,6 +203,106 @@ TEST_F(DicomTest, TypesFollowFromTheDictionaryWhereTheFileDoesNotSayThem) {
 }
 
 // Bits beside the stored ones may be above and below them.
+TEST_F(DicomTest, ARescalingThatCannotBeReadIsRefused) {
+  for (const std::uint16_t element : {0x1052, 0x1053}) {
+    for (const char* text : {"2,5", "-1024 HU", "abc", "nan", "inf", "1e999"}) {
+      const TempFolder folder;
+      for (int k = 0; k < 3; ++k) {
+        DicomImage image = slice(k);
+        image.more = dicom_element(0x0028, element, "DS", text);
+        folder.write(std::to_string(k), image.bytes());
+      }
+      const std::string line = refusal(folder.path());
+      EXPECT_NE(line.find(element == 0x1052 ? "rescale intercept" : "rescale slope"), std::string::npos)
+          << line;
+      EXPECT_NE(line.find(text), std::string::npos) << line;
+    }
+  }
+  // Blanks are none.
+  (void)write_volume([](DicomImage& image) { image.more = dicom_element(0x0028, 0x1053, "DS", "  "); });
+  expect_truth(open(folder_.path()).read({"scalars"}).front());
+}
+
+// Tables of 16 and of 8 bits of 2 n + 5, from a number on below which and above whose last all are alike.
+TEST_F(DicomTest, ATableInThePlaceOfARescalingIsApplied) {
+  for (const bool bytes : {false, true}) {
+    const TempFolder folder;
+    const int first = bytes ? 480 : 400, count = bytes ? 40 : 300;
+    const auto value = [&](double stored) {
+      return 2 * (std::clamp(static_cast<int>(stored), first, first + count - 1) - first) + 5;
+    };
+    std::string table;
+    for (int n = 0; n < count; ++n) {
+      if (bytes) table += static_cast<char>(value(first + n));
+      if (!bytes) put(table, static_cast<std::uint16_t>(value(first + n)));
+    }
+    std::vector<DicomImage> images;
+    for (int k = 0; k < 4; ++k) {
+      images.push_back(slice(k));
+      images.back().more = dicom_sequence(
+          0x0028, 0x3000,
+          {dicom_element(0x0028, 0x3002, "US",
+                         as_bytes_of({static_cast<std::uint16_t>(count), static_cast<std::uint16_t>(first),
+                                      static_cast<std::uint16_t>(bytes ? 8 : 16)})) +
+           dicom_element(0x0028, 0x3004, "LO", "HU") + dicom_element(0x0028, 0x3006, "OW", table)});
+      folder.write(std::to_string(k), images.back().bytes());
+    }
+    Source source = open(folder.path());
+    EXPECT_NE(source.info().units.find("HU"), std::string::npos);
+    const DataSet block = source.read({"scalars"}).front();
+    for (std::size_t p = 0; p < 48; ++p)
+      ASSERT_EQ(block.arrays.front().at(p), value(images[p / 12].pixels[p % 12])) << p;
+  }
+  const TempFolder folder;
+  DicomImage none = slice(0);
+  none.more = dicom_sequence(0x0028, 0x3000, {dicom_element(0x0028, 0x3004, "LO", "HU")});
+  EXPECT_NE(refusal(folder.write("none", none.bytes())).find("without its table"), std::string::npos);
+}
+
+TEST_F(DicomTest, CopiesOfImagesAreLeftOutAndNamed) {
+  (void)write_volume();
+  for (int k = 0; k < 4; ++k) folder_.write("copy " + std::to_string(k), slice(k).bytes());
+  Source source = open(folder_.path());
+  EXPECT_TRUE(source.info().times.empty());
+  expect_truth(source.read({"scalars"}).front());
+  std::string notes;
+  for (const std::string& note : source.info().notes) notes += note + "\n";
+  EXPECT_NE(notes.find("4 files of images that are there twice left out"), std::string::npos) << notes;
+  // Other pixels under one name are others.
+  const TempFolder anonymous;
+  for (int k = 0; k < 4; ++k) {
+    for (int v = 0; v < 2; ++v) {
+      DicomImage image = slice(k, v);
+      image.instance = 1;
+      anonymous.write(std::to_string(2 * k + v), image.bytes());
+    }
+  }
+  EXPECT_EQ(open(anonymous.path()).info().times.size(), 2U);
+}
+
+TEST_F(DicomTest, ALocalizerInASeriesIsLeftOutAndNamed) {
+  (void)write_volume();
+  DicomImage scout = slice(7);
+  scout.along_row = {1, 0, 0};
+  scout.along_column = {0, 1, 0};
+  folder_.write("scout", scout.bytes());
+  Source source = open(folder_.path());
+  expect_truth(source.read({"scalars"}).front());
+  std::string notes;
+  for (const std::string& note : source.info().notes) notes += note + "\n";
+  EXPECT_NE(notes.find("scout (of another orientation)"), std::string::npos) << notes;
+}
+
+TEST_F(DicomTest, ADamagedSliceInTheMiddleIsNamedWhereItIsMissed) {
+  for (int k = 0; k < 5; ++k) {
+    const std::string bytes = slice(k).bytes();
+    folder_.write("im" + std::to_string(k), k == 2 ? bytes.substr(0, bytes.size() - 20) : bytes);
+  }
+  const std::string line = refusal(folder_.path());
+  EXPECT_NE(line.find("1 slice of 2.5 mm lacks"), std::string::npos) << line;
+  EXPECT_NE(line.find("im2"), std::string::npos) << line;
+}
+
 TEST_F(DicomTest, StoredBitsMayLieAnywhere) {
   (void)write_volume([](DicomImage& image) {
     image.bits_stored = 12;
@@ -334,7 +434,16 @@ TEST_F(DicomTest, ADoseIsPlacedByTheOffsetsOfItsFramesAndScaled) {
       ASSERT_NEAR(block.arrays.front().at(p), 0.5 * truth({-ras.x, -ras.y, ras.z}), 0.26) << p;
     }
   }
-  const TempFolder single, far, apart;
+  std::string unscaled = dose({0, 2.5, 5}, {});
+  const std::string scaling = dicom_element(0x3004, 0x000e, "DS", "0.5");
+  const std::size_t at = unscaled.find(scaling);
+  ASSERT_NE(at, std::string::npos);
+  const TempFolder single, far, apart, plain, wrong;
+  Source stored = open(plain.write("d.dcm", std::string(unscaled).erase(at, scaling.size())));
+  EXPECT_EQ(stored.info().units, "coordinates in mm");
+  EXPECT_NE(stored.info().notes.back().find("no Dose Grid Scaling"), std::string::npos);
+  unscaled.replace(at, scaling.size(), dicom_element(0x3004, 0x000e, "DS", "0,5"));
+  EXPECT_NE(refusal(wrong.write("d.dcm", unscaled)).find("dose grid scaling '0,5'"), std::string::npos);
   const Source one = open(single.write("one.dcm", dose({0}, {})));
   EXPECT_EQ(one.info().blocks.front().points, Index3(4, 3, 1));
   EXPECT_NE(refusal(far.write("far.dcm", dose({7, 9.5}, {}))).find("begin with 7"), std::string::npos);
@@ -434,7 +543,9 @@ TEST_F(DicomTest, SaysWhatIsMissingOrMixed) {
     EXPECT_NE(line.find(folder.path().string()), std::string::npos) << line;
   };
   refused({slice(0), slice(1), slice(2), slice(4), slice(5)}, "1 slice of 2.5 mm lacks");
-  refused({slice(0), slice(1), slice(2), slice(2)}, "doubled");
+  DicomImage again = slice(2);
+  again.instance = 9;
+  refused({slice(0), slice(1), slice(2), again}, "doubled");
   DicomImage odd = slice(3);
   odd.position += 0.4 * kStep * kNormal;
   refused({slice(0), slice(1), slice(2), odd}, "not evenly spaced");

@@ -349,6 +349,110 @@ TEST(DiffusionNifti, ReadsTablesWithByteOrderMarksAndDecimalCommas) {
   EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
 }
 
+TEST(DiffusionNifti, ReadsTablesWhoseLinesEndWithCarriageReturns) {
+  const TempFolder folder;
+  folder.write("dwi.nii", image(8, kLeftHanded, signals({1.0, 2.0, 3.0})));
+  std::string rows = bvec_rows();
+  std::replace(rows.begin(), rows.end(), '\n', '\r');
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.bvec", rows);
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+}
+
+/// The volumes of image() in another format, with gradients of the header's own that are all along z.
+std::string nrrd_volumes(const Mat3& axes, const std::vector<double>& values) {
+  std::string text =
+      "NRRD0005\ntype: float\ndimension: 4\nspace: right-anterior-superior\nsizes: 8 3 3 3\n"
+      "space directions: none";
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& a = axes[axis];
+    text += " (" + std::to_string(a.x) + "," + std::to_string(a.y) + "," + std::to_string(a.z) + ")";
+  }
+  text +=
+      "\nkinds: list space space space\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n"
+      "DWMRI_b-value:=1000\nDWMRI_gradient_0000:=0 0 0\n";
+  for (int v = 1; v < 8; ++v) text += "DWMRI_gradient_000" + std::to_string(v) + ":=0 0 1\n";
+  text += "\n";
+  for (int p = 0; p < 27; ++p) {
+    for (const double value : values) put(text, static_cast<float>(value));
+  }
+  return text;
+}
+/// @param layout of space, as the header says it.
+std::string mif_volumes(const Mat3& axes, const std::string& layout, const std::vector<double>& values) {
+  std::string text =
+      "mrtrix image\ndim: 3,3,3,8\nvox: 2,2,2,1\nlayout: " + layout + ",+3\ndatatype: Float32LE\n";
+  for (int row = 0; row < 3; ++row) {
+    text += "transform: ";
+    for (int axis = 0; axis < 3; ++axis) text += std::to_string(axes[axis][row] / 2.0) + ",";
+    text += "0\n";
+  }
+  text += "dw_scheme: 0,0,0,0\n";
+  for (int v = 1; v < 8; ++v) text += "dw_scheme: 0,0,1,1000\n";
+  text += "file: . 2000\nEND\n";
+  text.resize(2000, '\0');
+  for (const double value : values) {
+    for (int p = 0; p < 27; ++p) put(text, static_cast<float>(value));
+  }
+  return text;
+}
+
+TEST(DiffusionImages, GradientsThatAreNamedWinOverThoseOfTheHeader) {
+  const TempFolder folder;
+  TensorSpec words;
+  words.bval = folder.write("named.txt", bval_text());
+  words.bvec = folder.write("named too.txt", bvec_rows());
+  const Vec3 main{1.0, 2.0, 3.0};  // in FSL's axes
+  const auto check = [&](const std::string& name, const std::string& bytes, const Vec3& right) {
+    const auto file = folder.write(name, bytes);
+    EXPECT_NEAR(along(first_tensor(file, words), right), 1.0, 1e-5) << name;
+    const auto notes = open(file, words).file()->notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("named too.txt") != std::string::npos;
+    })) << name;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.find("left aside") != std::string::npos;
+    })) << name;
+    TensorSpec half = words;
+    half.bvec.clear();
+    EXPECT_NE(failure(file, half).find("--bvec"), std::string::npos) << name;
+  };
+  for (const Mat3& axes : {kLeftHanded, kRightHanded, oblique()}) {
+    const Vec3 right = axes * (glm::determinant(axes) > 0.0 ? Vec3{-1.0, 2.0, 3.0} : main);
+    check("dwi.nrrd", nrrd_volumes(axes, signals(main)), right);
+    check("dwi.mif", mif_volumes(axes, "+0,+1,+2", signals(main)), right);
+  }
+  // Axes as MRtrix turns those of an image around whose first axis runs to the left, or sorts them.
+  check("turned.mif", mif_volumes(kRightHanded, "-0,+1,+2", signals(main)), {-1.0, 2.0, 3.0});
+  check("sorted.mif", mif_volumes(kRightHanded, "+1,+0,+2", signals(main)), {2.0, 1.0, 3.0});
+}
+
+TEST(DiffusionImages, GradientsThatAreNamedForWhatHasNoVolumesAreRefused) {
+  const TempFolder folder;
+  TensorSpec words;
+  words.bval = folder.write("named.txt", bval_text());
+  words.bvec = folder.write("named too.txt", bvec_rows());
+  const std::string numbers(std::size_t{4} * 9 * 8, '\1');
+  const std::string tail =
+      "sizes: 9 2 2 2\nspace directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: 3D-matrix "
+      "space space space\nendian: little\nencoding: raw\nspace origin: (0,0,0)\n\n";
+  std::string vtk =
+      "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+      "SPACING 1 1 1\nPOINT_DATA 8\nTENSORS d float\n";
+  for (int p = 0; p < 8; ++p) vtk += "3 0 0 0 2 0 0 0 1\n";
+  for (const auto& file :
+       {folder.write("t.nrrd", "NRRD0005\ntype: float\ndimension: 4\nspace: RAS\n" + tail + numbers),
+        folder.write("x_V1.nii", image(3, kLeftHanded, {1.0, 0.0, 0.0})), folder.write("t.vtk", vtk)}) {
+    try {
+      (void)open(file, words);
+      ADD_FAILURE() << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kUsage) << error.what();
+      EXPECT_NE(std::string(error.what()).find("--bval"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(DiffusionNifti, FitsASingleSlice) {
   const TempFolder folder;
   std::string flat = image(8, kLeftHanded, signals({1.0, 2.0, 3.0}));

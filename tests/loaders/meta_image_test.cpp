@@ -140,6 +140,42 @@ TEST(MetaImage, PackedVoxelsAreInflatedWhateverTheirSizeIsSaidToBe) {
   EXPECT_THROW((void)read_block(source), Error);
 }
 
+TEST(MetaImage, OneNumberTooManyAsTextIsRefused) {
+  const test::TempFolder folder;
+  std::string head = kHead;
+  head.replace(head.find("BinaryData = True"), 17, "BinaryData = False");
+  std::string numbers;
+  for (int n = 0; n < 24; ++n) numbers += std::to_string(n) + (n % 2 == 1 ? "\n" : " ");
+  folder.write("more.txt", numbers + "7");
+  folder.write("words.txt", numbers + "and a word");
+  Source good = Source::open({{folder.write("a.mhd", head + "ElementDataFile = words.txt\n")}, {}});
+  expect_counting(read_block(good), "words behind");
+  for (const auto& file : {folder.write("a.mha", head + "ElementDataFile = LOCAL\n" + numbers + " 24\n"),
+                           folder.write("b.mhd", head + "ElementDataFile = more.txt\n")}) {
+    Source source = Source::open({{file}, {}});
+    try {
+      (void)read_block(source);
+      ADD_FAILURE() << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_NE(std::string(error.what()).find("more numbers"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(MetaImage, TheSizeOfElementsIsTheSpacingWhereNoneIsStated) {
+  const test::TempFolder folder;
+  const auto steps = [&](const std::string& lines) {
+    const auto file = folder.write("a.mha", kHead + lines + "ElementDataFile = LOCAL\n" + counting(24));
+    Source source = Source::open({{file}, {}});
+    const Mat3 axes = std::get<UniformTopology>(read_block(source).topology).axes;
+    return Vec3(glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2]));
+  };
+  EXPECT_EQ(steps("ElementSize = 1.5 2 3\n"), Vec3(1.5, 2, 3));
+  EXPECT_EQ(steps("ElementSize = 1.5 2 3\nElementSpacing = 4 5 6\n"), Vec3(4, 5, 6));
+  EXPECT_EQ(steps("ElementSpacing = 4 5 6\nElementSize = 1.5 2 3\n"), Vec3(4, 5, 6));
+}
+
 TEST(MetaImage, AFourthAxisIsTime) {
   const test::TempFolder folder;
   const std::string head =

@@ -1,4 +1,5 @@
 // NIfTI files written by hand, read through the helper program; the real ones are held against VTK's reader.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -72,6 +73,25 @@ TEST(Nifti, VersionsPackingsAndPairsGiveTheSameVoxels) {
     ASSERT_EQ(block.arrays.size(), 1U);
     EXPECT_EQ(block.arrays[0].type, ScalarType::kInt16);
     for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(block.arrays[0].at(p), static_cast<double>(p)) << file;
+  }
+}
+
+TEST(Nifti, BytesBehindTheVoxelsAreSaid) {
+  const test::TempFolder folder;
+  const NiftiHeader header{.size = {2, 3, 4}, .datatype = 4};
+  NiftiHeader apart = header;
+  apart.pair = true;
+  const std::string voxels = counting<std::int16_t>(24);
+  for (const std::string& behind : {std::string(), std::string("abc")}) {
+    folder.write("pair.img", voxels + behind);
+    for (const auto& file :
+         {folder.write("one.nii", header.version1() + std::string(4, '\0') + voxels + behind),
+          folder.write("pair.hdr", apart.version1())}) {
+      const Source source = Source::open({{file}, {}});
+      const auto& notes = source.info().notes;
+      const auto said = std::count(notes.begin(), notes.end(), "3 bytes behind the voxels left unread");
+      EXPECT_EQ(said, behind.empty() ? 0 : 1) << file;
+    }
   }
 }
 

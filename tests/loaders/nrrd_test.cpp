@@ -385,6 +385,99 @@ std::set<std::string> children() {
   return names;
 }
 
+TEST(NrrdImage, NumbersTooManyAreRefusedAsTextAndSaidAsBytes) {
+  const test::TempFolder folder;
+  const std::string head =
+      "NRRD0005\ntype: short\ndimension: 3\nsizes: 2 3 2\nendian: little\nspacings: 1 1 1\n";
+  std::string numbers;
+  for (int n = 0; n < 12; ++n) numbers += std::to_string(n) + " ";
+  folder.write("lines.txt", "a comment\nanother\n" + numbers);
+  folder.write("more.txt", "a comment\nanother\n" + numbers + "12\n");
+  const auto text = [&](const std::string& lines, const std::string& behind) {
+    try {
+      Source source =
+          Source::open({{folder.write("a.nrrd", head + "encoding: ascii\n" + lines + "\n" + behind)}, {}});
+      const DataSet block = source.read({"scalars"}).front();
+      for (std::size_t p = 0; p < 12; ++p) EXPECT_EQ(block.arrays.front().at(p), static_cast<double>(p));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(text("line skip: 1\n", "words\n" + numbers), "");
+  EXPECT_NE(text("line skip: 1\n", "words\n" + numbers + "12").find("more numbers"), std::string::npos);
+  EXPECT_EQ(text("line skip: 2\ndata file: lines.txt\n", ""), "");
+  EXPECT_NE(text("line skip: 2\ndata file: more.txt\n", "").find("more numbers"), std::string::npos);
+
+  std::vector<std::int16_t> values(12);
+  for (std::size_t n = 0; n < 12; ++n) values[n] = static_cast<std::int16_t>(n);
+  const std::string good = raw(values);
+  folder.write("good.raw", good);
+  folder.write("more.raw", good + "ab");
+  folder.write("line.raw", "a line\n" + good + "abc");
+  const auto unread = [&](const std::string& lines, const std::string& behind) {
+    const Source source =
+        Source::open({{folder.write("a.nrrd", head + "encoding: raw\n" + lines + "\n" + behind)}, {}});
+    std::string all;
+    for (const std::string& note : source.info().notes) all += note + "\n";
+    const std::size_t at = all.find(" behind the voxels left unread");
+    return at == std::string::npos ? std::string() : all.substr(at < 7 ? 0 : at - 7, 7);
+  };
+  EXPECT_EQ(unread("", good), "");
+  EXPECT_EQ(unread("", "ab" + good), "2 bytes");
+  EXPECT_EQ(unread("", good + "ab"), "2 bytes");
+  EXPECT_EQ(unread("data file: good.raw\n", ""), "");
+  EXPECT_EQ(unread("data file: more.raw\n", ""), "2 bytes");
+  EXPECT_EQ(unread("byte skip: 2\ndata file: more.raw\n", ""), "");
+  EXPECT_EQ(unread("line skip: 1\ndata file: line.raw\n", ""), "3 bytes");
+}
+
+// Number n of x + 2 y + 6 z + 12 t is 100 t + n.
+TEST(NrrdImage, FourAxesWithoutDirectionsAreToldApartOrRefused) {
+  const auto bytes = [](const std::string& lines, bool first) {
+    std::string text =
+        "NRRD0005\ntype: short\ndimension: 4\nsizes: " + std::string(first ? "4 2 3 2" : "2 3 2 4") +
+        "\nencoding: raw\nendian: little\n" + lines + "\n";
+    for (int n = 0; n < 48; ++n) {
+      const int state = first ? n % 4 : n / 12, voxel = first ? n / 4 : n % 12;
+      text += raw(std::vector<std::int16_t>{static_cast<std::int16_t>(100 * state + voxel)});
+    }
+    return text;
+  };
+  const test::TempFolder folder;
+  for (const bool first : {false, true}) {
+    for (const std::string& lines :
+         {std::string(first ? "kinds: ??? space space space\n" : "kinds: space space space ???\n"),
+          std::string(first ? "kinds: none domain domain domain\n" : "kinds: domain domain domain none\n"),
+          std::string(first ? "spacings: nan 1 2 3\n" : "spacings: 1 2 3 nan\n"),
+          std::string(first ? "kinds: domain space space space\n" : "kinds: space space space domain\n")}) {
+      Source source = Source::open({{folder.write("a.nrrd", bytes(lines, first))}, {}});
+      const DataSet block = source.read({source.arrays().at(0).name}).front();
+      ASSERT_EQ(block.arrays.size(), 1U) << lines;
+      EXPECT_EQ(std::get<UniformTopology>(block.topology).points, Index3(2, 3, 2)) << lines;
+      ASSERT_EQ(block.arrays.front().components, 4) << lines;
+      for (std::size_t p = 0; p < 12; ++p) {
+        for (int c = 0; c < 4; ++c)
+          EXPECT_EQ(block.arrays.front().at(p, c), 100.0 * c + static_cast<double>(p)) << lines;
+      }
+      const auto& notes = source.info().notes;
+      EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+        return note.find("taken for components") != std::string::npos;
+      })) << lines;
+    }
+  }
+  for (const char* lines : {"", "kinds: domain domain domain domain\n", "spacings: 1 2 3 4\n",
+                            "kinds: space space space space\n", "kinds: ??? ??? ??? ???\n"}) {
+    try {
+      (void)Source::open({{folder.write("a.nrrd", bytes(lines, false))}, {}});
+      ADD_FAILURE() << lines;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_NE(std::string(error.what()).find("kinds: space"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(Nrrd, ReadingOneStartsNoVtkHelperAndMapsNoVtk) {
   const test::TempFolder folder;
   const auto file = folder.write("a.nrrd", kScalarHead + "encoding: raw\n\n" + raw(counting(24)));

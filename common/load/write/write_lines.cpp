@@ -18,7 +18,7 @@
 namespace palpate {
 namespace {
 
-using Columns = std::span<const PointColumn>;
+using PointColumns = std::span<const PointColumn>;
 
 std::size_t count_points(const std::vector<Line>& lines) {
   std::size_t points = 0;
@@ -30,7 +30,8 @@ std::size_t count_points(const std::vector<Line>& lines) {
 
 /// VTK XML, PolyData, raw appended data (VTK File Formats, "XML File Formats"). `termination` is text; its
 /// number stands beside it since ParaView cannot colour by text.
-void write_vtp(OutputFile& file, const std::vector<Line>& lines, Columns columns, const TractogramImage*) {
+void write_vtp(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
+               const TractogramImage*) {
   const std::size_t points = count_points(lines);
   const std::uint64_t per_point = points * sizeof(double);
   const std::uint64_t per_line = lines.size() * sizeof(std::int64_t);
@@ -158,12 +159,12 @@ Tractogram tractogram_of(const std::vector<Line>& lines, const TractogramImage* 
   return packed;
 }
 
-void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, Columns,
+void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, PointColumns,
                      const TractogramImage* image) {
   write_tck(file, tractogram_of(lines, image));
 }
 
-void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns columns,
+void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
                      const TractogramImage* image) {
   Tractogram packed = tractogram_of(lines, image);
   for (const PointColumn& column : columns) {
@@ -177,7 +178,8 @@ void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, Columns c
 
 // ---- .csv ----------------------------------------------------------------------------------------------
 
-void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns, const TractogramImage*) {
+void write_csv(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
+               const TractogramImage*) {
   std::string header = "line,seed,point,x,y,z,time,arc,speed,error,termination";
   for (const PointColumn& column : columns) (header += ',') += column.name;
   file.write(header + "\n");
@@ -202,7 +204,7 @@ void write_csv(OutputFile& file, const std::vector<Line>& lines, Columns columns
   }
 }
 
-using Writer = void (*)(OutputFile&, const std::vector<Line>&, Columns, const TractogramImage*);
+using Writer = void (*)(OutputFile&, const std::vector<Line>&, PointColumns, const TractogramImage*);
 
 Writer writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);

@@ -1,4 +1,4 @@
-#include "loaders/nifti/fsl_gradients.h"
+#include "common/load/fsl_gradients.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +49,8 @@ Table read_table(const std::string& file, std::vector<std::string>& notes) {
   std::string text = head.bytes;
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  // Lines end with CR alone on old machines.
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\t' || c == '\r' || c == ';'; }, ' ');
   const bool decimal = has_decimal_commas(text);
@@ -180,6 +182,13 @@ GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volu
                   ", in the image's axes as FSL has them, turned into RAS" +
                   (glm::determinant(axes) > 0.0 ? " (x turned around: the image is right-handed)" : ""));
   return table;
+}
+
+std::optional<GradientTable> named_fsl_gradients(const std::string& file, const DiffusionRequest& request,
+                                                 std::size_t volumes, const Mat3& axes,
+                                                 std::vector<std::string>& notes) {
+  if (!request.names_gradients()) return std::nullopt;
+  return read_fsl_gradients(*find_fsl_gradients(file, request), volumes, axes, notes);
 }
 
 namespace {

@@ -35,6 +35,13 @@ struct FslGradientFiles {
 [[nodiscard]] GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes,
                                                const Mat3& axes, std::vector<std::string>& notes);
 
+/// The table of the files that `request` names; nothing where it names none. They win over what the image holds.
+/// @throws Error (bad input) as find_fsl_gradients() and read_fsl_gradients().
+[[nodiscard]] std::optional<GradientTable> named_fsl_gradients(const std::string& file,
+                                                               const DiffusionRequest& request,
+                                                               std::size_t volumes, const Mat3& axes,
+                                                               std::vector<std::string>& notes);
+
 /// "V1" to "V3", "L1" to "L3" or "FA" where the file's name is that, alone or after a "_".
 [[nodiscard]] std::optional<std::string> fsl_image_name(const std::string& file);
 
