@@ -16,6 +16,7 @@
 #include "common/load/volume_block.h"
 #include "common/scene/layer_cache.h"
 #include "common/scene/raw_file.h"
+#include "common/scene/read_vectors.h"
 
 namespace palpate {
 namespace {
@@ -341,7 +342,9 @@ std::string Input::choice_sentence() const {
   if (spec_.kind == FieldKind::kScalar) on = scalar_choice().association;
   if (spec_.kind == FieldKind::kVector) on = choice().association;
   if (spec_.kind == FieldKind::kFibre) on = choose_heart(arrays_, spec_.field, file_name()).fibre.association;
-  text += on == Association::kCell ? " (cell values brought to the points)" : "";
+  const bool constant = spec_.kind == FieldKind::kVector && spec_.cell_values == "constant";
+  if (on == Association::kCell)
+    text += constant ? " (cell values, constant over each cell)" : " (cell values brought to the points)";
   std::string others;
   for (const std::string& other : fields_) {
     if (other != chosen) others += (others.empty() ? "" : ", ") + other;
@@ -394,9 +397,9 @@ std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* prog
     seconds_field_ = watch.seconds();
     return field;
   }
-  const VectorChoice chosen = choice();
+  VectorChoice chosen = choice();
   if (progress) progress->begin("reading " + title_, 0);
-  const std::vector<DataSet> blocks = read(chosen.arrays, progress);
+  const std::vector<DataSet> blocks = read_vectors(*this, chosen, progress);
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("preparing the field", 0);

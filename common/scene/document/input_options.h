@@ -28,6 +28,7 @@ struct InputOptions {
   TensorSpec tensor;   ///< how tensors are read and fitted
   std::string series;  ///< LoadRequest::series
   bool allow_gaps = false;                    ///< LoadRequest::allow_gaps
+  std::string cell_values = "recovered";      ///< of flows: recovered, constant
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
   std::string mesher;  ///< what fills a heart's wall: cells, delaunay, tetgen; empty: the verb's default
   double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled

@@ -188,6 +188,15 @@ const Setting kInputRows[] = {
      .unit = "data units^3",
      .range = kNotNegative,
      .otherwise = "twice the mean of the cells that are there"},
+    {.name = "cell-values",
+     .place = kInputAt<&InputOptions::cell_values>,
+     .help =
+         "vectors of cells: recovered brings them to the points by least squares, constant leaves them as they are "
+         "all over their cell",
+     .heading = "Input",
+     .groups = {Group::kInput},
+     .kinds = kFlows,
+     .words = "recovered|constant"},
     {.name = "cell-directions",
      .place = kInputAt<&InputOptions::cell_directions>,
      .help = "directions of cells (.lon, .ortho, .bases): recovered brings their outer products to the "
