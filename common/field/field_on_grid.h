@@ -8,6 +8,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
+#include "common/field/vector_field.h"
 
 namespace palpate {
 
@@ -16,6 +17,12 @@ namespace palpate {
 [[nodiscard]] std::shared_ptr<const ScalarField> make_scalar_field(std::shared_ptr<const FieldGrid> grid,
                                                                    const DataSet& block,
                                                                    const ScalarChoice& choice,
+                                                                   const std::string& file, int threads = 0);
+
+/// The same of vectors, of several blocks. @throws Error as make_vector_field().
+[[nodiscard]] std::shared_ptr<const VectorField> make_vector_field(std::shared_ptr<const FieldGrid> grid,
+                                                                   const std::vector<DataSet>& blocks,
+                                                                   const VectorChoice& choice,
                                                                    const std::string& file, int threads = 0);
 
 /// The same of tensors. @throws Error as make_tensor_field().

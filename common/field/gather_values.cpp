@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
@@ -8,6 +10,7 @@
 #include "common/field/cell_values.h"
 #include "common/field/curved_split.h"
 #include "common/field/field_grid.h"
+#include "common/math/symmetric3.h"
 
 namespace palpate {
 namespace {
@@ -101,6 +104,12 @@ CellDifference gather_cells(const FieldGrid& grid, std::span<const DataSet> bloc
       if (visible[grid.data_index(n, at)] == 0) return;
     }
     const double* const here = given != nullptr ? given->at(point) : nullptr;
+    if (here == nullptr && given != nullptr && store.components == 3) {
+      std::array<double, 3> along{value[0], value[1], value[2]};
+      given->slide(point, along.data());
+      store.put(point, along.data());
+      return;
+    }
     store.put(point, here != nullptr ? here : value);
   };
   const auto value_at = [&](std::size_t point, int component) {
@@ -147,10 +156,53 @@ GatheredValues gather_values(const FieldGrid& grid, std::span<const DataSet> blo
 
 std::string boundary_array_of(const std::string& name) { return name + " at the boundary"; }
 
+std::string sliding_array_of(const std::string& name) { return name + " along the boundary"; }
+
+namespace {
+
+/// Takes from a vector its parts along the normals of which `sum` is. Faces about a point of a smooth wall have nearly
+/// the same normal; an edge of it has two.
+Mat3 along_walls(const std::array<double, 6>& sum) {
+  constexpr double kEdge = 0.05;  // of the largest part: faces at 26 degrees to each other
+  const SymmetricEigen normals = symmetric_eigen(symmetric_matrix(sum));
+  Mat3 along{1.0};
+  for (int i = 0; i < 3; ++i) {
+    if (normals.values[i] > kEdge * normals.values[0])
+      along -= glm::outerProduct(normals.vectors[i], normals.vectors[i]);
+  }
+  return along;
+}
+
+}  // namespace
+
 GivenValues::GivenValues(const FieldGrid& grid, std::span<const DataSet> blocks, int components,
-                         const TupleReader& read)
+                         const TupleReader& read, const TupleReader& sliding)
     : components_(as_size(components)) {
-  if (!read || !grid.tets) return;
+  if (!grid.tets) return;
+  if (sliding) {
+    std::map<std::size_t, std::array<double, 6>> sums;
+    std::size_t input = 0;
+    for (const DataSet& block : blocks) {
+      for (std::size_t i = 0; i < block.point_count(); ++i, ++input) {
+        const std::size_t point = grid.point_of_input.empty() ? input : as_size(grid.point_of_input[input]);
+        std::array<double, 6> six{};
+        if (point != kNoPoint) sliding(block, i, six.data());
+        const double trace = six[0] + six[3] + six[5];
+        if (!(trace > 0.0) || !std::isfinite(trace)) continue;
+        std::array<double, 6>& sum = sums[point];
+        for (std::size_t c = 0; c < six.size(); ++c) sum[c] += six[c];
+      }
+    }
+    if (!sums.empty()) {
+      sliding_.assign(grid.point_count(), 0);
+      along_.emplace_back(1.0);
+    }
+    for (const auto& [point, sum] : sums) {
+      sliding_[point] = static_cast<std::uint32_t>(along_.size());
+      along_.push_back(along_walls(sum));
+    }
+  }
+  if (!read) return;
   std::vector<double> value(components_);
   std::size_t input = 0;
   for (const DataSet& block : blocks) {
@@ -172,12 +224,22 @@ GivenValues::GivenValues(const FieldGrid& grid, std::span<const DataSet> blocks,
   }
 }
 
+void GivenValues::slide(std::size_t point, double* value) const noexcept {
+  if (sliding_.empty() || sliding_[point] == 0) return;
+  const Vec3 along = along_[sliding_[point]] * Vec3{value[0], value[1], value[2]};
+  for (int i = 0; i < 3; ++i) value[i] = along[i];
+}
+
 std::string GivenValues::note() const {
   const auto count = counts_.size() - as_size(std::ranges::count(counts_, std::uint32_t{0}));
-  if (count == 0) return {};
+  const std::string slides = along_.empty()
+                                 ? std::string()
+                                 : std::to_string(along_.size() - 1) +
+                                       " at walls along which the flow slides: none of it goes through";
+  if (count == 0) return slides.empty() ? slides : "boundary points: " + slides;
   return std::to_string(count) +
          (count == 1 ? " boundary point has the value" : " boundary points have the values") +
-         " that the data gives there";
+         " that the data gives there" + (slides.empty() ? "" : ", " + slides);
 }
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
@@ -13,6 +14,7 @@
 #include "common/field/coincident_points.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
+#include "common/field/field_on_grid.h"
 #include "common/field/hexahedron_difference.h"
 #include "common/field/rest_speed.h"
 #include "common/field/vector_field.h"
@@ -133,11 +135,13 @@ class VectorFieldBuilder {
  public:
   static std::shared_ptr<const VectorField> from_data(const std::vector<DataSet>& blocks,
                                                       const VectorChoice& choice, const std::string& file,
-                                                      int threads) {
+                                                      int threads,
+                                                      std::shared_ptr<const FieldGrid> made = nullptr) {
     auto field = std::make_shared<VectorField>();
     field->name_ = choice.label;
     const std::vector<DataSet> used = usable_blocks(blocks, choice, file, *field);
-    field->grid_ = make_field_grid(used, file, threads, {choice.association, value_of(used, choice)});
+    field->grid_ = made ? std::move(made)
+                        : make_field_grid(used, file, threads, {choice.association, value_of(used, choice)});
     const FieldGrid& grid = *field->grid_;
     field->frame_ = grid.frame;
     field->bounds_ = grid.bounds;
@@ -282,7 +286,21 @@ class VectorFieldBuilder {
         read_from(at_boundary, block, tuple, out);
       };
     }
-    const GivenValues given(grid, blocks, 3, read_boundary);
+    TupleReader sliding;
+    const bool of_cells =
+        choice.association == Association::kCell && choice.kind == VectorChoice::Kind::kArray;
+    const auto walls_of = [&](const DataSet& block) {
+      return block.find(sliding_array_of(choice.arrays.front()), Association::kPoint);
+    };
+    if (of_cells &&
+        std::ranges::any_of(blocks, [&](const DataSet& block) { return walls_of(block) != nullptr; })) {
+      sliding = [&](const DataSet& block, std::size_t point, double* out) {
+        const DataArray* const walls = walls_of(block);
+        for (int c = 0; c < 6; ++c)
+          out[c] = walls != nullptr && walls->components == 6 ? walls->at(point, c) : 0.0;
+      };
+    }
+    const GivenValues given(grid, blocks, 3, read_boundary, sliding);
     auto stored = std::make_shared<const GatheredValues>(gather_values(
         grid, blocks, choice.association, 3, use_double, read, CellRule::kLeastSquares, threads, given));
     if (use_double) {
@@ -348,6 +366,13 @@ std::shared_ptr<const VectorField> make_vector_field(const std::vector<DataSet>&
                                                      const VectorChoice& choice, const std::string& file,
                                                      int threads) {
   return VectorFieldBuilder::from_data(blocks, choice, file, threads);
+}
+
+std::shared_ptr<const VectorField> make_vector_field(std::shared_ptr<const FieldGrid> grid,
+                                                     const std::vector<DataSet>& blocks,
+                                                     const VectorChoice& choice, const std::string& file,
+                                                     int threads) {
+  return VectorFieldBuilder::from_data(blocks, choice, file, threads, std::move(grid));
 }
 
 std::shared_ptr<const VectorField> make_vector_field(std::shared_ptr<const AnalyticField> formula,

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <regex.h>
@@ -58,16 +60,20 @@ bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
 }
 
+bool starts_as_one_of(std::string_view type, std::initializer_list<std::string_view> starts) {
+  return std::ranges::any_of(starts,
+                             [&](std::string_view start) { return type.substr(0, start.size()) == start; });
+}
+
 /// Types whose faces have the values of the cells, or of what is behind.
 bool follows_cells(std::string_view type) {
-  for (const std::string_view free : {"zeroGradient", "empty", "wedge", "slip", "partialSlip"}) {
-    if (type == free) return true;
-  }
-  for (const std::string_view start :
-       {"symmetry", "basicSymmetry", "cyclic", "processor", "nonuniformTransformCyclic"}) {
-    if (type.substr(0, start.size()) == start) return true;
-  }
-  return false;
+  return type == "zeroGradient" || type == "empty" || type == "wedge" ||
+         starts_as_one_of(type, {"cyclic", "processor", "nonuniformTransformCyclic"});
+}
+
+/// Types along which vectors slide.
+bool slides_along(std::string_view type) {
+  return type == "slip" || type == "partialSlip" || starts_as_one_of(type, {"symmetry", "basicSymmetry"});
 }
 
 /// Types whose one value for all faces is no first guess.
@@ -85,47 +91,91 @@ struct PatchEntry {
   std::string problem;
 };
 
-PatchEntry entry_in(FoamTokens& tokens, std::size_t components) {
-  PatchEntry out;
-  out.key = tokens.next();
-  out.pattern = tokens.quoted();
-  tokens.expect("{");
+/// What the entries of a patch say, which `tokens` stand before; those of dictionaries that it names come in.
+struct PatchSays {
   std::string type;
   std::optional<FoamPatchValues> values;
-  while (!tokens.done() && tokens.peek() != "}") {
-    const std::string_view key = tokens.next();
-    if (key == ";") continue;
-    if (key.substr(0, 1) == "#") {  // with an argument, without an end
-      out.problem = std::string(key.substr(0, 40)) + " " + std::string(tokens.next().substr(0, 60));
-      continue;
-    }
-    if (key == "type") type = tokens.peek();
-    if (key != "value") {
-      tokens.skip_entry();
-      continue;
-    }
-    try {
-      const FoamTokens before = tokens;
-      if (!tokens.peek().empty() && tokens.peek().front() != '$') values = values_in(tokens, components);
-      if (tokens.peek() != ";") {
-        tokens = before;
-        values.reset();
-        out.problem = "values by '" + std::string(tokens.peek().substr(0, 40)) + "'";
+  std::string problem;
+
+  void read(FoamTokens tokens, const FoamScope& scope, std::size_t components, int depth = 0) {
+    constexpr int kDeepest = 8;
+    while (!tokens.done() && tokens.peek() != "}") {
+      const std::string key(tokens.next());
+      if (key == ";") continue;
+      if (key.substr(0, 1) == "#") {  // with an argument, without an end
+        problem = key.substr(0, 40) + " " + std::string(tokens.next().substr(0, 60));
+        continue;
       }
-    } catch (const FoamMalformed& problem) {
-      out.problem = problem.found;
+      try {
+        if (key.substr(0, 1) == "$") {
+          const std::string rest(tokens.entry());  // of ${name}
+          const std::string text = scope.expanded(key + rest);
+          FoamTokens inner(text, tokens.storage());
+          if (inner.peek() != "{" || depth > kDeepest)
+            throw FoamMalformed{key.substr(0, 40) + ", which is no dictionary"};
+          inner.expect("{");
+          read(inner, scope, components, depth + 1);
+          continue;
+        }
+        const std::string_view text = tokens.entry();
+        if (key == "type") type = word_in(text, scope);
+        if (key == "value") read_value(text, tokens.storage(), scope, components);
+      } catch (const FoamMalformed& what) {
+        problem = what.found;
+      }
     }
-    tokens.skip_entry();
   }
-  tokens.expect("}");
+
+ private:
+  static std::string word_in(std::string_view text, const FoamScope& scope) {
+    const std::string whole =
+        text.find('$') == std::string_view::npos ? std::string(text) : scope.expanded(text);
+    FoamTokens tokens(whole, {});
+    return std::string(tokens.next());
+  }
+  void read_value(std::string_view text, const FoamStorage& storage, const FoamScope& scope,
+                  std::size_t components) {
+    // Macros stand in text alone, before a list that may be binary.
+    values.reset();
+    const std::size_t list = std::min(text.find("List<"), text.size());
+    std::string made;
+    if (text.substr(0, list).find('$') != std::string_view::npos) text = made = scope.expanded(text);
+    FoamTokens tokens(text, storage);
+    FoamPatchValues found = values_in(tokens, components);
+    if (!tokens.done()) throw FoamMalformed{"values by '" + std::string(tokens.peek().substr(0, 40)) + "'"};
+    values = std::move(found);
+  }
+};
+
+/// @param text of the entry, with its brackets. @param above the boundaryField.
+PatchEntry entry_in(std::string key, bool pattern, std::string_view text, const FoamStorage& storage,
+                    const FoamScope& above, std::size_t components) {
+  PatchEntry out;
+  out.key = std::move(key);
+  out.pattern = pattern;
+  std::string made;
+  if (text.substr(0, 1) == "$") text = made = above.expanded(text);  // "lid $floor;"
+  FoamTokens tokens(text, storage);
+  tokens.expect("{");
+  FoamTokens again = tokens;
+  const FoamScope scope(again, &above);
+  PatchSays says;
+  says.read(tokens, scope, components);
+  const std::string& type = says.type;
+  std::optional<FoamPatchValues>& values = says.values;
+  out.problem = says.problem;
   if (follows_cells(type)) {
     out.problem.clear();
     return out;
   }
-  if (type == "noSlip") {
+  if (slides_along(type)) {
+    out.problem.clear();
+    out.given = true;
+    out.values.slides = true;
+  } else if (type == "noSlip") {
     out.given = true;
     out.problem.clear();
-    out.values = {std::vector<double>(components, 0.0), true};
+    out.values = {.numbers = std::vector<double>(components, 0.0), .uniform = true};
   } else if (values && (!values->uniform || is_fixed(type))) {
     out.given = true;
     out.values = std::move(*values);
@@ -191,6 +241,7 @@ std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::strin
       tokens.expect("{");
       while (!tokens.done() && tokens.peek() != "}") {
         const std::string_view key = tokens.next();
+        if (key == "type") patch.type = tokens.peek();
         if (key == "nFaces") patch.faces = tokens.count();
         if (key == "startFace") patch.first_face = tokens.count();
         if (key == "inGroups") {
@@ -257,20 +308,24 @@ FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::s
 
 std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text, int components,
                                                           const std::vector<FoamPatch>& patches,
-                                                          std::vector<std::string>& problems) {
+                                                          std::vector<std::string>& problems,
+                                                          const FoamInclude& include) {
   std::map<std::string, FoamPatchValues> out;
-  constexpr std::string_view kName = "boundaryField";
-  const std::size_t at = text.rfind(kName);
-  if (at == std::string_view::npos) {
-    problems.emplace_back("no boundaryField");
-    return out;
-  }
   std::vector<PatchEntry> entries;
   constexpr int kMostPatterns = 100;
   int patterns = 0;
   try {
-    FoamTokens tokens(text.substr(at + kName.size()), foam_storage(text));
+    FoamTokens whole = foam_body(text);
+    const FoamScope top(whole, nullptr, include);
+    const std::string_view field = top.own("boundaryField");
+    if (field.empty()) {
+      problems.emplace_back("no boundaryField");
+      return out;
+    }
+    FoamTokens tokens(field, foam_storage(text));
     tokens.expect("{");
+    FoamTokens again = tokens;
+    const FoamScope scope(again, &top, include);
     while (!tokens.done() && tokens.peek() != "}") {
       if (tokens.peek().substr(0, 1) == "#") {  // #includeEtc "caseDicts/setConstraintTypes"
         const std::string_view directive = tokens.next(), what = tokens.next();
@@ -279,11 +334,21 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
                              "\"");
         continue;
       }
-      PatchEntry entry = entry_in(tokens, static_cast<std::size_t>(components));
-      if (entry.pattern && (!is_simple(entry.key) || ++patterns > kMostPatterns)) {
-        problems.push_back("pattern \"" + entry.key.substr(0, 60) + "\"");
+      const std::string key(tokens.next());
+      const bool pattern = tokens.quoted();
+      const std::string_view entry_text = tokens.entry();
+      if (pattern && (!is_simple(key) || ++patterns > kMostPatterns)) {
+        problems.push_back("pattern \"" + key.substr(0, 60) + "\"");
       } else {
-        entries.push_back(std::move(entry));
+        try {
+          entries.push_back(entry_in(key, pattern, entry_text, tokens.storage(), scope,
+                                     static_cast<std::size_t>(components)));
+        } catch (const FoamMalformed& problem) {
+          PatchEntry& broken = entries.emplace_back();
+          broken.key = key;
+          broken.pattern = pattern;
+          broken.problem = problem.found;
+        }
       }
     }
     tokens.expect("}");
@@ -295,6 +360,10 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
     const PatchEntry* const entry = entry_of(patch, entries);
     if (entry == nullptr) continue;
     std::string problem = entry->problem;
+    if (entry->values.slides) {
+      if (components == 3) out[patch.name] = entry->values;
+      continue;
+    }
     if (entry->given) {
       const std::size_t tuples = entry->values.numbers.size() / static_cast<std::size_t>(components);
       if (tuples == (entry->values.uniform ? 1 : patch.faces)) {
@@ -318,7 +387,7 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
     const auto found = values.find(patch.name);
     if (found == values.end() || patch.first_face < first_face) continue;
     const FoamPatchValues& given = found->second;
-    if (given.numbers.size() / n < (given.uniform ? 1 : patch.faces)) continue;
+    if (given.slides || given.numbers.size() / n < (given.uniform ? 1 : patch.faces)) continue;
     for (std::size_t i = 0; i < patch.faces; ++i) {
       const std::size_t face = patch.first_face - first_face + i;
       if (face + 1 >= faces.begin.size()) break;
@@ -354,6 +423,66 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
     for (std::size_t c = 0; c < n; ++c) out[p * n + c] = std::numeric_limits<double>::quiet_NaN();
   }
   return out;
+}
+
+std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
+                                       std::size_t first_face,
+                                       const std::map<std::string, FoamPatchValues>& values,
+                                       const std::vector<Vec3>& positions) {
+  constexpr std::size_t kSix = 6;
+  std::vector<double> out;
+  for (const FoamPatch& patch : patches) {
+    const auto found = values.find(patch.name);
+    if (found == values.end() || !found->second.slides || patch.first_face < first_face) continue;
+    for (std::size_t i = 0; i < patch.faces; ++i) {
+      const std::size_t face = patch.first_face - first_face + i;
+      if (face + 1 >= faces.begin.size()) break;
+      const std::span<const std::int64_t> corners(faces.points.data() + faces.begin[face],
+                                                  faces.points.data() + faces.begin[face + 1]);
+      if (corners.size() < 3 || std::ranges::any_of(corners, [&](std::int64_t p) {
+            return p < 0 || static_cast<std::size_t>(p) >= positions.size();
+          }))
+        continue;
+      // Twice the area along the normal, from its first corner.
+      const Vec3 first = positions[static_cast<std::size_t>(corners[0])];
+      Vec3 normal{0.0};
+      for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+        normal += glm::cross(positions[static_cast<std::size_t>(corners[c])] - first,
+                             positions[static_cast<std::size_t>(corners[c + 1])] - first);
+      }
+      const double area = glm::length(normal);
+      if (!(area > 0.0) || !std::isfinite(area)) continue;
+      if (out.empty()) out.assign(kSix * positions.size(), 0.0);
+      const Vec3 n = normal / area;
+      const std::array<double, kSix> six{n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
+      for (const std::int64_t p : corners) {
+        for (std::size_t c = 0; c < kSix; ++c) out[kSix * static_cast<std::size_t>(p) + c] += area * six[c];
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<std::int64_t> read_foam_labels(std::string_view text, const std::string& file) {
+  try {
+    FoamTokens tokens = foam_body(text);
+    std::vector<std::int64_t> out;
+    const std::size_t count = tokens.count();
+    if (count == 0) return out;
+    tokens.expect("(");
+    if (tokens.storage().binary) {
+      const std::string_view bytes = tokens.bytes(count, tokens.storage().label);
+      for (std::size_t i = 0; i < count; ++i) out.push_back(foam_label(bytes, i, tokens.storage()));
+      return out;
+    }
+    while (!tokens.done() && tokens.peek() != ")") out.push_back(static_cast<std::int64_t>(tokens.count()));
+    if (out.size() != count)
+      throw FoamMalformed{std::to_string(out.size()) + " numbers where " + std::to_string(count) +
+                          " are due"};
+    return out;
+  } catch (const FoamMalformed& problem) {
+    refuse(file, problem.found);
+  }
 }
 
 std::size_t read_foam_count(std::string_view text, const std::string& file) {

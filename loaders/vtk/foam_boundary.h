@@ -2,8 +2,8 @@
 /// from the cells.
 ///
 /// A face has the values listed for its patch: those of patches of fixed value (fixedValue and its kin, noSlip,
-/// movingWallVelocity), and those listed face by face for any other type but zeroGradient, slip and the
-/// constraints (empty, symmetry, wedge, cyclic, processor). OpenFOAM User Guide, "Boundaries" and "Mesh description".
+/// movingWallVelocity), and those listed face by face for any other type but zeroGradient and the constraints (empty,
+/// wedge, cyclic, processor). Of slip and symmetry it is known that nothing of a vector goes through. OpenFOAM User Guide, "Boundaries" and "Mesh description".
 #pragma once
 
 #include <cstddef>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/math/vec.h"
+#include "loaders/vtk/foam_scope.h"
 
 namespace palpate {
 
@@ -23,12 +24,14 @@ struct FoamPatch {
   std::vector<std::string> groups;
   std::size_t faces = 0;
   std::size_t first_face = 0;
+  std::string type = {};
 };
 
 /// The numbers of a patch: one tuple, or one a face.
 struct FoamPatchValues {
   std::vector<double> numbers;
   bool uniform = false;
+  bool slides = false;  ///< no numbers: nothing of a vector goes through (slip, symmetry)
 };
 
 /// The patches of a file polyMesh/boundary. @throws Error (bad input) with `file`.
@@ -43,12 +46,17 @@ struct FoamFaces {
 /// @throws Error (bad input) with `file`.
 [[nodiscard]] FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::string& file);
 
+/// A file of numbers of cells (owner, neighbour; text or binary). @throws Error (bad input) with `file`.
+[[nodiscard]] std::vector<std::int64_t> read_foam_labels(std::string_view text, const std::string& file);
+
 /// The values given for patches in the boundaryField of a field of `components` numbers, by patch. An entry of a
 /// patch's own name goes before those of its groups, and these before patterns; of several the last counts.
+/// $name stands for what it does in the file and those it includes.
 /// @param problems in words: what could not be read, whose patches have no values.
 [[nodiscard]] std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text, int components,
                                                                         const std::vector<FoamPatch>& patches,
-                                                                        std::vector<std::string>& problems);
+                                                                        std::vector<std::string>& problems,
+                                                                        const FoamInclude& include = {});
 
 /// The values of a field at the points of the boundary, `components` a point, NaN where none is given: the mean of
 /// those of the faces around that have one, weighted by the inverse distance of their middles (as OpenFOAM's
@@ -58,6 +66,13 @@ struct FoamFaces {
                                                     const FoamFaces& faces, std::size_t first_face,
                                                     const std::map<std::string, FoamPatchValues>& values,
                                                     int components, const std::vector<Vec3>& positions);
+
+/// At the points of the boundary the sum of A n n^T over the faces around that a vector slides along, as xx, xy, xz,
+/// yy, yz, zz: A the area, n the normal. Zero elsewhere; nothing where there are no such faces.
+[[nodiscard]] std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches,
+                                                     const FoamFaces& faces, std::size_t first_face,
+                                                     const std::map<std::string, FoamPatchValues>& values,
+                                                     const std::vector<Vec3>& positions);
 
 /// The number of things in a file of the mesh, which stands before them. @throws Error (bad input) with `file`.
 [[nodiscard]] std::size_t read_foam_count(std::string_view text, const std::string& file);

@@ -233,7 +233,36 @@ const FoamBoundaryReader::Mesh& FoamBoundaryReader::mesh_in(const fs::path& fold
                        "each face in one patch", "the file may be damaged"});
   }
   mesh.points = read_foam_count(FoamText(folder / "points").text(), (folder / "points").string());
+  if (FoamBaffles::any(mesh.faces, mesh.first_face, mesh.patches)) {
+    const FoamFaces all = read_foam_faces(FoamText(folder / "faces").text(), 0, (folder / "faces").string());
+    const auto owner = read_foam_labels(FoamText(folder / "owner").text(), (folder / "owner").string());
+    const auto neighbour =
+        read_foam_labels(FoamText(folder / "neighbour").text(), (folder / "neighbour").string());
+    mesh.baffles = FoamBaffles(all, mesh.patches, owner, neighbour, mesh.points);
+    for (std::size_t face = 0; face + 1 < mesh.faces.begin.size() && mesh.first_face + face < owner.size();
+         ++face) {
+      for (std::size_t p = mesh.faces.begin[face]; p < mesh.faces.begin[face + 1]; ++p)
+        mesh.faces.points[p] = mesh.baffles.point_of(owner[mesh.first_face + face], mesh.faces.points[p]);
+    }
+  }
   return meshes_[folder] = std::move(mesh);
+}
+
+/// Of the case's own files alone.
+std::string FoamBoundaryReader::included(const fs::path& folder, std::string_view name) const {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
+  std::error_code error;
+  const fs::path file = fs::weakly_canonical(folder / fs::path(name), error);
+  const fs::path home = error ? fs::path() : fs::weakly_canonical(folder_, error);
+  const auto [end, rest] = std::mismatch(home.begin(), home.end(), file.begin(), file.end());
+  if (error || end != home.end() || !fs::is_regular_file(file, error) ||
+      fs::file_size(file, error) > kMostBytes)
+    return {};
+  try {
+    return std::string(FoamText(file).text());
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, double time) {
@@ -247,6 +276,23 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
       if (when == time) at = folder / region;
     }
     if (at.empty()) continue;
+    const FoamInclude include = [&](std::string_view name) { return included(at, name); };
+    std::size_t points = 0;
+    try {
+      const Mesh& mesh = mesh_in(mesh_folder(region, time));
+      points = mesh.points;
+      if (!mesh.baffles.empty() && points == mesh_of_block->positions.tuples) {
+        if (mesh.baffles.split(block)) {
+          points = mesh.baffles.points();
+        } else {
+          problems.insert(
+              "baffles are not parted: the mesh has other cells than its files; flow goes through them");
+        }
+      }
+    } catch (const Error& error) {
+      problems.insert(std::string("the boundary cannot be read: ") + error.what());
+      continue;
+    }
     const std::vector<DataArray> arrays = block.arrays;
     std::vector<Vec3> positions;
     for (const DataArray& array : arrays) {
@@ -258,18 +304,24 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
         const Mesh& mesh = mesh_in(mesh_folder(region, time));
         std::vector<std::string> found;
         const FoamText field(at / array.name);
-        auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found);
+        auto values = read_foam_boundary(field.text(), array.components, mesh.patches, found, include);
         if (array.components == 6 && !is_uniform(field.text())) {
           for (auto& [patch, of_patch] : values) order_as_vtk(of_patch);
         }
         for (const std::string& what : found) problem(what);
         if (values.empty()) continue;
-        if (mesh.points != mesh_of_block->positions.tuples) {
-          problem(std::to_string(mesh.points) + " points where the mesh has " +
+        if (points != mesh_of_block->positions.tuples) {
+          problem(std::to_string(points) + " points where the mesh has " +
                   std::to_string(mesh_of_block->positions.tuples));
           continue;
         }
         if (positions.empty()) positions = positions_of(*mesh_of_block);
+        const std::vector<double> normals =
+            foam_point_normals(mesh.patches, mesh.faces, mesh.first_face, values, positions);
+        if (!normals.empty()) {
+          block.arrays.push_back(make_array(sliding_array_of(array.name), Association::kPoint, 6,
+                                            std::span<const double>(normals)));
+        }
         const std::vector<double> numbers =
             foam_point_values(mesh.patches, mesh.faces, mesh.first_face, values, array.components, positions);
         if (numbers.empty()) continue;

@@ -6,10 +6,12 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/field/data_set.h"
 #include "common/load/helper/serve.h"
+#include "loaders/vtk/foam_baffles.h"
 #include "loaders/vtk/foam_boundary.h"
 
 namespace palpate {
@@ -17,7 +19,7 @@ namespace palpate {
 /// The folder of the case that `file` (a marker, system/controlDict, or the folder) belongs to.
 [[nodiscard]] std::filesystem::path foam_folder(const std::string& file);
 
-/// Adds what fields are at the boundary to blocks of a case.
+/// Adds what fields are at the boundary to blocks of a case, and parts cells at baffles.
 class FoamBoundaryReader {
  public:
   FoamBoundaryReader() = default;
@@ -32,9 +34,11 @@ class FoamBoundaryReader {
     std::vector<FoamPatch> patches;
     FoamFaces faces;
     std::size_t first_face = 0, points = 0;
+    FoamBaffles baffles;
   };
   [[nodiscard]] std::filesystem::path region_of(const std::string& block) const;
   [[nodiscard]] std::filesystem::path mesh_folder(const std::filesystem::path& region, double time) const;
+  [[nodiscard]] std::string included(const std::filesystem::path& folder, std::string_view name) const;
   const Mesh& mesh_in(const std::filesystem::path& folder);
 
   std::filesystem::path folder_;

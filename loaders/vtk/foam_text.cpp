@@ -112,6 +112,15 @@ void FoamTokens::skip_entry() {
   }
 }
 
+std::string_view FoamTokens::entry() {
+  skip();
+  const std::size_t begin = at_;
+  skip_entry();
+  std::string_view out = text_.substr(begin, at_ - begin);
+  if (!out.empty() && out.back() == ';') out.remove_suffix(1);
+  return out;
+}
+
 /// Over white space and comments.
 void FoamTokens::skip() {
   while (at_ < text_.size()) {

@@ -60,6 +60,8 @@ class FoamTokens {
   std::string_view bytes(std::size_t count, std::size_t size);
   /// Over the rest of an entry, up to its semicolon, or the brackets it opens.
   void skip_entry();
+  /// The text of the rest of an entry, without its semicolon, with the brackets it opens.
+  std::string_view entry();
 
  private:
   void skip();

@@ -12,6 +12,7 @@
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/foam_baffles.h"
 #include "loaders/vtk/foam_boundary.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"
@@ -34,6 +35,15 @@ void read_foam(std::string_view text) {
     if (faces.begin.back() > faces.points.size()) __builtin_trap();
   } catch (const Error&) {
   }
+  std::vector<std::int64_t> owner{0, 1, 0, 1};
+  try {
+    owner = read_foam_labels(text, "owner");
+  } catch (const Error&) {
+  }
+  if (FoamBaffles::any(faces, 0, patches)) {
+    const FoamBaffles baffles(faces, patches, owner, {}, 4);
+    if (baffles.points() < 4 || baffles.point_of(0, 1) < 0) __builtin_trap();
+  }
   const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const int components : {1, 3}) {
     std::vector<std::string> problems;
@@ -41,6 +51,8 @@ void read_foam(std::string_view text) {
     const auto points = foam_point_values(patches, faces, 1, values, components, positions);
     if (!points.empty() && points.size() != positions.size() * static_cast<std::size_t>(components))
       __builtin_trap();
+    const auto normals = foam_point_normals(patches, faces, 1, values, positions);
+    if (!normals.empty() && normals.size() != 6 * positions.size()) __builtin_trap();
   }
 }
 

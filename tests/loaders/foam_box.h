@@ -27,7 +27,12 @@ class FoamBox {
   /// The patch of a face at the border of the box.
   using PatchOf = std::function<std::string(const Vec3& middle)>;
 
-  FoamBox(int n, const PatchOf& patch_of, const RankOf& rank_of = {}, int rank = 0) : n_(n) {
+  /// Whether a face between two cubes is closed: two faces of the patch "baffle" that share their points.
+  using IsBaffle = std::function<bool(const Vec3& middle)>;
+
+  FoamBox(int n, const PatchOf& patch_of, const RankOf& rank_of = {}, int rank = 0,
+          const IsBaffle& is_baffle = {})
+      : n_(n) {
     const auto rank_at = [&](const Index3& cube) { return rank_of ? rank_of(cube) : 0; };
     for (int c = 0; c < n * n * n; ++c) {
       const Index3 cube = unfold(c);
@@ -47,6 +52,8 @@ class FoamBox {
         } else if (rank_at(other) != rank) {
           patches["procBoundary" + std::to_string(rank) + "to" + std::to_string(rank_at(other))].push_back(
               face);
+        } else if (is_baffle && is_baffle(middle_of(face))) {
+          patches["baffle"].push_back(face);
         } else if (side % 2 == 1) {
           face.neighbour = cell_of_.at(number_of(other));
           faces_.push_back(face);
@@ -114,7 +121,11 @@ class FoamBox {
     for (const Patch& patch : patches_) {
       const bool processor = patch.name.compare(0, 4, "proc") == 0;
       const auto extra = groups.find(patch.name);
-      text += patch.name + "\n{\n type " + (processor ? "processor" : "patch") + ";\n" +
+      const bool typed = extra != groups.end() && extra->second.find(" type ") != std::string::npos;
+      text += patch.name + "\n{\n" +
+              (typed       ? ""
+               : processor ? " type processor;\n"
+                           : " type patch;\n") +
               (extra != groups.end() ? extra->second : "") +
               (processor ? " myProcNo " + patch.name.substr(12, 1) + ";\n neighbProcNo " +
                                patch.name.substr(15) + ";\n matchTolerance 0.0001;\n transform unknown;\n"

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <random>
 #include <set>
@@ -238,6 +240,122 @@ TEST_P(FoamBoundary, IsAsThePatchesSay) {
   EXPECT_NEAR(glm::distance(field->sample({0.2, 0.2, 0.8}, hint).value, helix({0.2, 0.2, 0.8})), 0.0, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(TextAndBinary, FoamBoundary, ::testing::Bool());
+
+/// What is written at the boundary of a box, read back.
+DataSet box_with(const test::TempFolder& folder, const std::string& boundary,
+                 std::vector<std::string>* notes = nullptr, const std::string& head = {}) {
+  const FoamBox box(kN, patch_of);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), false);
+  box.write_vectors(folder.path("1/U"), false, helix, boundary);
+  if (!head.empty()) {
+    std::ifstream in(folder.path("1/U"));
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    FoamBox::write(folder.path("1/U"), text.insert(text.find("dimensions"), head));
+  }
+  Source source = Source::open({{folder.path()}, {}});
+  if (notes != nullptr) *notes = source.info().notes;
+  return source.read({"U"}, 0).front();
+}
+
+TEST(FoamBoundaryText, NamesStandForWhatTheyDoInTheFile) {
+  const test::TempFolder folder;
+  FoamBox::write(folder.path("1/include/flow"),
+                 "fast (4 0 0);\nnested { deep { speed uniform (0 5 0); } }\n");
+  std::vector<std::string> notes;
+  const DataSet block = box_with(folder,
+                                 "lid { type fixedValue; value uniform $fast; }\n"
+                                 "floor { type $still.type; value $still.value; }\n"
+                                 "inlet { $template; }\n"
+                                 "outlet { $..floor; value uniform (0 0 6); }\n"
+                                 "front { type fixedValue; value ${:nested.deep.speed}; }\n"
+                                 "back $..floor;\n",
+                                 &notes,
+                                 "#include \"include/flow\"\n"
+                                 "template { type fixedValue; value uniform (7 0 0); }\n"
+                                 "still { type fixedValue; value uniform (0 0 0); }\n");
+  EXPECT_EQ(at_points(block, 1, 1.0).value, Vec3(4, 0, 0));
+  EXPECT_EQ(at_points(block, 1, -1.0).value, Vec3(0.0));
+  EXPECT_EQ(at_points(block, 0, -1.0).value, Vec3(7, 0, 0));
+  EXPECT_EQ(at_points(block, 0, 1.0).value, Vec3(0, 0, 6));
+  EXPECT_EQ(at_points(block, 2, -1.0).value, Vec3(0, 5, 0));
+}
+
+TEST(FoamBoundaryText, NamesThatStandForNothingAreSaid) {
+  const test::TempFolder folder;
+  FoamBox::write(folder.path("outside"), "fast (4 0 0);\n");
+  std::vector<std::string> notes;
+  const test::TempFolder inside;
+  (void)box_with(inside, "lid { type fixedValue; value uniform $fast; }\nfloor { type noSlip; }\n", &notes,
+                 "#include \"" + folder.path("outside").string() + "\"\nround $again;\nagain $round;\n");
+  EXPECT_TRUE(says(notes, "$fast, which stands for nothing")) << notes.size();
+  const test::TempFolder circle;
+  (void)box_with(circle, "lid { type fixedValue; value uniform $round; }\n", &notes,
+                 "round $again;\nagain $round;\n");
+  EXPECT_TRUE(says(notes, "stands for nothing"));
+}
+
+TEST(FoamBoundaryText, ItsNameInCommentsAndStringsIsNoBoundary) {
+  const test::TempFolder folder;
+  const DataSet block = box_with(folder,
+                                 "lid { type fixedValue; value uniform (2 0 0); }\n"
+                                 "floor { type codedFixedValue; code \"boundaryField { }\"; }\n"
+                                 "// boundaryField { lid { type noSlip; } }\n/* boundaryField */\n");
+  EXPECT_EQ(at_points(block, 1, 1.0).value, Vec3(2, 0, 0));
+}
+
+TEST(FoamBoundary, NothingGoesThroughWallsAlongWhichTheFlowSlides) {
+  for (const char* const type : {"slip", "symmetryPlane", "symmetry", "basicSymmetry", "partialSlip"}) {
+    const test::TempFolder folder;
+    const std::string slides = std::string(" { type ") + type + "; }\n";
+    const DataSet block = box_with(
+        folder, "lid" + slides + "back" + slides + "inlet { type fixedValue; value uniform (1 2 3); }\n");
+    const auto field = field_of({block});
+    EXPECT_TRUE(says(field->notes().lines, "along which the flow slides"));
+    const auto expect = [&](const Vec3& x, const Vec3& v) {
+      CellHint hint;
+      EXPECT_NEAR(glm::distance(field->sample(x, hint).value, v), 0.0, 1e-6)
+          << type << x.x << " " << x.y << " " << x.z;
+    };
+    const Vec3 on_lid{0.2, 1.0, 0.8}, on_back{0.2, 0.2, 2.0}, edge{0.2, 1.0, 2.0};
+    expect(on_lid, helix(on_lid) * Vec3{1, 0, 1});
+    expect(on_back, helix(on_back) * Vec3{1, 1, 0});
+    expect(edge, helix(edge) * Vec3{1, 0, 0});
+    expect({-1.0, 1.0, 0.8}, {1, 2, 3});  // given is given
+    expect({0.2, -1.0, 0.8}, helix({0.2, -1.0, 0.8}));
+    expect({0.2, 0.2, 0.8}, helix({0.2, 0.2, 0.8}));
+  }
+}
+
+TEST(FoamBaffles, LetNothingThroughThoughTheirCellsShareAllPoints) {
+  constexpr int kCubes = 8;
+  for (const bool binary : {false, true}) {
+    for (const char* const type : {"wall", "cyclic"}) {
+      const test::TempFolder folder;
+      const FoamBox box(kCubes, border, {}, 0, [](const Vec3& middle) {
+        return std::abs(middle.x) < 1e-9 && std::abs(middle.y) < 0.5;
+      });
+      FoamBox::write_control(folder.path());
+      box.write_mesh(folder.path(), binary, {{"baffle", std::string(" type ") + type + ";\n"}});
+      box.write_vectors(
+          folder.path("1/U"), binary,
+          [](const Vec3&) {
+            return Vec3{1.0, 0.0, 0.0};
+          },
+          std::string(kFree) + "baffle { type zeroGradient; }\n");
+      Source source = Source::open({{folder.path()}, {}});
+      const auto blocks = source.read({"U"}, 0);
+      const auto field = field_of(blocks);
+      std::vector<Vec3> seeds;
+      for (const double y : {-0.9, -0.4, 0.05, 0.3, 0.7}) seeds.emplace_back(-0.8, y, 0.9);
+      for (const Line& line : trace_lines(*field, seeds, {}).lines) {
+        const Vec3 seed = seeds[line.seed];
+        const bool stopped = std::string(type) == "wall" && std::abs(seed.y) < 0.5;
+        EXPECT_NEAR(line.points.back().position.x, stopped ? 0.0 : 1.0, 1e-6) << type << " " << seed.y;
+      }
+    }
+  }
+}
 
 // The components of cells and of the boundary are the same ones.
 TEST(FoamBoundaryText, SymmetricTensorsHaveTheOrderOfTheCells) {
