@@ -110,6 +110,34 @@ bool looks_like_ensight(const FileHead& head, const FormatRow&) {
          has(text, "ensight");
 }
 
+/// Lines of KEY= value; the dimension and the elements are always there.
+bool looks_like_su2(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  return line_starts(text, "NDIME") && (line_starts(text, "NELEM") || line_starts(text, "NPOIN"));
+}
+
+/// Records of a name at the start of a line, in letters of either size.
+bool looks_like_tecplot(const FileHead& head, const FormatRow&) {
+  const std::string text = lowered(text_of(head));
+  return (line_starts(text, "variables") || has(text, " variables")) &&
+         (line_starts(text, "zone") || has(text, " zone")) && has(text, "=") &&
+         !has(text, std::string_view("\0", 1));
+}
+
+/// The first line that is no comment has five counts.
+bool looks_like_ucd(const FileHead& head, const FormatRow& row) {
+  if (!has_ending(head, row)) return false;
+  std::string_view text = text_after_blanks(head);
+  while (text.starts_with('#')) {
+    const std::size_t end = text.find('\n');
+    text = end == std::string_view::npos ? std::string_view() : trimmed(text.substr(end + 1));
+  }
+  const auto counts = words(text.substr(0, text.find('\n')));
+  return counts.size() == 5 && std::ranges::all_of(counts, [](std::string_view word) {
+           return parsed<std::uint32_t>(word).has_value();
+         });
+}
+
 bool looks_like_openfoam(const FileHead& head, const FormatRow&) {
   return has(text_of(head), "FoamFile") && has(text_of(head), "controlDict");
 }
@@ -253,6 +281,59 @@ bool is_analyze(const FileHead& head) {
                                    text.starts_with(std::string_view("\0\0\x01\x5c", 4)));
 }
 
+constexpr const char* kByMeshio = "convert it: 'meshio convert THIS out.vtu'";
+constexpr const char* kByParaview = "write it as .vtu or .vtm, in ParaView for one";
+
+Sniffed hdf5_file(const FileHead& head) {
+  const std::string_view text = text_of(head);
+  if (head.ending == ".cgns" || has(text, "CGNSLibraryVersion"))
+    return {{}, "a CGNS file (in HDF5)", kByParaview};
+  if (head.ending == ".vtkhdf" || has(text, "VTKHDF")) return {{}, "a VTKHDF file", kByParaview};
+  if (head.ending == ".h5" && has(text, "settings"))
+    return {{}, "an HDF5 file, perhaps of Fluent (.cas.h5, .dat.h5)", kByParaview};
+  if (head.ending == ".med") return {{}, "a MED file (in HDF5)", kByMeshio};
+  return {{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
+}
+
+/// Meshes and results of other programs.
+std::optional<Sniffed> known_mesh(std::string_view text, std::string_view ending) {
+  struct Known {
+    std::string_view starts;  ///< without blanks before it, in small letters
+    const char* found;
+    const char* remedy;
+  };
+  static constexpr std::array kKnown{
+      Known{"#std", "a Nek5000 file", "open the .nek5000 file beside it in ParaView, and write a .vtu"},
+      Known{"#!tdv", "a binary Tecplot file", "write it as Tecplot ASCII (.dat)"},
+      Known{"#!szplt", "a Tecplot SZL file", "write it as Tecplot ASCII (.dat)"},
+      Known{"@(#)adf database", "a CGNS file (in ADF)", kByParaview},
+      Known{"*heading", "an Abaqus input file", kByMeshio},
+      Known{"*node", "an Abaqus input file", kByMeshio},
+      Known{"meshversionformatted", "a Medit mesh", kByMeshio},
+      Known{"mfem mesh", "an MFEM mesh", "save it by ParaViewDataCollection"},
+      Known{"mesh3d", "a Netgen mesh", kByMeshio},
+      Known{"$nod", "a Gmsh file of version 1", "write it again: gmsh THIS -save -format msh41"},
+      Known{"control info", "a GAMBIT neutral file, which holds no flow", "open the solution"},
+      Known{"solid ", "an STL surface", "a flow is in a volume: open the solution"},
+      Known{"ply\n", "a PLY surface", "a flow is in a volume: open the solution"},
+      Known{"prostar", "a STAR-CD file", "export the solution as EnSight Gold"},
+      Known{"begin bulk", "a Nastran file", kByMeshio},
+      Known{"nastran", "a Nastran file", kByMeshio}};
+  const std::string start = lowered(trimmed(text.substr(0, 256)));
+  for (const Known& known : kKnown) {
+    if (start.starts_with(known.starts)) return Sniffed{{}, known.found, known.remedy};
+  }
+  const bool fluent = start.starts_with("(0 ") || start.starts_with("(1 ") || start.starts_with("(2 ");
+  if (fluent && (ending == ".cas" || ending == ".msh" || ending == ".dat"))
+    return Sniffed{{}, "a Fluent file", "export the solution as EnSight Gold, or write a .vtu in ParaView"};
+  if (ending == ".nek5000") return Sniffed{{}, "a Nek5000 index", kByParaview};
+  if (ending == ".sim") return Sniffed{{}, "a STAR-CCM+ file", "export the solution as EnSight Gold"};
+  if (ending == ".unv") return Sniffed{{}, "an I-DEAS universal file", "convert it to .vtu"};
+  if (has(text.substr(0, 256), "C Binary") || start.starts_with("ensight"))
+    return Sniffed{{}, "a geometry or variable of EnSight", "open the .case file"};
+  return {};
+}
+
 /// Known kinds of file that are of none of the formats; nothing where the file is of no such kind.
 std::optional<Sniffed> known_other(const FileHead& head) {
   const std::string_view text = text_of(head);
@@ -266,9 +347,16 @@ std::optional<Sniffed> known_other(const FileHead& head) {
     return Sniffed{
         {}, "a VTK XML file of type " + type, "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
   }
+  if (is_xml(head) && has(text, "<Xdmf"))
+    return Sniffed{{}, "an XDMF file", "write it as .vtu: 'meshio convert THIS out.vtu', or in ParaView"};
   if (is_xml(head)) return Sniffed{{}, "an XML file that is not VTK's", ""};
-  if (is_netcdf(text)) return Sniffed{{}, "a netCDF file that is not Exodus II (it has no num_nodes)", ""};
-  if (is_hdf5(text)) return Sniffed{{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
+  if (is_netcdf(text)) {
+    return Sniffed{{},
+                   "a netCDF file that is not Exodus II (it has no num_nodes)",
+                   "write its grid as .vtr or .vts, in ParaView for one"};
+  }
+  if (is_hdf5(text)) return hdf5_file(head);
+  if (auto mesh = known_mesh(text, head.ending)) return *std::move(mesh);
   if (head.ending == ".toml" && has(text, "format = ") && has(text, "program = "))
     return Sniffed{{}, "a session", "open it with --session THIS"};
   if (is_gzip(text)) return Sniffed{{}, "a gzip file", "unpack it first"};

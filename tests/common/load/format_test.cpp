@@ -53,6 +53,11 @@ const std::multimap<Format, Example>& examples() {
       {Format::kExodus, {"\x89HDF\r\n\x1a\n", ".ex2"}},
       {Format::kEnsight, {"# comment\nFORMAT\ntype:  ensight gold\nGEOMETRY\nmodel: a.geo\n"}},
       {Format::kOpenFoam, {"FoamFile\n{\n object controlDict;\n}\n"}},
+      {Format::kGmsh, {"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"}},
+      {Format::kSu2, {"% a mesh\nNDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n"}},
+      {Format::kTecplot, {"TITLE = \"a\"\nVARIABLES = \"X\" \"Y\" \"Z\"\nZONE I=2, J=2, K=2\n0 0 0\n"}},
+      {Format::kTecplot, {"variables = x, y, z, u\nzone n=4 e=1 f=fepoint et=tetrahedron\n"}},
+      {Format::kUcd, {"# of a test\n4 1 3 0 0\n1 0 0 0\n", ".inp"}},
       {Format::kNrrd, {"NRRD0005\ntype: float\n"}},
       {Format::kVdb, {std::string(" BDV\0\0\0\0\xe0\0\0\0", 12)}},
       {Format::kMrtrixImage, {"mrtrix image\ndim: 2,2,2\n"}},
@@ -148,6 +153,13 @@ TEST(Sniff, OthersAreDescribed) {
                                                         {"PK\3\4 FoamFile controlDict", "zip"},
                                                         {netcdf_with("time"), "netCDF"},
                                                         {"hello\x01", "hello\\x01"},
+                                                        {"#std 4 6 6 6", "Nek5000"},
+                                                        {"#!TDV112", "binary Tecplot"},
+                                                        {"<?xml version=\"1.0\"?>\n<Xdmf>", "XDMF"},
+                                                        {"*HEADING\n", "Abaqus"},
+                                                        {"\x89HDF\r\n\x1a\n CGNSLibraryVersion", "CGNS"},
+                                                        {"\x89HDF\r\n\x1a\n VTKHDF", "VTKHDF"},
+                                                        {"MeshVersionFormatted 2", "Medit"},
                                                         {"", "not recognised"}}) {
     const Sniffed result = sniffed(content);
     EXPECT_FALSE(result.format) << content;

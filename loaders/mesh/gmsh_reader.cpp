@@ -1,0 +1,429 @@
+// Gmsh's .msh: sections between $Name and $EndName, in text or binary.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "loaders/mesh/mesh_file.h"
+#include "loaders/mesh/mesh_words.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kMostTag = std::numeric_limits<std::int64_t>::max() / 2;
+
+/// An element of Gmsh as a cell of VTK's file format.
+struct ElementType {
+  int nodes = 0;
+  int dimension = 0;
+  std::uint8_t vtk = 0;            ///< 0: none
+  std::array<std::int8_t, 27> of;  ///< which node of Gmsh's is each of the cell's; all 0: in their order
+};
+
+/// "Node ordering" of Gmsh's manual against VTK's file formats.
+const ElementType* element_type(int type) {
+  static const std::map<int, ElementType> kTypes{
+      {1, {2, 1, 3, {}}},
+      {2, {3, 2, 5, {}}},
+      {3, {4, 2, 9, {}}},
+      {4, {4, 3, 10, {}}},
+      {5, {8, 3, 12, {}}},
+      {6, {6, 3, 13, {}}},
+      {7, {5, 3, 14, {}}},
+      {8, {3, 1, 21, {}}},
+      {9, {6, 2, 22, {}}},
+      {10, {9, 2, 28, {}}},
+      {11, {10, 3, 24, {0, 1, 2, 3, 4, 5, 6, 7, 9, 8}}},
+      {12, {27, 3, 29, {0,  1,  2,  3,  4,  5,  6,  7,  8,  11, 13, 9,  16, 18,
+                        19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26}}},
+      {13, {18, 3, 32, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16}}},
+      {14, {14, 3, 0, {}}},
+      {15, {1, 0, 1, {}}},
+      {16, {8, 2, 23, {}}},
+      {17, {20, 3, 25, {0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15}}},
+      {18, {15, 3, 26, {0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11}}},
+      {19, {13, 3, 27, {0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12}}},
+      {20, {9, 2, 0, {}}},
+      {21, {10, 2, 0, {}}},
+      {22, {12, 2, 0, {}}},
+      {23, {15, 2, 0, {}}},
+      {24, {15, 2, 0, {}}},
+      {25, {21, 2, 0, {}}},
+      {26, {4, 1, 0, {}}},
+      {27, {5, 1, 0, {}}},
+      {28, {6, 1, 0, {}}},
+      {29, {20, 3, 0, {}}},
+      {30, {35, 3, 0, {}}},
+      {31, {56, 3, 0, {}}},
+      {36, {16, 2, 0, {}}},
+      {37, {25, 2, 0, {}}},
+      {38, {36, 2, 0, {}}},
+      {90, {40, 3, 0, {}}},
+      {91, {75, 3, 0, {}}},
+      {92, {64, 3, 0, {}}},
+      {93, {125, 3, 0, {}}}};
+  const auto found = kTypes.find(type);
+  return found == kTypes.end() ? nullptr : &found->second;
+}
+
+class GmshReader {
+ public:
+  GmshReader(std::string_view text, const std::string& file) : words_(text, file) {}
+
+  MeshFile read() {
+    while (!words_.done()) {
+      const std::string section(words_.word());
+      if (section.substr(0, 1) != "$")
+        words_.refuse("'" + printable(section.substr(0, 40)) + "'", "a section such as $Nodes");
+      if (section != "$MeshFormat" && version_ == 0.0)
+        words_.refuse("'" + printable(section.substr(0, 40)) + "'", "$MeshFormat");
+      if (section == "$MeshFormat") read_format();
+      if (section == "$Nodes") version_ < 4.0 ? read_nodes_2() : read_nodes_4();
+      if (section == "$Elements") version_ < 4.0 ? read_elements_2() : read_elements_4();
+      if (section == "$NodeData" || section == "$ElementData") read_values(section == "$NodeData");
+      if (section == "$ElementNodeData" || section == "$InterpolationScheme") ++skipped_[section];
+      // Others may be binary: physical names, entities, periodic nodes.
+      words_.skip_behind("$End" + section.substr(1));
+    }
+    return made();
+  }
+
+ private:
+  struct Values {
+    std::string name;
+    bool of_nodes = true;
+    double time = 0.0;
+    std::int64_t step = 0;
+    int components = 1;
+    std::vector<std::pair<std::int64_t, std::size_t>> tags;  ///< and where their numbers begin
+    std::vector<double> numbers;
+  };
+
+  void read_format() {
+    version_ = words_.number("a version");
+    const std::int64_t binary = words_.integer("0 for text, 1 for binary", 0, 1);
+    const std::int64_t size = words_.integer("the size of a number", 1, 16);
+    if (version_ != 2.2 && version_ != 4.1) {
+      words_.refuse("version " + short_number(version_), "2.2 or 4.1",
+                    "write it again: gmsh FILE -save -format msh41");
+    }
+    if (size != 8) words_.refuse("numbers of " + std::to_string(size) + " bytes", "8");
+    binary_ = binary == 1;
+    if (!binary_) return;
+    words_.end_line();
+    const auto one = words_.take<std::int32_t>(false, "the number one");
+    swapped_ = one != 1;
+    if (swapped_ && one != 0x01000000) words_.refuse("a byte order that is none", "the number one");
+  }
+
+  std::int64_t int32() { return words_.take<std::int32_t>(swapped_, "a number"); }
+  std::int64_t size64() {
+    const auto value = words_.take<std::uint64_t>(swapped_, "a number");
+    if (value > static_cast<std::uint64_t>(kMostTag))
+      words_.refuse("a number beyond all bounds", "one that can be");
+    return static_cast<std::int64_t>(value);
+  }
+  double real() { return words_.take<double>(swapped_, "a coordinate"); }
+  /// Of as many things as the rest of the file can hold.
+  std::size_t believed(std::int64_t count, std::size_t least_bytes) {
+    if (count < 0 || static_cast<std::size_t>(count) > words_.left() / least_bytes + 1)
+      words_.refuse("a count of " + std::to_string(count), "no more than the file can hold",
+                    "the file may be truncated");
+    return static_cast<std::size_t>(count);
+  }
+
+  void add_node(std::int64_t tag, const Vec3& x) {
+    if (!index_.try_emplace(tag, positions_.size() / 3).second)
+      words_.refuse("a second node " + std::to_string(tag), "one");
+    for (int i = 0; i < 3; ++i) positions_.push_back(x[i]);
+  }
+
+  void read_nodes_2() {
+    const std::size_t count = words_.count("a count of nodes", 8);
+    if (binary_) words_.end_line();
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::int64_t tag = binary_ ? int32() : words_.integer("the number of a node", 0, kMostTag);
+      Vec3 x{0.0};
+      for (int i = 0; i < 3; ++i) x[i] = binary_ ? real() : words_.number("a coordinate");
+      add_node(tag, x);
+    }
+    expect_end("$EndNodes");
+  }
+
+  void read_nodes_4() {
+    const auto next = [&](const char* what) {
+      return binary_ ? size64() : words_.integer(what, 0, kMostTag);
+    };
+    if (binary_) words_.end_line();
+    const std::size_t blocks = believed(next("a count of blocks"), 4);
+    for (int i = 0; i < 3; ++i) (void)next("a number of nodes");
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::int64_t dimension = binary_ ? int32() : words_.integer("a dimension", 0, 3);
+      (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
+      const std::int64_t parametric = binary_ ? int32() : words_.integer("0 or 1", 0, 1);
+      if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
+        words_.refuse("nodes of dimension " + std::to_string(dimension), "0 to 3");
+      const std::size_t count = believed(next("a count of nodes"), 2);
+      std::vector<std::int64_t> tags(count);
+      for (std::int64_t& tag : tags) tag = next("the number of a node");
+      for (const std::int64_t tag : tags) {
+        Vec3 x{0.0};
+        for (int i = 0; i < 3; ++i) x[i] = binary_ ? real() : words_.number("a coordinate");
+        for (std::int64_t i = 0; i < parametric * dimension; ++i)
+          (void)(binary_ ? real() : words_.number("a coordinate"));
+        add_node(tag, x);
+      }
+    }
+    expect_end("$EndNodes");
+  }
+
+  /// @param nodes their tags, in Gmsh's order.
+  void add_element(const ElementType& type, std::int64_t tag, std::span<const std::int64_t> nodes) {
+    if (type.dimension < 3) {
+      ++flat_;
+      return;
+    }
+    if (type.vtk == 0) {
+      ++unread_;
+      return;
+    }
+    std::array<std::int64_t, 27> points{};
+    const bool own_order = std::ranges::all_of(type.of, [](std::int8_t n) { return n == 0; });
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const std::int64_t node = nodes[own_order ? i : static_cast<std::size_t>(type.of[i])];
+      const auto found = index_.find(node);
+      if (found == index_.end())
+        words_.refuse("element " + std::to_string(tag) + " of node " + std::to_string(node),
+                      "a node that there is");
+      points[i] = static_cast<std::int64_t>(found->second);
+    }
+    cell_of_.try_emplace(tag, cells_.size());
+    cells_.add(type.vtk, points.data(), nodes.size());
+  }
+  const ElementType& known_type(std::int64_t type) {
+    const ElementType* const known = type > 0 && type < 1000 ? element_type(static_cast<int>(type)) : nullptr;
+    if (known == nullptr) {
+      words_.refuse("elements of type " + std::to_string(type), "a type of up to the fourth order",
+                    "write the mesh again at a lower order: gmsh FILE -save -order 2");
+    }
+    return *known;
+  }
+
+  void read_elements_2() {
+    const std::size_t count = words_.count("a count of elements", 6);
+    if (binary_) words_.end_line();
+    std::vector<std::int64_t> nodes;
+    for (std::size_t n = 0; n < count;) {
+      if (!binary_) {
+        const std::int64_t tag = words_.integer("the number of an element", 0, kMostTag);
+        const ElementType& type = known_type(words_.integer("a type", 0, kMostTag));
+        for (std::int64_t i = words_.integer("a count of tags", 0, 1000); i > 0; --i)
+          (void)words_.integer("a tag", -kMostTag, kMostTag);
+        nodes.resize(static_cast<std::size_t>(type.nodes));
+        for (std::int64_t& node : nodes) node = words_.integer("a node", 0, kMostTag);
+        add_element(type, tag, nodes);
+        ++n;
+        continue;
+      }
+      const ElementType& type = known_type(int32());
+      const std::size_t here = believed(int32(), 8);
+      const std::int64_t tags = int32();
+      if (here == 0 || here > count - n || tags < 0 || tags > 1000)
+        words_.refuse("a block of elements that cannot be", "one");
+      nodes.resize(static_cast<std::size_t>(type.nodes));
+      for (std::size_t e = 0; e < here; ++e) {
+        const std::int64_t tag = int32();
+        for (std::int64_t i = 0; i < tags; ++i) (void)int32();
+        for (std::int64_t& node : nodes) node = int32();
+        add_element(type, tag, nodes);
+      }
+      n += here;
+    }
+    expect_end("$EndElements");
+  }
+
+  void read_elements_4() {
+    const auto next = [&](const char* what) {
+      return binary_ ? size64() : words_.integer(what, 0, kMostTag);
+    };
+    if (binary_) words_.end_line();
+    const std::size_t blocks = believed(next("a count of blocks"), 4);
+    for (int i = 0; i < 3; ++i) (void)next("a number of elements");
+    std::vector<std::int64_t> nodes;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      (void)(binary_ ? int32() : words_.integer("a dimension", 0, 3));
+      (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
+      const ElementType& type = known_type(binary_ ? int32() : words_.integer("a type", 0, kMostTag));
+      const std::size_t count = believed(next("a count of elements"), 2);
+      nodes.resize(static_cast<std::size_t>(type.nodes));
+      for (std::size_t e = 0; e < count; ++e) {
+        const std::int64_t tag = next("the number of an element");
+        for (std::int64_t& node : nodes) node = next("a node");
+        add_element(type, tag, nodes);
+      }
+    }
+    expect_end("$EndElements");
+  }
+
+  void read_values(bool of_nodes) {
+    Values values;
+    values.of_nodes = of_nodes;
+    for (std::int64_t i = 0, n = words_.integer("a count of names", 0, 1000); i < n; ++i) {
+      const std::string_view name = words_.word();
+      if (i == 0) values.name = name;
+    }
+    for (std::int64_t i = 0, n = words_.integer("a count of numbers", 0, 1000); i < n; ++i) {
+      const double real_tag = words_.number("a time");
+      if (i == 0) values.time = real_tag;
+    }
+    std::array<std::int64_t, 3> whole{0, 1, 0};
+    for (std::int64_t i = 0, n = words_.integer("a count of whole numbers", 3, 1000); i < n; ++i) {
+      const std::int64_t value = words_.integer("a whole number", 0, kMostTag);
+      if (i < 3) whole[static_cast<std::size_t>(i)] = value;
+    }
+    values.step = whole[0];
+    if (whole[1] != 1 && whole[1] != 3 && whole[1] != 9)
+      words_.refuse(std::to_string(whole[1]) + " components", "1, 3 or 9");
+    values.components = static_cast<int>(whole[1]);
+    const std::size_t count = believed(whole[2], 4);
+    if (values.name.empty()) values.name = of_nodes ? "node data" : "element data";
+    if (binary_) words_.end_line();
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::int64_t tag = binary_ ? int32() : words_.integer("a number", 0, kMostTag);
+      values.tags.emplace_back(tag, values.numbers.size());
+      for (int c = 0; c < values.components; ++c)
+        values.numbers.push_back(binary_ ? real() : words_.number("a value"));
+    }
+    expect_end(of_nodes ? "$EndNodeData" : "$EndElementData");
+    values_.push_back(std::move(values));
+  }
+
+  /// One number too many, or too few, is an error.
+  void expect_end(std::string_view end) {
+    if (const std::string_view word = words_.peek(); word != end) {
+      (void)words_.word();
+      words_.refuse("'" + printable(word.substr(0, 40)) + "'",
+                    std::string(end) + " after as many as were counted");
+    }
+  }
+
+  MeshFile made() {
+    if (positions_.empty()) words_.refuse("no $Nodes", "a mesh");
+    MeshFile out;
+    if (cells_.size() == 0) {
+      throw input_error({words_.file(), "",
+                         unread_ > 0 ? "has volume elements of higher order only, which are not read"
+                                     : "has no volume elements (" + counted(flat_, "other element") + ")",
+                         "tetrahedra, hexahedra, wedges or pyramids up to the second order",
+                         unread_ > 0 ? "write it at a lower order: gmsh FILE -save -order 2"
+                                     : "mesh the volume: gmsh FILE -3"});
+    }
+    if (flat_ > 0) out.notes.push_back(counted(flat_, "element") + " of lower dimension left out");
+    if (unread_ > 0) {
+      out.notes.push_back(
+          counted(unread_, "volume element") +
+          " of a kind that is not read (third order and higher, pyramids of 14 nodes) left out");
+    }
+    for (const auto& [section, count] : skipped_)
+      out.notes.push_back(counted(count, "section") + " " + section + " left out");
+
+    DataSet block;
+    UnstructuredTopology mesh;
+    mesh.positions = mesh_array("positions", Association::kPoint, 3, positions_);
+    cells_.take(mesh);
+    const std::size_t cell_count = mesh.types.size();
+    block.topology = std::move(mesh);
+    // A view has a section for each step: those of one number, by their times.
+    std::map<double, std::map<std::pair<std::string, bool>, const Values*>> by_time;
+    for (const Values& values : values_) by_time[values.time][{values.name, values.of_nodes}] = &values;
+    if (by_time.empty()) by_time[0.0];
+    std::map<std::pair<std::string, bool>, std::size_t> uses;
+    for (const auto& [time, arrays] : by_time) {
+      for (const auto& [key, values] : arrays) ++uses[key];
+    }
+    for (const auto& [time, arrays] : by_time) {
+      DataSet step = block;
+      auto all = arrays;
+      // What stands once holds at all times.
+      for (const Values& values : values_) {
+        if (uses[{values.name, values.of_nodes}] == 1) all[{values.name, values.of_nodes}] = &values;
+      }
+      for (const auto& [key, values] : all) add_array(*values, cell_count, step, out.notes);
+      out.times.push_back(time);
+      out.steps.push_back({std::move(step)});
+    }
+    keep_common(out);
+    return out;
+  }
+
+  void add_array(const Values& values, std::size_t cell_count, DataSet& block,
+                 std::vector<std::string>& notes) {
+    const auto n = static_cast<std::size_t>(values.components);
+    const std::size_t tuples = values.of_nodes ? positions_.size() / 3 : cell_count;
+    std::vector<double> all(n * tuples, std::numeric_limits<double>::quiet_NaN());
+    std::size_t unknown = 0, given = 0;
+    const auto& index = values.of_nodes ? index_ : cell_of_;
+    for (const auto& [tag, at] : values.tags) {
+      const auto found = index.find(tag);
+      if (found == index.end()) {
+        ++unknown;
+        continue;
+      }
+      ++given;
+      std::copy_n(values.numbers.begin() + static_cast<std::ptrdiff_t>(at), n,
+                  all.begin() + static_cast<std::ptrdiff_t>(n * found->second));
+    }
+    const auto note = [&](const std::string& text) {
+      const std::string whole = "'" + values.name + "': " + text;
+      if (std::ranges::find(notes, whole) == notes.end()) notes.push_back(whole);
+    };
+    if (values.of_nodes && unknown > 0) note(counted(unknown, "value") + " of nodes that there are not");
+    if (given < tuples)
+      note(counted(tuples - given, values.of_nodes ? "node" : "cell") + " without a value: no data there");
+    if (given == 0 && !values.of_nodes) return;  // of surfaces alone
+    block.arrays.push_back(mesh_array(values.name, values.of_nodes ? Association::kPoint : Association::kCell,
+                                      values.components, all));
+  }
+
+  /// Arrays that all steps have: others would be missing at some time.
+  static void keep_common(MeshFile& file) {
+    std::vector<std::string> lost;
+    for (const auto& step : file.steps) {
+      for (const DataArray& array : step.front().arrays) {
+        const bool everywhere = std::ranges::all_of(file.steps, [&](const auto& other) {
+          return other.front().find(array.name, array.association) != nullptr;
+        });
+        if (!everywhere && std::ranges::find(lost, array.name) == lost.end()) lost.push_back(array.name);
+      }
+    }
+    for (const std::string& name : lost) {
+      file.notes.push_back("'" + name + "' left out: it is not there at all times");
+      for (auto& step : file.steps)
+        std::erase_if(step.front().arrays, [&](const DataArray& array) { return array.name == name; });
+    }
+  }
+
+  MeshWords words_;
+  double version_ = 0.0;
+  bool binary_ = false, swapped_ = false;
+  std::vector<double> positions_;
+  std::unordered_map<std::int64_t, std::size_t> index_, cell_of_;  ///< by tag
+  CellList cells_;
+  std::size_t flat_ = 0, unread_ = 0;
+  std::map<std::string, std::size_t> skipped_;
+  std::vector<Values> values_;
+};
+
+}  // namespace
+
+MeshFile read_gmsh(std::string_view text, const std::string& file) { return GmshReader(text, file).read(); }
+
+}  // namespace palpate

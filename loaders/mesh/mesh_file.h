@@ -1,0 +1,46 @@
+/// What a file of meshes holds, and the readers that find it out. No reader needs a library.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/field/data_set.h"
+
+namespace palpate {
+
+struct MeshFile {
+  std::vector<double> times;  ///< rising; none for a single state
+  std::vector<std::vector<DataSet>>
+      steps;  ///< the blocks at each time, with all arrays; one for a single state
+  std::vector<std::string> notes;
+};
+
+/// Cells of an unstructured block while they are read. Those of volumes are kept; of others only the count.
+class CellList {
+ public:
+  void add(std::uint8_t type, const std::int64_t* points, std::size_t count);
+  [[nodiscard]] std::size_t size() const noexcept { return types_.size(); }
+  /// The cells into a topology.
+  void take(UnstructuredTopology& mesh);
+
+ private:
+  std::vector<std::uint8_t> types_;
+  std::vector<std::int64_t> offsets_{0}, connectivity_;
+};
+
+/// Values of a mesh that are known by name, as an array; those that are not are NaN.
+[[nodiscard]] DataArray mesh_array(const std::string& name, Association association, int components,
+                                   const std::vector<double>& values);
+
+/// Gmsh's .msh, 2.2 and 4.1, text and binary ("MSH file format" of its manual): volumes with node and element data.
+/// @throws Error (bad input) with `file`, as the next.
+[[nodiscard]] MeshFile read_gmsh(std::string_view text, const std::string& file);
+/// SU2's native mesh ("Mesh File" of its documentation), which holds no values.
+[[nodiscard]] MeshFile read_su2(std::string_view text, const std::string& file);
+/// Tecplot's ASCII data ("ASCII Data", Tecplot 360 Data Format Guide): ordered and finite-element zones.
+[[nodiscard]] MeshFile read_tecplot(std::string_view text, const std::string& file);
+/// AVS's unstructured cell data in text.
+[[nodiscard]] MeshFile read_ucd(std::string_view text, const std::string& file);
+
+}  // namespace palpate

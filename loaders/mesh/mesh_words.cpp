@@ -1,0 +1,127 @@
+#include "loaders/mesh/mesh_words.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+
+namespace palpate {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '\f' || c == '\v';
+}
+
+std::string quote(std::string_view word) { return "'" + printable(word.substr(0, 40)) + "'"; }
+
+}  // namespace
+
+void MeshWords::skip() {
+  while (at_ < text_.size()) {
+    if (is_blank(text_[at_])) {
+      ++at_;
+    } else if (comment_ != '\0' && text_[at_] == comment_) {
+      at_ = std::min(text_.size(), text_.find('\n', at_));
+    } else {
+      return;
+    }
+  }
+}
+
+bool MeshWords::done() {
+  skip();
+  return at_ >= text_.size();
+}
+
+std::string_view MeshWords::word() {
+  skip();
+  last_ = at_;
+  quoted_ = false;
+  if (at_ >= text_.size()) return {};
+  if (text_[at_] == '"') {
+    const std::size_t end = std::min(text_.size(), text_.find('"', at_ + 1));
+    const std::string_view out = text_.substr(at_ + 1, end - at_ - 1);
+    at_ = std::min(text_.size(), end + 1);
+    quoted_ = true;
+    return out;
+  }
+  std::size_t end = at_;
+  while (end < text_.size() && !is_blank(text_[end]) && text_[end] != '"') ++end;
+  const std::string_view out = text_.substr(at_, end - at_);
+  at_ = end;
+  return out;
+}
+
+std::string_view MeshWords::peek() {
+  const std::size_t before = at_, last = last_;
+  const std::string_view out = word();
+  at_ = before;
+  last_ = last;
+  return out;
+}
+
+std::string_view MeshWords::rest_of_line() {
+  last_ = at_;
+  const std::size_t end = std::min(text_.size(), text_.find('\n', at_));
+  std::string_view out = text_.substr(at_, end - at_);
+  at_ = std::min(text_.size(), end + 1);
+  if (comment_ != '\0') out = out.substr(0, out.find(comment_));
+  return trimmed(out);
+}
+
+double MeshWords::number(const char* what) {
+  const std::string_view text = word();
+  if (const auto value = palpate::number(text)) return *value;
+  // As Fortran writes it: 1.0D+00, and 1.0-100 where the letter found no place.
+  std::string plain(text.substr(0, 64));
+  for (char& c : plain) {
+    if (c == 'd' || c == 'D') c = 'e';
+  }
+  if (plain.find_first_of("eE") == std::string::npos) {
+    const std::size_t sign = plain.find_first_of("+-", 1);
+    if (sign != std::string::npos) plain.insert(sign, "e");
+  }
+  if (const auto value = palpate::number(plain); value && !text.empty()) return *value;
+  refuse(text.empty() ? "ends" : quote(text), what, text.empty() ? "the file may be truncated" : "");
+}
+
+std::int64_t MeshWords::integer(const char* what, std::int64_t least, std::int64_t most) {
+  std::string_view text = word();
+  if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
+  const auto value = parsed<std::int64_t>(text);
+  if (value && *value >= least && *value <= most) return *value;
+  refuse(text.empty() ? "ends" : quote(text),
+         std::string(what) + " from " + std::to_string(least) + " to " + std::to_string(most),
+         text.empty() ? "the file may be truncated" : "");
+}
+
+std::size_t MeshWords::count(const char* what, std::size_t least_bytes) {
+  return static_cast<std::size_t>(integer(what, 0, static_cast<std::int64_t>(left() / least_bytes + 1)));
+}
+
+void MeshWords::end_line() {
+  const std::size_t end = text_.find('\n', at_);
+  at_ = end == std::string_view::npos ? text_.size() : end + 1;
+}
+
+std::string_view MeshWords::bytes(std::size_t count, const char* what) {
+  last_ = at_;
+  if (count > left()) refuse("ends", what, "the file may be truncated");
+  const std::string_view out = text_.substr(at_, count);
+  at_ += count;
+  return out;
+}
+
+void MeshWords::skip_behind(std::string_view word) {
+  const std::size_t found = text_.find(word, at_);
+  at_ = found == std::string_view::npos ? text_.size() : found + word.size();
+}
+
+void MeshWords::refuse(const std::string& found, const std::string& expected,
+                       const std::string& remedy) const {
+  const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(last_), '\n');
+  throw input_error({file_, "line " + std::to_string(line), found, expected, remedy});
+}
+
+}  // namespace palpate

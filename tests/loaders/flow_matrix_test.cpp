@@ -1,0 +1,244 @@
+// One cell of every kind in every dialect of meshes: kind x dialect x type of number x byte order, written here by
+// formula and byte by byte, so that no reader or writer vouches for another. The table is part of loaders/README.md:
+//   PALPATE_WRITE_PAGES=1 ctest --preset release -R loaders/flow_matrix_test
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/loaders/cell_kinds.h"
+#include "tests/support/project_folders.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+struct Variant {
+  bool wide = true;  ///< double precision
+  bool big = false;
+};
+struct Dialect {
+  const char *format, *encoding, *name;
+  std::vector<Variant> variants;
+  std::function<std::string(const CellKind&, const Variant&)> write;  ///< empty where it has no such file
+  bool has_values = true;
+};
+
+std::string number_bytes(double value, const Variant& variant) {
+  return variant.wide ? raw(value, variant.big) : raw(static_cast<float>(value), variant.big);
+}
+
+std::string legacy_file(const CellKind& kind, const Variant& variant, bool binary) {
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  const std::string type = variant.wide ? "double" : "float";
+  const auto vectors = [&](const std::vector<Vec3>& all) {
+    std::string out;
+    for (const Vec3& v : all) {
+      if (!binary) out += words_of(v) + "\n";
+      for (int i = 0; binary && i < 3; ++i) out += number_bytes(v[i], {variant.wide, true});
+    }
+    return out + (binary ? "\n" : "");
+  };
+  const auto whole = [&](std::size_t n) {
+    return binary ? raw(static_cast<std::int32_t>(n), true) : std::to_string(n) + " ";
+  };
+  std::string out = std::string("# vtk DataFile Version 3.0\nt\n") + (binary ? "BINARY" : "ASCII") +
+                    "\nDATASET UNSTRUCTURED_GRID\nPOINTS " + std::to_string(nodes.size()) + " " + type +
+                    "\n" + vectors(nodes) + "CELLS 1 " + std::to_string(nodes.size() + 1) + "\n" +
+                    whole(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) out += whole(i);
+  out += "\nCELL_TYPES 1\n" + whole(kind.vtk) + "\nPOINT_DATA " + std::to_string(nodes.size()) +
+         "\nVECTORS U " + type + "\n";
+  std::vector<Vec3> values;
+  for (const Vec3& x : nodes) values.push_back(flow_at(x));
+  return out + vectors(values);
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t b = 0; b < 3; ++b)
+      three = three << 8U | (i + b < bytes.size() ? static_cast<unsigned char>(bytes[i + b]) : 0U);
+    for (std::size_t c = 0; c < 4; ++c)
+      text += i + c > bytes.size() ? '=' : kLetters[three >> (18U - 6U * c) & 63U];
+  }
+  return text;
+}
+
+enum class Xml { kAscii, kBase64, kAppended };
+
+std::string vtu_file(const CellKind& kind, const Variant& variant, Xml how) {
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  std::string appended;
+  const auto array = [&](const std::string& about, const std::string& words, const std::string& bytes) {
+    const std::string counted = raw(static_cast<std::uint64_t>(bytes.size()), variant.big) + bytes;
+    std::string out = "<DataArray " + about;
+    if (how == Xml::kAscii) return out + " format=\"ascii\">" + words + "</DataArray>";
+    if (how == Xml::kBase64) return out + " format=\"binary\">" + base64(counted) + "</DataArray>";
+    out += " format=\"appended\" offset=\"" + std::to_string(appended.size()) + "\"/>";
+    appended += counted;
+    return out;
+  };
+  const std::string type = variant.wide ? "Float64" : "Float32";
+  const auto vectors = [&](const std::string& name, const std::vector<Vec3>& all) {
+    std::string words, bytes;
+    for (const Vec3& v : all) {
+      words += words_of(v) + " ";
+      for (int i = 0; i < 3; ++i) bytes += number_bytes(v[i], variant);
+    }
+    return array("type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"3\"", words, bytes);
+  };
+  std::vector<Vec3> values;
+  std::string order, order_bytes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    values.push_back(flow_at(nodes[i]));
+    order += std::to_string(i) + " ";
+    order_bytes += raw(static_cast<std::int64_t>(i), variant.big);
+  }
+  std::string out =
+      std::string("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" header_type=\"UInt64\" byte_order=\"") +
+      (variant.big ? "Big" : "Little") + "Endian\"><UnstructuredGrid><Piece NumberOfPoints=\"" +
+      std::to_string(nodes.size()) + "\" NumberOfCells=\"1\"><PointData>" + vectors("U", values) +
+      "</PointData><Points>" + vectors("Points", nodes) + "</Points><Cells>";
+  out += array("type=\"Int64\" Name=\"connectivity\"", order, order_bytes);
+  out += array("type=\"Int64\" Name=\"offsets\"", std::to_string(nodes.size()),
+               raw(static_cast<std::int64_t>(nodes.size()), variant.big));
+  out += array("type=\"UInt8\" Name=\"types\"", std::to_string(kind.vtk),
+               std::string(1, static_cast<char>(kind.vtk)));
+  out += "</Cells></Piece></UnstructuredGrid>";
+  if (how == Xml::kAppended) out += "<AppendedData encoding=\"raw\">_" + appended + "</AppendedData>";
+  return out + "</VTKFile>";
+}
+
+std::vector<Dialect> dialects() {
+  const std::vector<Variant> text{{true, false}, {false, false}}, one{{true, false}},
+      orders{{true, false}, {true, true}};
+  const std::vector<Variant> all{{true, false}, {false, false}, {true, true}, {false, true}};
+  const auto vtu = [](Xml how) {
+    return [how](const CellKind& kind, const Variant& variant) { return vtu_file(kind, variant, how); };
+  };
+  const auto gmsh = [](bool version4, bool binary) {
+    return [=](const CellKind& kind, const Variant& variant) {
+      return gmsh_file(kind, version4, binary, variant.big);
+    };
+  };
+  return {
+      {"VTK legacy", "ascii", "a.vtk", text,
+       [](const CellKind& kind, const Variant& v) { return legacy_file(kind, v, false); }},
+      {"VTK legacy", "binary", "a.vtk", text,
+       [](const CellKind& kind, const Variant& v) { return legacy_file(kind, v, true); }},
+      {"VTK XML", "ascii", "a.vtu", text, vtu(Xml::kAscii)},
+      {"VTK XML", "base64", "a.vtu", all, vtu(Xml::kBase64)},
+      {"VTK XML", "appended", "a.vtu", all, vtu(Xml::kAppended)},
+      {"Gmsh 2.2", "ascii", "a.msh", one, gmsh(false, false)},
+      {"Gmsh 2.2", "binary", "a.msh", orders, gmsh(false, true)},
+      {"Gmsh 4.1", "ascii", "a.msh", one, gmsh(true, false)},
+      {"Gmsh 4.1", "binary", "a.msh", orders, gmsh(true, true)},
+      {"Tecplot", "ascii, POINT", "a.dat", one,
+       [](const CellKind& kind, const Variant&) { return tecplot_file(kind, false); }},
+      {"Tecplot", "ascii, BLOCK", "a.dat", one,
+       [](const CellKind& kind, const Variant&) { return tecplot_file(kind, true); }},
+      {"AVS UCD", "ascii", "a.inp", one, [](const CellKind& kind, const Variant&) { return ucd_file(kind); }},
+      {"SU2", "mesh alone", "a.su2", one, [](const CellKind& kind, const Variant&) { return su2_file(kind); },
+       false}};
+}
+
+/// Empty: the cell is of that kind, its nodes lie where VTK has them, and have their values.
+std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool has_values) {
+  Source source = Source::open({{file}, {}});
+  std::vector<std::string> names;
+  for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
+  const DataSet block = source.read(names).at(0);
+  const auto* const mesh = std::get_if<UnstructuredTopology>(&block.topology);
+  if (mesh == nullptr || mesh->types.size() != 1) return "no single cell";
+  if (mesh->types[0] != kind.vtk) return "a cell of type " + std::to_string(mesh->types[0]);
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  if (mesh->connectivity.size() != nodes.size()) return std::to_string(mesh->connectivity.size()) + " nodes";
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto point = static_cast<std::size_t>(mesh->connectivity[i]);
+    const Vec3 x{mesh->positions.at(point, 0), mesh->positions.at(point, 1), mesh->positions.at(point, 2)};
+    if (glm::distance(x, nodes[i]) > 1e-6) return "node " + std::to_string(i) + " lies elsewhere";
+    if (!has_values) continue;
+    Vec3 v{NAN};
+    const DataArray* const whole = block.find("U", Association::kPoint);
+    for (int c = 0; c < 3; ++c) {
+      const DataArray* const part = block.find(std::string(1, "UVW"[c]), Association::kPoint);
+      if (whole != nullptr && whole->components == 3) v[c] = whole->at(point, c);
+      if (whole != nullptr && whole->components == 1 && part != nullptr) v[c] = part->at(point);
+    }
+    if (!(glm::distance(v, flow_at(nodes[i])) <= 1e-6))
+      return "node " + std::to_string(i) + " has another value";
+  }
+  return {};
+}
+
+std::string table_of(const std::vector<std::vector<std::string>>& rows) {
+  std::string text = "| format | encoding |";
+  for (const CellKind& kind : cell_kinds()) text += std::string(" ") + kind.name + " |";
+  text += "\n|---|---|";
+  for (std::size_t k = 0; k < cell_kinds().size(); ++k) text += "---|";
+  text += "\n";
+  for (const auto& row : rows) {
+    text += "|";
+    for (const std::string& cell : row) text += " " + cell + " |";
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(FlowMatrix, EveryKindOfCellIsRightOrRefusedInEveryDialect) {
+  const TempFolder folder;
+  std::vector<std::vector<std::string>> rows;
+  for (const Dialect& dialect : dialects()) {
+    std::vector<std::string> row{dialect.format, dialect.encoding};
+    for (const CellKind& kind : cell_kinds()) {
+      std::size_t right = 0, refused = 0;
+      for (const Variant& variant : dialect.variants) {
+        const std::string content = dialect.write(kind, variant);
+        if (content.empty()) continue;
+        const auto path = folder.write(dialect.name, content);
+        const std::string what = std::string(dialect.format) + ", " + dialect.encoding + ", " + kind.name +
+                                 (variant.wide ? ", double" : ", float") +
+                                 (variant.big ? ", big" : ", little");
+        try {
+          const std::string fault = wrong(path, kind, dialect.has_values);
+          EXPECT_EQ(fault, "") << what;
+          right += fault.empty() ? 1 : 0;
+        } catch (const Error& error) {
+          EXPECT_EQ(error.code(), ExitCode::kBadInput) << what << ": " << error.what();
+          ++refused;
+          RecordProperty(what, error.what());
+        }
+      }
+      EXPECT_TRUE(right == 0 || refused == 0)
+          << dialect.format << ", " << dialect.encoding << ", " << kind.name;
+      row.emplace_back(right > 0 ? "right" : refused > 0 ? "refused" : "-");
+    }
+    rows.push_back(std::move(row));
+  }
+
+  const auto page = source_folder() / "loaders" / "README.md";
+  std::string text = read_file(page);
+  const std::string begin = "<!-- cells -->\n", end = "<!-- end of cells -->\n";
+  const std::size_t from = text.find(begin), to = text.find(end);
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(to, std::string::npos);
+  const std::string there = text.substr(from + begin.size(), to - from - begin.size());
+  if (std::getenv("PALPATE_WRITE_PAGES") != nullptr) {
+    std::ofstream(page) << text.replace(from + begin.size(), there.size(), table_of(rows));
+  } else {
+    EXPECT_EQ(there, table_of(rows)) << "write it again: PALPATE_WRITE_PAGES=1 ctest -R flow_matrix_test";
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test

@@ -1,0 +1,166 @@
+// Meshes in files that are read without a library: what they hold, what is said, and what is refused.
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/loaders/cell_kinds.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+bool says(const std::vector<std::string>& notes, const std::string& words) {
+  for (const std::string& note : notes) {
+    if (note.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+class Meshes : public ::testing::Test {
+ protected:
+  void refused(const std::string& name, const std::string& content, const std::string& why) {
+    try {
+      Source source = Source::open({{folder_.write(name, content)}, {}});
+      ADD_FAILURE() << "opened, " << why;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  }
+  TempFolder folder_;
+};
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+TEST_F(Meshes, GmshSaysWhatIsLeftOut) {
+  const CellKind& tet = cell_kinds().front();
+  Source source = Source::open({{folder_.write("a.msh", gmsh_file(tet, true, false, false))}, {}});
+  EXPECT_EQ(source.info().format, "Gmsh");
+  EXPECT_TRUE(says(source.info().notes, "1 element of lower dimension left out"));
+}
+
+TEST_F(Meshes, GmshHasTimesAndValuesOfElements) {
+  std::string file = gmsh_file(cell_kinds().front(), false, false, false);
+  file = replaced(file, "\n0.0\n3\n0\n", "\n0.5\n3\n0\n");
+  std::string second = file.substr(file.find("$NodeData"));
+  second = replaced(second, "\n0.5\n3\n0\n", "\n1.5\n3\n1\n");
+  file += second + "$ElementData\n1\n\"p\"\n1\n0.5\n3\n0\n1\n1\n7 42.5\n$EndElementData\n";
+  Source source = Source::open({{folder_.write("a.msh", file)}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.5, 1.5}));
+  const auto blocks = source.read({"U", "p"}, 1);
+  const DataArray* const p = blocks.at(0).find("p", Association::kCell);
+  ASSERT_NE(p, nullptr);  // stands once: holds at all times
+  EXPECT_EQ(p->at(0), 42.5);
+}
+
+TEST_F(Meshes, GmshNodesWithoutValueHaveNoDataAndItIsSaid) {
+  std::string file = gmsh_file(cell_kinds().front(), false, false, false);
+  const std::size_t data = file.find("$NodeData");
+  std::string values = file.substr(data);
+  values = replaced(values, "\n3\n4\n10 ", "\n3\n4\n77 ");
+  Source source = Source::open({{folder_.write("a.msh", file.substr(0, data) + values)}, {}});
+  EXPECT_TRUE(says(source.info().notes, "1 node without a value"));
+  EXPECT_TRUE(says(source.info().notes, "1 value of nodes that there are not"));
+  const auto blocks = source.read({"U"});
+  EXPECT_TRUE(std::isnan(blocks.at(0).find("U", Association::kPoint)->at(0)));
+}
+
+TEST_F(Meshes, BrokenGmshFilesAreRefused) {
+  const CellKind& hex = cell_kinds().at(1);
+  const std::string text = gmsh_file(hex, false, false, false), four = gmsh_file(hex, true, false, false);
+  refused("a.msh", replaced(text, "2.2 0 8", "4.0 0 8"), "version 4");
+  refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n9"), "'$EndNodes'");
+  refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n7"), "$EndNodes after as many");
+  refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n99999999999"), "99999999999");
+  refused("a.msh", replaced(four, "$Nodes\n1 8 ", "$Nodes\n1000000000000 8 "), "1000000000000");
+  refused("a.msh", replaced(text, "7 5 2 1 1 10 20", "7 5 2 1 1 11 20"), "node 11");
+  refused("a.msh", replaced(text, "7 5 2 1 1 ", "7 55 2 1 1 "), "type 55");
+  refused("a.msh", text.substr(0, text.find("$EndElements") - 20), "truncated");
+  refused("a.msh",
+          replaced(text, "$NodeData\n1\n\"U\"\n1\n0.0\n3\n0\n3", "$NodeData\n1\n\"U\"\n1\n0.0\n3\n0\n2"),
+          "2 components");
+  for (const bool version4 : {false, true}) {
+    const std::string binary = gmsh_file(hex, version4, true, false);
+    for (std::size_t cut = binary.find("$Nodes") + 8; cut < binary.size() - 14; cut += 29)
+      refused("b.msh", binary.substr(0, cut), "");
+  }
+}
+
+std::string ordered(const std::string& header, int variables = 4) {
+  std::string out = "VARIABLES = X Y Z U\nZONE " + header + "\n";
+  for (int n = 0; n < 8; ++n) {
+    out += std::to_string(n % 2) + " " + std::to_string(n / 2 % 2) + " " + std::to_string(n / 4);
+    for (int v = 3; v < variables; ++v) out += " " + std::to_string(n) + ".5";
+    out += "\n";
+  }
+  return out;
+}
+
+TEST_F(Meshes, TecplotZonesOfPointsInOrder) {
+  Source source = Source::open({{folder_.write("a.dat", ordered("I=2, J=2, K=2, F=POINT"))}, {}});
+  const DataSet block = source.read({"U"}).at(0);
+  EXPECT_EQ(std::get<StructuredTopology>(block.topology).points, Index3(2));
+  for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(block.arrays.at(0).at(n), static_cast<double>(n) + 0.5);
+}
+
+TEST_F(Meshes, TecplotHasTimesSharedVariablesRepeatedNumbersAndValuesOfCells) {
+  const std::string file =
+      "title=\"t\"\nvariables=\"x [m]\",\"y [m]\",\"z [m]\",\"u\",\"p\"\n"
+      "zone t=\"first\" i=2 j=2 k=2 datapacking=block varlocation=([5]=cellcentered) solutiontime=1 strandid=1\n"
+      "0 1 0 1 0 1 0 1\n0 0 1 1 0 0 1 1\n4*0 4*1\n8*2.5\n1.0D+01\n"
+      "zone t=\"second\" i=2 j=2 k=2 datapacking=block varlocation=([5]=cellcentered) solutiontime=2 strandid=1 varsharelist=([1-3]=1)\n"
+      "8*3.5\n-1.0-1\n";
+  Source source = Source::open({{folder_.write("a.dat", file)}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{1.0, 2.0}));
+  const DataSet second = source.read({"u", "p"}, 1).at(0);
+  EXPECT_EQ(second.find("u", Association::kPoint)->at(7), 3.5);
+  EXPECT_EQ(second.find("p", Association::kCell)->at(0), -0.1);
+  EXPECT_EQ(std::get<StructuredTopology>(second.topology).positions.at(7, 2), 1.0);
+  EXPECT_EQ(source.read({"p"}, 0).at(0).find("p", Association::kCell)->at(0), 10.0);
+}
+
+TEST_F(Meshes, BrokenTecplotFilesAreRefused) {
+  const std::string good = ordered("I=2 J=2 K=2 F=POINT");
+  refused("a.dat", ordered("I=2 J=2 K=2 F=POINT", 5), "behind the last value");
+  refused("a.dat", ordered("I=2 J=2 K=3 F=POINT"), "truncated");
+  refused("a.dat", replaced(good, "3.5", "3.x5"), "3.x5");
+  refused("a.dat", ordered("I=2 J=2 K=2 F=NONSENSE"), "NONSENSE");
+  refused("a.dat", ordered("I=99999999999 J=2 K=2 F=POINT"), "a count of points");
+  refused("a.dat", replaced(good, "0.5", "999*0.5"), "more values");
+  refused("a.dat", replaced(good, "0.5", "999999999*0.5"), "repeated 999999999 times");
+  refused("a.dat", ordered("I=9999999999 J=9999999999 K=9999999999 F=POINT"), "more points");
+  refused("a.dat",
+          "VARIABLES = X Y Z\nZONE N=4 E=1 F=FEPOINT ET=TETRAHEDRON\n0 0 0 1 0 0 0 1 0 0 0 1\n1 2 3 5\n",
+          "node 5");
+  refused("a.dat", "VARIABLES = X Y Z\nZONE N=4 E=1 ZONETYPE=FEPOLYHEDRON\n0 0 0\n", "POLYHEDRON");
+  refused("a.dat", "FILETYPE=SOLUTION\nVARIABLES = U V W\nZONE I=2 J=2 K=2\n", "without its grid");
+  refused("a.dat", "VARIABLES = X Y Z\nZONE I=2 J=2 F=POINT\n0 0 0 1 0 0 0 1 0 1 1 0\n", "surfaces only");
+}
+
+TEST_F(Meshes, BrokenUcdAndSu2FilesAreRefused) {
+  const CellKind& hex = cell_kinds().at(1);
+  const std::string ucd = ucd_file(hex), su2 = su2_file(hex);
+  refused("a.inp", replaced(ucd, "8 1 3 0 0", "9 1 3 0 0"), "");
+  refused("a.inp", replaced(ucd, " hex ", " box "), "'box'");
+  refused("a.inp", replaced(ucd, "9 1 hex 9", "9 1 hex 99"), "node 99");
+  refused("a.inp", ucd.substr(0, ucd.size() - 12), "truncated");
+  refused("a.su2", replaced(su2, "NDIME= 3", "NDIME= 2"), "2 dimensions");
+  refused("a.su2", replaced(su2, "12 0 1", "12 0 8"), "node 8");
+  refused("a.su2", replaced(su2, "NELEM= 1", "NELEM= 2"), "");
+  refused("a.su2", replaced(su2, "\n12 0", "\n17 0"), "type 17");
+  Source source = Source::open({{folder_.write("a.su2", su2)}, {}});
+  EXPECT_TRUE(says(source.info().notes, "holds no flow"));
+}
+
+}  // namespace
+}  // namespace palpate::test
