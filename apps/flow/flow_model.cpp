@@ -5,6 +5,7 @@
 #include "common/compose/haptic_scalar.h"
 #include "common/compose/line_color.h"
 #include "common/compose/line_view.h"
+#include "common/compose/lines_of_flow.h"
 #include "common/compose/resampled_volume.h"
 #include "common/compose/view_keep.h"
 #include "common/compose/volume_fields.h"
@@ -47,12 +48,14 @@ std::shared_ptr<const SceneInfo> info_of(const Input& input, const VectorField& 
 }
 
 /// The lines of `content`, not coloured yet.
-SceneState trace(const Input& input, const FlowContent& content, const Document& document,
-                 Progress& progress) {
+SceneState trace(Input& input, const FlowContent& content, const Document& document, Progress& progress) {
   const VectorField& field = *content.field;
-  const auto seeds = make_seeds(parse_seeds(document.tracing.seeds), field, document.common.seed);
+  const SeedSpec spec = parse_seeds(document.tracing.seeds);
+  check_lines(document.tracing, spec);
+  const auto seeds = make_seeds(spec, field, document.common.seed);
   const TraceOptions trace = view_trace_options(document, field);
-  TraceResult result = trace_lines(field, seeds, trace, &progress);
+  LinesOfFlow traced = trace_flow(input, field, seeds, document, trace, true, &progress);
+  TraceResult& result = traced.result;
   SceneState state = begin_state(input, document);
   state.info = content.info;
   state.lines = std::make_shared<const std::vector<Line>>(std::move(result.lines));
@@ -64,8 +67,9 @@ SceneState trace(const Input& input, const FlowContent& content, const Document&
   state.outside_seeds = result.outside_seeds.size();
   state.line_errors = std::move(result.errors);
   state.seconds_trace = result.seconds_prepare + result.seconds_trace;
-  state.document.tracing.integrator = name_of(result.integrator);
+  if (traced.kind == LineKind::kStreamlines) state.document.tracing.integrator = name_of(result.integrator);
   state.document.tracing.max_length = trace.max_length;
+  state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
   state.notes.insert(state.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
   return state;
 }
@@ -119,7 +123,8 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
 
 /// Whether both ask for the same lines, whatever is around them and whatever colours them.
 bool same_lines(const Document& a, const Document& b) {
-  return a.input.field == b.input.field && a.input.time == b.input.time && a.tracing == b.tracing &&
+  return a.input.field == b.input.field && a.input.time == b.input.time &&
+         a.input.cell_values == b.input.cell_values && a.tracing == b.tracing &&
          a.common.seed == b.common.seed;
 }
 

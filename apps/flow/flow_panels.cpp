@@ -7,6 +7,7 @@
 
 #include "apps/flow/flow_model.h"
 #include "common/base/text.h"
+#include "common/trace/unsteady/trace_unsteady.h"
 #include "common/window/panels/color_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/seed_panel.h"
@@ -22,6 +23,8 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   const SceneInfo& info = *scene.info;
   choose_word("field", state.document.input.field, info.fields);
   draw_time(state, info.times);
+  if (info.times.size() > 1) edit_setting("lines", settings.lines);
+  if (settings.lines != name_of(LineKind::kStreamlines)) edit_setting("time-order", settings.time_order);
   draw_seeds(state, true);
   edit_setting("direction", settings.direction);
   choose_word("integrator", settings.integrator, info.integrators);

@@ -9,6 +9,7 @@
 #include "common/compose/haptic_scalar.h"
 #include "common/compose/line_color.h"
 #include "common/compose/line_view.h"
+#include "common/compose/lines_of_flow.h"
 #include "common/compose/resampled_volume.h"
 #include "common/compose/trace_options.h"
 #include "common/compose/volume_fields.h"
@@ -72,7 +73,10 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
                       const VerbContext& context, double aspect) {
   const auto field = input.load_field(options.common.threads, &context.progress);
   const auto seeds = make_seeds(view_seeds(options), *field, options.common.seed);
-  TraceResult traced = trace_lines(*field, seeds, view_trace_options(options, *field), &context.progress);
+  LinesOfFlow of_flow = trace_flow(input, *field, seeds, options, view_trace_options(options, *field), false,
+                                   &context.progress);
+  for (const std::string& note : of_flow.notes) context.console.note(note);
+  TraceResult& traced = of_flow.result;
   DrawnScene drawn;
   drawn.field = field->name();
   drawn.seconds_trace = traced.seconds_prepare + traced.seconds_trace;
@@ -119,7 +123,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
             const PictureMaker maker{
                 .check =
                     [&modes](const Document& given) {
-                      (void)view_seeds(given);
+                      check_lines(given.tracing, view_seeds(given));
                       check_flow_volume(given.volume);
                       (void)trace_options(given, "both");
                       if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());

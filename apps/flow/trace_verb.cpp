@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "apps/flow/flow_verbs.h"
 #include "common/base/clock.h"
@@ -9,6 +10,7 @@
 #include "common/cli/summaries.h"
 #include "common/cli/trace_text.h"
 #include "common/cli/verbs.h"
+#include "common/compose/lines_of_flow.h"
 #include "common/compose/trace_options.h"
 #include "common/load/write/write_lines.h"
 #include "common/scene/plan.h"
@@ -70,7 +72,8 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
   }
   const bool any = std::any_of(result.lines.begin(), result.lines.end(),
                                [](const Line& line) { return line.points.size() > 1; });
-  if (any) return {};
+  const bool in_time = summary.kind == LineKind::kStreaklines || summary.kind == LineKind::kTimelines;
+  if (any || (in_time && count_of(result, End::kEndOfTime) > 0)) return {};
   if (field.max_speed() == 0.0)
     return "no line: field " + summary.field + " is zero everywhere; try another --field";
   if (count_of(result, End::kBadData) == result.lines.size()) {
@@ -92,6 +95,10 @@ std::string summary_text(const TraceSummary& summary) {
           ", tolerance " + short_number(summary.tolerance) + ", longest line allowed " +
           short_number(summary.max_length) + " (" + short_number(summary.max_length / summary.diagonal) +
           " diagonals)\n";
+  if (summary.kind != LineKind::kStreamlines) {
+    text += "  " + std::string(name_of(summary.kind)) +
+            (summary.kind == LineKind::kStreaklines ? " " : "  ") + in_time_text(summary.in_time) + "\n";
+  }
   text += trace_error_text(summary) + trace_seconds_text(summary);
   for (const std::string& advice : summary.advice) text += "  note       " + advice + "\n";
   return text;
@@ -109,7 +116,8 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     throw usage_error("trace needs an output: try --out lines.vtp (or --json to get the counts alone)");
   }
   const SeedSpec spec = parse_seeds(options.tracing.seeds);
-  TraceOptions trace = trace_options(options, "forward");
+  check_lines(options.tracing, spec);
+  const TraceOptions trace = trace_options(options, "forward");
   if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
 
   Input input = open_input(options, context);
@@ -136,8 +144,14 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.seed_points = make_seeds(spec, *field, options.common.seed);
   summary.seeds = summary.seed_points.size();
 
-  summary.result = trace_lines(*field, summary.seed_points, trace, &context.progress);
+  LinesOfFlow traced =
+      trace_flow(input, *field, summary.seed_points, options, trace, false, &context.progress);
+  const std::vector<PointColumn> moments = moment_column(traced);
+  summary.result = std::move(traced.result);
+  summary.kind = traced.kind;
+  summary.in_time = traced.in_time;
   summary.advice = advice_for(summary);
+  summary.advice.insert(summary.advice.end(), traced.notes.begin(), traced.notes.end());
   summary.failure = failure_of(summary, *field);
   if (!summary.result.outside_seeds.empty()) console.note(outside_text(summary, field->bounds()));
 
@@ -149,7 +163,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   if (!options.output.file.empty()) {
     context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
-    write_lines(options.output.file, summary.result.lines, options.common.force);
+    write_lines(options.output.file, summary.result.lines, options.common.force, moments);
     summary.seconds_write = watch.seconds();
     context.interrupt.keep(options.output.file);
   }

@@ -25,6 +25,7 @@
 #include "common/trace/trace.h"
 #include "common/trace/tract/trace_tracts.h"
 #include "common/trace/tract/tract_orientation.h"
+#include "common/trace/unsteady/trace_unsteady.h"
 
 namespace palpate {
 
@@ -35,6 +36,8 @@ struct TraceSummary {
   std::size_t seeds = 0;
   std::vector<Vec3> seed_points;
   TraceResult result;  ///< lines included
+  LineKind kind = LineKind::kStreamlines;
+  InTime in_time;  ///< of all kinds but streamlines
   double tolerance = 0.0;
   double diagonal = 0.0;
   double max_length = 0.0;  ///< data units, as applied

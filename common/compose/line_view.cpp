@@ -10,12 +10,15 @@
 #include "common/compose/domain_outline.h"
 #include "common/compose/trace_options.h"
 #include "common/compose/volume_scene.h"
+#include "common/trace/unsteady/trace_unsteady.h"
 
 namespace palpate {
 
 TraceOptions view_trace_options(const Document& options, const VectorField& field) {
   TraceOptions trace = trace_options(options, "both");
   if (trace.max_length == 0.0) trace.max_length = kViewDiagonals * field.diagonal();
+  // Particles go one way in time.
+  if (options.tracing.lines != name_of(LineKind::kStreamlines) && trace.forward) trace.backward = false;
   return trace;
 }
 

@@ -22,10 +22,11 @@ enum class End : std::uint8_t {
   kBadData,
   kStoppedByRule,
   kBelowCutoff,  ///< tracts: the measure of anisotropy fell below its cut-off
-  kSharpTurn     ///< tracts: it would have turned by more than allowed
+  kSharpTurn,    ///< tracts: it would have turned by more than allowed
+  kEndOfTime     ///< unsteady flow: the last moment that was asked for, or that there are data of
 };
 
-inline constexpr int kEndCount = 10;
+inline constexpr int kEndCount = 11;
 
 struct LinePoint {
   Vec3 position{0.0};
@@ -42,13 +43,16 @@ struct Line {
   End end = End::kLeftDomain;
   TraceDirection direction = TraceDirection::kForward;
   std::uint32_t seed = 0;  ///< index into the seeds
+  /// Of unsteady flow, in the data's time: when the particle of a pathline was released; when a streakline or a
+  /// timeline is seen.
+  double moment = 0.0;
 };
 
 /// "left_domain"
 [[nodiscard]] inline std::string_view name_of(End end) noexcept {
   static constexpr std::array<std::string_view, kEndCount> kNames{
-      "left_domain", "stagnation", "max_length",      "max_time",     "max_steps",
-      "loop",        "bad_data",   "stopped_by_rule", "below_cutoff", "sharp_turn"};
+      "left_domain", "stagnation",      "max_length",   "max_time",   "max_steps",  "loop",
+      "bad_data",    "stopped_by_rule", "below_cutoff", "sharp_turn", "end_of_time"};
   return kNames[as_size(end)];
 }
 

@@ -71,6 +71,8 @@ class LineBuilder {
 
   [[nodiscard]] const LinePoint& last() const noexcept { return last_; }
   [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
+  /// Why the line is closed. @pre it is.
+  [[nodiscard]] End why() const noexcept { return line_.end; }
   /// The line, in storage of its own size; the builder keeps its larger one for the next.
   [[nodiscard]] Line take() const { return line_; }
 

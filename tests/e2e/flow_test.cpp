@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <thread>
@@ -71,6 +72,72 @@ TEST_F(Flow, StatesTheKeysOfTheContract) {
   EXPECT_EQ(object["lines"], 40);
   EXPECT_EQ(sum_of(object["ends"]), 40U);
   EXPECT_GT(object["error_max"].get<double>(), 0.0);
+}
+
+/// A rotation about z at the rate 1 + t on 5^3 points, at the times 0, 0.1, ....
+/// A particle turns by t + t^2 / 2, which linear interpolation in time has exactly.
+void write_growing_turn(const TempFolder& folder, int steps) {
+  std::string list = "<VTKFile type=\"Collection\"><Collection>";
+  for (int step = 0; step < steps; ++step) {
+    const double rate = 1.0 + 0.1 * step;
+    std::ostringstream text;
+    text.precision(17);
+    text
+        << "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 5 5 5\nORIGIN -1 -1 -1\n"
+           "SPACING 0.5 0.5 0.5\nPOINT_DATA 125\nVECTORS v double\n";
+    for (int p = 0; p < 125; ++p) {
+      const double x = -1.0 + 0.5 * (p % 5), y = -1.0 + 0.5 * (p / 5 % 5);
+      text << -rate * y << " " << rate * x << " 0\n";
+    }
+    const std::string name = "t" + std::to_string(step) + ".vtk";
+    (void)folder.write(name, text.str());
+    list += "<DataSet timestep=\"" + std::to_string(0.1 * step) + "\" file=\"" + name + "\"/>";
+  }
+  (void)folder.write("turn.pvd", list + "</Collection></VTKFile>");
+}
+
+TEST_F(Flow, TracesLinesInTime) {
+  write_growing_turn(folder_, 11);
+  const Json object =
+      json({"trace", "turn.pvd", "--lines", "pathlines", "--seeds", "point:0.5,0,0", "--out", "l.csv"});
+  EXPECT_EQ(object["kind"], "pathlines");
+  EXPECT_EQ(object["ends"]["end_of_time"], 1);
+  EXPECT_EQ(object["in_time"]["steps"], 11);
+  EXPECT_EQ(object["in_time"]["steps_in_memory"], 2);
+  EXPECT_LT(object["in_time"]["error_sampling"].get<double>(), 1e-4);
+  const std::string csv = read_file(folder_.path("l.csv"));
+  EXPECT_EQ(csv.substr(0, csv.find('\n')), "line,seed,point,x,y,z,time,arc,speed,error,termination,moment");
+  const std::string last = csv.substr(csv.rfind('\n', csv.size() - 2) + 1);
+  std::istringstream fields(last);
+  std::vector<double> numbers;
+  for (std::string field; std::getline(fields, field, ',') && numbers.size() < 7;)
+    numbers.push_back(std::stod(field));
+  ASSERT_EQ(numbers.size(), 7U) << last;
+  EXPECT_NEAR(numbers[3], 0.5 * std::cos(1.5), 1e-4);
+  EXPECT_NEAR(numbers[4], 0.5 * std::sin(1.5), 1e-4);
+  EXPECT_NEAR(numbers[6], 1.0, 1e-12);
+
+  EXPECT_EQ(json({"trace", "turn.pvd", "--lines", "streaklines", "--time", "0.5", "--seeds",
+                  "point:0.5,0,0"})["points"],
+            65);
+  EXPECT_EQ(json({"trace", "turn.pvd", "--lines", "timelines", "--seeds", "line:0,0,0,0.5,0,0,9",
+                  "--time-order", "cubic", "--release-every", "0.25"})["lines"],
+            4);
+  EXPECT_EQ(run({"render", "turn.pvd", "--lines", "pathlines", "--seeds", "grid:2,2,2", "--size", "64x48",
+                 "--out", "p.png"})
+                .exit_code,
+            0);
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+  };
+  refused({"trace", "turn.pvd", "--lines", "timelines", "--seeds", "random:9", "--json"}, "seeds in a row");
+  refused({"trace", "turn.pvd", "--lines", "pathlines", "--until", "9", "--seeds", "grid:2,2,2", "--json"},
+          "--until 9");
+  refused({"trace", "t3.vtk", "--lines", "pathlines", "--seeds", "grid:2,2,2", "--json"}, "two steps");
+  refused({"trace", "--example", "abc", "--lines", "pathlines", "--seeds", "grid:2,2,2", "--json"},
+          "two steps");
 }
 
 TEST_F(Flow, CountsAndNamesSeedsOutside) {

@@ -74,6 +74,21 @@ std::string trace_json(const TraceSummary& summary) {
             {"seconds_write", summary.seconds_write},
             {"advice", summary.advice},
             {"version", version()}};
+  if (summary.kind != LineKind::kStreamlines) {
+    const InTime& in_time = summary.in_time;
+    json["kind"] = name_of(summary.kind);
+    json["in_time"] = {{"from", in_time.from},
+                       {"until", in_time.until},
+                       {"releases", in_time.releases},
+                       {"steps", in_time.steps},
+                       {"steps_in_memory", in_time.steps_in_memory},
+                       {"error_sampling", in_time.sampling_known ? Json(in_time.sampling) : Json(nullptr)},
+                       {"error_integration", in_time.integration},
+                       {"largest_gap", in_time.gap},
+                       {"moving_mesh", in_time.moving_mesh},
+                       {"other_meshes", in_time.other_meshes},
+                       {"torn", in_time.torn}};
+  }
   return ended(std::move(json), summary);
 }
 

@@ -40,6 +40,11 @@ struct TracingOptions {
   double max_time = 0.0;
   std::int64_t max_steps = 1'000'000;
   std::vector<std::string> stop_planes;  ///< nx,ny,nz,d: lines end where n.x = d
+  std::string lines = "streamlines";     ///< name_of(LineKind)
+  std::string time_order = "linear";     ///< name_of(TimeOrder)
+  std::optional<double> release_from;    ///< UnsteadyOptions::from; absent: the time of the input
+  double release_every = 0.0;            ///< UnsteadyOptions::every
+  std::optional<double> until;           ///< UnsteadyOptions::until
 
   bool operator==(const TracingOptions&) const = default;
 };

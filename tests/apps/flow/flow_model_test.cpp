@@ -103,6 +103,56 @@ TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
   EXPECT_EQ(none.lines, first.lines);
 }
 
+/// v = (1 + t, 0, 0) at the times 0 to 3.
+std::vector<std::filesystem::path> series(const TempFolder& folder) {
+  std::vector<std::filesystem::path> files;
+  for (int step = 0; step < 4; ++step) {
+    std::ostringstream text;
+    text
+        << "# vtk DataFile Version 3.0\nflow\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+           "SPACING 100 1 1\nPOINT_DATA 8\nVECTORS v float\n";
+    for (int i = 0; i < 8; ++i) text << 1 + step << " 0 0\n";
+    files.push_back(folder.write("s" + std::to_string(step) + ".vtk", text.str()));
+  }
+  return files;
+}
+
+TEST(FlowModel, FollowsTheTimeOfTheSliderWithLinesInTime) {
+  const TempFolder folder;
+  Document options;
+  options.input.files = series(folder);
+  options.tracing.seeds = "point:1,0.5,0.5";
+  FlowModel model(options, "flow");
+  Progress progress;
+  const SceneState first = model.start(progress);
+  ASSERT_EQ(first.info->times.size(), 4U);
+  const double last_time = first.info->times.back(), unit = last_time / 3.0;
+
+  Document document = first.document;
+  document.tracing.lines = "pathlines";
+  document.tracing.max_length = 50.0;
+  const SceneState paths = model.update(document, progress);
+  ASSERT_EQ(paths.lines->size(), 1U);
+  EXPECT_NEAR(paths.lines->front().points.back().position.x, 1.0 + 7.5 * unit,
+              1e-6);  // the integral of 1 + t
+
+  document = paths.document;
+  document.tracing.lines = "streaklines";
+  EXPECT_TRUE(model.update(document, progress).lines->empty())
+      << "nothing was released before the first time";
+  document.input.time = std::to_string(2.0 * unit);
+  const SceneState dye = model.update(document, progress);
+  ASSERT_EQ(dye.lines->size(), 1U);
+  EXPECT_EQ(dye.lines->front().moment, 2.0 * unit);
+  EXPECT_EQ(dye.lines->front().points.front().position.x, 1.0);
+  EXPECT_NEAR(dye.lines->front().points.back().position.x, 1.0 + 4.0 * unit, 1e-6);
+
+  document = dye.document;
+  document.tracing.lines = "timelines";
+  document.tracing.seeds = "random:5";
+  EXPECT_THROW((void)model.update(document, progress), Error);
+}
+
 TEST(FlowModel, KeepsTheVolumeInASession) {
   const TempFolder folder;
   Document options = with_volume("speed,mass");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/scene/flow_series.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -126,6 +127,44 @@ TEST(Input, ATransientWithoutMovementOpensAtItsFirstStep) {
   EXPECT_EQ(input.time().step, 0U);
   EXPECT_FALSE(says_why(input));
   EXPECT_EQ(input.load_field(1)->max_speed(), 0.0);
+}
+
+TEST(FlowSeries, ReadsStepsInTheOrderOfTimeAndKeepsTheGridThatStays) {
+  const TempFolder folder;
+  InputOptions spec = transient(folder, {1.0, 2.0, 3.0, 4.0});
+  // The last comes first.
+  spec.files = {folder.write("u.pvd", R"(<VTKFile type="Collection"><Collection>
+<DataSet timestep="2" file="t2.vtk"/><DataSet timestep="0" file="t0.vtk"/><DataSet timestep="1" file="t1.vtk"/>
+</Collection></VTKFile>)")};
+  Input input = Input::open(spec);
+  const std::size_t own = input.time().step;
+  FlowSeries series(input, 1);
+  EXPECT_EQ(series.times(), (std::vector<double>{0.0, 1.0, 2.0}));
+  const auto first = series.read(0), last = series.read(2);
+  EXPECT_EQ(first->max_speed(), 1.0);
+  EXPECT_EQ(last->max_speed(), 3.0);
+  EXPECT_EQ(first->grid(), last->grid());
+  EXPECT_EQ(input.time().step, own);
+}
+
+TEST(FlowSeries, MakesAnotherGridWherePointsMove) {
+  const TempFolder folder;
+  std::string list = R"(<VTKFile type="Collection"><Collection>)";
+  for (int step = 0; step < 2; ++step) {
+    std::string text =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 ";
+    text +=
+        std::to_string(1 + step) +
+        "\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nPOINT_DATA 4\nVECTORS v float\n1 0 0 1 0 0 1 0 0 1 0 0\n";
+    const std::string name = "m" + std::to_string(step) + ".vtk";
+    (void)folder.write(name, text);
+    list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
+  }
+  Input input = Input::open({.files = {folder.write("m.pvd", list + "</Collection></VTKFile>")}});
+  FlowSeries series(input, 1);
+  const auto first = series.read(0), second = series.read(1);
+  EXPECT_NE(first->grid(), second->grid());
+  EXPECT_EQ(second->bounds().upper.z, 2.0);
 }
 
 }  // namespace

@@ -1,0 +1,214 @@
+#include "common/trace/unsteady/carried_particle.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "common/ode/explicit_step.h"
+#include "common/ode/tableau.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kUlp = std::numeric_limits<double>::epsilon();
+constexpr double kEmbeddedOrder = 4.0;
+constexpr double kCellsAStep = 2.0;  // at most: farther, the stages might see nothing of what lies between
+constexpr int kMaxAttempts = 64;
+
+using Step = ExplicitStep<Dp54, Vec3>;
+
+/// A step, as far as it was taken. Its arc is that of the dense output.
+class CarriedPiece final : public DensePiece {
+ public:
+  CarriedPiece(const Step& step, const LinePoint& begin, double error)
+      : begin_(begin), x_(step.start), q_(step.dense()), h_(step.step), error_(error) {}
+
+  [[nodiscard]] LinePoint at(double theta) const override {
+    return {.position = dense_value(x_, q_, theta),
+            .time = begin_.time + theta * h_,
+            .arc = begin_.arc + arc(theta),
+            .speed = glm::length(rate(theta)) / h_,
+            .error = begin_.error + theta * (error_ - begin_.error)};
+  }
+  [[nodiscard]] double arc(double theta) const {
+    // Gauss and Legendre with four points.
+    constexpr std::array<double, 2> kAt{0.3399810435848563, 0.8611363115940526};
+    constexpr std::array<double, 2> kWeight{0.6521451548625461, 0.3478548451374538};
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      sum += kWeight[i] * (glm::length(rate(0.5 * theta * (1.0 - kAt[i]))) +
+                           glm::length(rate(0.5 * theta * (1.0 + kAt[i]))));
+    }
+    return 0.5 * theta * sum;
+  }
+
+ private:
+  /// dx/dtheta.
+  [[nodiscard]] Vec3 rate(double theta) const {
+    Vec3 sum{0.0};
+    for (std::size_t j = q_.size(); j-- > 0;) sum = sum * theta + static_cast<double>(j + 1) * q_[j];
+    return sum;
+  }
+
+  LinePoint begin_;
+  Vec3 x_;
+  std::array<Vec3, Dp54::kDenseDegree> q_;
+  double h_;
+  double error_;
+};
+
+const LocalFrame& data_frame() {
+  static const LocalFrame frame;
+  return frame;
+}
+
+double turn_cosine(const Vec3& a, const Vec3& b) {
+  const double lengths = glm::length(a) * glm::length(b);
+  return lengths > 0.0 ? glm::dot(a, b) / lengths : 1.0;
+}
+
+}  // namespace
+
+CarriedParticle::CarriedParticle(const CarrySettings& settings, const Vec3& seed, double release)
+    : settings_(settings),
+      release_(release),
+      builder_(data_frame(), settings.limits,
+               settings.sign > 0.0 ? TraceDirection::kForward : TraceDirection::kBackward),
+      control_(kEmbeddedOrder) {
+  now_.position = seed;
+}
+
+bool CarriedParticle::release(const FlowInTime& flow) {
+  if (!is_finite(now_.position) || !flow.find(release_, now_.position, place_)) {
+    state_ = State::kOutside;
+    why_ = End::kLeftDomain;
+    return false;
+  }
+  Vec3 v;
+  const SampleStatus status = flow.sample(release_, now_.position, place_, v);
+  state_ = State::kAlive;
+  error_.start(Vec3{0.0}, kUlp * settings_.diagonal);
+  now_.speed = glm::length(v);
+  now_.error = glm::length(error_.vector());
+  builder_.start(now_);
+  if (status == SampleStatus::kBadData) end(End::kBadData);
+  return true;
+}
+
+void CarriedParticle::end(End why) {
+  builder_.finish(why);
+  state_ = State::kEnded;
+  why_ = why;
+}
+
+void CarriedParticle::carry(const FlowInTime& flow, double age) {
+  const double sign = settings_.sign;
+  SampleStatus status = SampleStatus::kOk;
+  FlowInTime::Place place = place_;
+  const auto slope = [&](double at, const Vec3& x) {
+    Vec3 v{0.0};
+    const SampleStatus found = flow.sample(release_ + sign * at, x, place, v);
+    if (found != SampleStatus::kOk && status == SampleStatus::kOk) status = found;
+    return sign * v;
+  };
+  Vec3 first = slope(now_.time, now_.position);
+  if (status != SampleStatus::kOk) {
+    // The mesh has left it behind, or it rests on data that are none.
+    end(status == SampleStatus::kOutside ? End::kLeftDomain : End::kBadData);
+    return;
+  }
+  if (!(step_ > 0.0)) step_ = age - now_.time;
+  while (now_.time < age) {
+    Step step;
+    step.start = now_.position;
+    step.k[0] = first;
+    const double speed = glm::length(first);
+    const double reach = kCellsAStep * flow.cell_size();
+    double h = std::min(step_, age - now_.time);
+    if (speed * h > reach) h = reach / speed;
+    const auto attempt = [&](double length) {
+      status = SampleStatus::kOk;
+      place = place_;
+      step.step = length;
+      step.advance(slope, now_.time);
+      if (status == SampleStatus::kOk) step.finish(slope, now_.time);
+      return status == SampleStatus::kOk;
+    };
+    const auto local_error = [&] { return glm::length(step.error()); };
+    const auto allowed = [&](double length) {
+      const double way = glm::length(step.end - step.start);
+      return 0.5 * settings_.tolerance * (way + settings_.diagonal * (length / settings_.duration));
+    };
+    bool taken = false, leaves = false;
+    SampleStatus left_by = SampleStatus::kOk;
+    for (int n = 0; n < kMaxAttempts && !taken; ++n) {
+      if (!(now_.time + h > now_.time)) break;
+      if (!attempt(h)) {
+        // The longest step whose stages all lie in the data.
+        left_by = status;
+        constexpr int kHalvings = 30;
+        constexpr double kClose = 1e-3;  // the next step goes on from there
+        double inside = 0.0, outside = h;
+        for (int i = 0; i < kHalvings; ++i) {
+          const double middle = 0.5 * (inside + outside);
+          (attempt(middle) ? inside : outside) = middle;
+          if (outside - inside <= kClose * inside) break;
+        }
+        const double beyond = (outside - inside) * speed;
+        if (inside == 0.0 || !attempt(inside)) {
+          end(left_by == SampleStatus::kOutside ? End::kLeftDomain : End::kBadData);
+          return;
+        }
+        h = inside;
+        leaves = h * speed + beyond <= settings_.tolerance * settings_.diagonal;
+      }
+      const StepControl::Verdict verdict = control_.judge(local_error() / allowed(h));
+      taken = verdict.accepted || leaves;
+      const double proposed = verdict.factor * h;
+      // A step that was cut by the end of an interval says nothing against longer ones.
+      step_ = taken && verdict.factor >= 1.0 ? std::max(step_, proposed) : proposed;
+      if (!taken) h = proposed;
+    }
+    if (!taken) {
+      end(End::kMaxSteps);  // no step is short enough: the flow there is none that can be followed
+      return;
+    }
+
+    const double local = local_error();
+    const Vec3 last = step.k[Step::kStages - 1];
+    Mat3 gradient{0.0};
+    place_ = place;
+    (void)flow.jacobian(release_ + sign * (now_.time + h), step.end, place_, gradient);
+    gradient *= sign;
+    error_.advance([&](const Vec3& d) { return gradient * d; }, [&] { return gradient; }, h);
+    error_.add(local + kUlp * settings_.diagonal);
+    const double error = std::min(glm::length(error_.vector()), settings_.limits.max_error);
+    const CarriedPiece piece(step, now_, error);
+    const LinePoint next{.position = step.end,
+                         .time = h >= age - now_.time ? age : now_.time + h,
+                         .arc = now_.arc + piece.arc(1.0),
+                         .speed = glm::length(last),
+                         .error = error};
+    const bool closed = builder_.add(piece, next, turn_cosine(first, last));
+    ++steps_;
+    now_ = next;
+    first = last;
+    if (closed) {
+      now_ = builder_.last();
+      state_ = State::kEnded;
+      why_ = builder_.why();
+      return;
+    }
+    if (leaves) {
+      end(left_by == SampleStatus::kOutside ? End::kLeftDomain : End::kBadData);
+      return;
+    }
+    if (steps_ >= settings_.limits.max_steps) {
+      end(End::kMaxSteps);
+      return;
+    }
+  }
+  if (!settings_.keeps_points) builder_.start(now_);
+}
+
+}  // namespace palpate

@@ -1,0 +1,81 @@
+/// The flow between two steps of time. Data units.
+///
+///   v(t, x) = sum_j w_j(t) v_j(x)                                                                       (1)
+///
+/// over the two steps about t, w linear; or over up to four, w those of the cubic through both with the slopes of the
+/// parabolas through three neighbours (of two steps alone: linear). On a mesh of tetrahedra whose points move
+///
+///   x = sum_i b_i sum_j w_j(t) X_ij,    v(t, x) = sum_i b_i sum_j w_j(t) v_ij                             (2)
+///
+/// with the cell i = 0 ... 3 that has x inside at t: values move with the cells, so that a moving wall carries its
+/// own velocity. Where cells change from step to step, (1) holds at the place itself.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/field/grid/tet_mesh.h"
+#include "common/field/vector_field.h"
+
+namespace palpate {
+
+class FlowInTime {
+ public:
+  struct Step {
+    double time = 0.0;
+    std::shared_ptr<const VectorField> field;
+  };
+  enum class Mesh : std::uint8_t {
+    kFixed,
+    kMoving,  ///< the same cells of points that move
+    kOther    ///< other cells
+  };
+  /// Where a particle was found, which makes its next place quick to find. Any value is allowed.
+  struct Place {
+    std::int64_t cell = -1;  ///< as the data count them, where the mesh moves
+    std::array<CellHint, 4> hints;
+  };
+
+  /// Between steps[first] and the next. @pre two to four steps, times strictly rising, first + 1 < steps.size().
+  FlowInTime(std::vector<Step> steps, std::size_t first);
+
+  [[nodiscard]] Mesh mesh() const noexcept { return mesh_; }
+  /// About the size of a cell.
+  [[nodiscard]] double cell_size() const noexcept { return cell_size_; }
+
+  /// Puts a particle among the cells, wherever it was before. False outside.
+  [[nodiscard]] bool find(double t, const Vec3& x, Place& place) const;
+  /// @pre t between the two steps. `v` is set where the status is kOk.
+  [[nodiscard]] SampleStatus sample(double t, const Vec3& x, Place& place, Vec3& v) const noexcept;
+  /// dv_i/dx_j at m[j][i]; zero unless the status is kOk.
+  [[nodiscard]] SampleStatus jacobian(double t, const Vec3& x, Place& place, Mat3& m) const noexcept;
+
+ private:
+  using Weights = std::array<double, 4>;
+  struct Cell {
+    CellIndex cell = kNoCell;
+    Vec4 b{0.0};
+    Mat3 inverse{1.0};  ///< of the edges from vertex 0: its rows are the gradients of b_1, b_2, b_3
+  };
+  enum class Walk : std::uint8_t { kFound, kWall, kLost };
+
+  [[nodiscard]] Weights weights(double t) const noexcept;
+  [[nodiscard]] Vec3 position(const Weights& w, std::uint32_t point) const noexcept;
+  [[nodiscard]] Vec3 velocity(const Weights& w, std::uint32_t point) const noexcept;
+  [[nodiscard]] bool enter(const Weights& w, const Vec3& x, Cell& at) const noexcept;
+  [[nodiscard]] Walk walk(const Weights& w, const Vec3& x, Cell& at) const noexcept;
+  [[nodiscard]] bool locate(const Weights& w, const Vec3& x, Place& place, Cell& at) const noexcept;
+  [[nodiscard]] bool search(const Weights& w, const Vec3& x, Cell& at) const noexcept;
+  void compare_meshes();
+
+  std::vector<Step> steps_;
+  std::size_t first_;
+  const TetMesh* tets_ = nullptr;  ///< of steps_[first_], where values are taken by (2)
+  Mesh mesh_ = Mesh::kFixed;
+  std::vector<CellIndex> cell_of_data_;  ///< moving: of tets_, by the number that it has in the data
+  double cell_size_ = 1.0;
+};
+
+}  // namespace palpate
