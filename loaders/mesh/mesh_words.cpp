@@ -115,7 +115,8 @@ std::string_view MeshWords::bytes(std::size_t count, const char* what) {
 
 void MeshWords::skip_behind(std::string_view word) {
   const std::size_t found = text_.find(word, at_);
-  at_ = found == std::string_view::npos ? text_.size() : found + word.size();
+  if (found == std::string_view::npos) refuse("ends", std::string(word), "the file may be truncated");
+  at_ = found + word.size();
 }
 
 void MeshWords::refuse(const std::string& found, const std::string& expected,

@@ -51,7 +51,7 @@ class MeshWords {
     return std::bit_cast<T>(copy);
   }
   /// @}
-  /// Behind the next place where `word` stands; the end where it does not.
+  /// Goes behind the next place where `word` stands. @throws Error (bad input) where it does not.
   void skip_behind(std::string_view word);
 
   [[nodiscard]] std::size_t left() const noexcept { return text_.size() - at_; }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <random>
 #include <set>
@@ -21,6 +19,7 @@
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
 #include "common/trace/trace.h"
+#include "loaders/vtk/foam_boundary.h"
 #include "tests/loaders/foam_box.h"
 #include "tests/support/temp_folder.h"
 
@@ -249,8 +248,7 @@ DataSet box_with(const test::TempFolder& folder, const std::string& boundary,
   box.write_mesh(folder.path(), false);
   box.write_vectors(folder.path("1/U"), false, helix, boundary);
   if (!head.empty()) {
-    std::ifstream in(folder.path("1/U"));
-    std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::string text = test::read_file(folder.path("1/U"));
     FoamBox::write(folder.path("1/U"), text.insert(text.find("dimensions"), head));
   }
   Source source = Source::open({{folder.path()}, {}});
@@ -260,39 +258,63 @@ DataSet box_with(const test::TempFolder& folder, const std::string& boundary,
 
 TEST(FoamBoundaryText, NamesStandForWhatTheyDoInTheFile) {
   const test::TempFolder folder;
-  FoamBox::write(folder.path("1/include/flow"),
-                 "fast (4 0 0);\nnested { deep { speed uniform (0 5 0); } }\n");
-  std::vector<std::string> notes;
+  FoamBox::write(folder.path("1/include/flow"), "fast uniform (4 0 0);\n");
   const DataSet block = box_with(folder,
-                                 "lid { type fixedValue; value uniform $fast; }\n"
-                                 "floor { type $still.type; value $still.value; }\n"
+                                 "lid { type fixedValue; value $fast; }\n"
+                                 "floor { type noSlip; }\n"
                                  "inlet { $template; }\n"
-                                 "outlet { $..floor; value uniform (0 0 6); }\n"
-                                 "front { type fixedValue; value ${:nested.deep.speed}; }\n"
-                                 "back $..floor;\n",
-                                 &notes,
+                                 "outlet { $template; value uniform (0 0 6); }\n"
+                                 "front { $floor; }\n",
+                                 nullptr,
                                  "#include \"include/flow\"\n"
-                                 "template { type fixedValue; value uniform (7 0 0); }\n"
-                                 "still { type fixedValue; value uniform (0 0 0); }\n");
+                                 "template { type fixedValue; value uniform (7 0 0); }\n");
   EXPECT_EQ(at_points(block, 1, 1.0).value, Vec3(4, 0, 0));
   EXPECT_EQ(at_points(block, 1, -1.0).value, Vec3(0.0));
   EXPECT_EQ(at_points(block, 0, -1.0).value, Vec3(7, 0, 0));
   EXPECT_EQ(at_points(block, 0, 1.0).value, Vec3(0, 0, 6));
-  EXPECT_EQ(at_points(block, 2, -1.0).value, Vec3(0, 5, 0));
+  EXPECT_EQ(at_points(block, 2, -1.0).value, Vec3(0.0));
 }
 
-TEST(FoamBoundaryText, NamesThatStandForNothingAreSaid) {
-  const test::TempFolder folder;
-  FoamBox::write(folder.path("outside"), "fast (4 0 0);\n");
-  std::vector<std::string> notes;
-  const test::TempFolder inside;
-  (void)box_with(inside, "lid { type fixedValue; value uniform $fast; }\nfloor { type noSlip; }\n", &notes,
-                 "#include \"" + folder.path("outside").string() + "\"\nround $again;\nagain $round;\n");
-  EXPECT_TRUE(says(notes, "$fast, which stands for nothing")) << notes.size();
-  const test::TempFolder circle;
-  (void)box_with(circle, "lid { type fixedValue; value uniform $round; }\n", &notes,
-                 "round $again;\nagain $round;\n");
-  EXPECT_TRUE(says(notes, "stands for nothing"));
+/// The values of the patch "lid", by a file's text; empty where there are none.
+std::vector<double> lid_of(const std::string& text, std::vector<std::string>& problems) {
+  const std::vector<FoamPatch> patches{{"lid", {}, 2, 0}, {"floor", {}, 2, 2}};
+  const FoamInclude include = [](std::string_view name) {
+    return name == "flow" ? std::string("fast (4 0 0);\nnested { deep { speed uniform (4 0 0); } }\n")
+                          : std::string();
+  };
+  problems.clear();
+  const auto found =
+      read_foam_boundary(FoamBox::header("volVectorField", "U", false) + text, 3, patches, problems, include);
+  const auto lid = found.find("lid");
+  return lid == found.end() ? std::vector<double>{} : lid->second.numbers;
+}
+
+TEST(FoamBoundaryText, NamesLeadIntoDictionariesAndUpwards) {
+  const std::vector<double> fast{4.0, 0.0, 0.0};
+  std::vector<std::string> problems;
+  const std::string floor = "floor { type fixedValue; value uniform (4 0 0); }\n";
+  for (
+      const std::string& text :
+      {std::string("#include \"flow\"\nboundaryField { lid { type fixedValue; value uniform $fast; } }"),
+       std::string(
+           "#include \"flow\"\nboundaryField { lid { type fixedValue; value ${:nested.deep.speed}; } }"),
+       std::string("#include \"flow\"\nboundaryField { lid { type fixedValue; value $nested.deep.speed; } }"),
+       std::string(
+           "kind { type fixedValue; value uniform (4 0 0); }\nboundaryField { lid { type $kind.type; value $:kind.value; } }"),
+       "boundaryField { " + floor + "lid { $..floor; } }", "boundaryField { " + floor + "lid $floor; }",
+       "boundaryField { " + floor + "lid { type fixedValue; value $..floor.value; } }",
+       std::string("boundaryField { lid { type fixedValue; own uniform (4 0 0); value $.own; } }")}) {
+    EXPECT_EQ(lid_of(text, problems), fast) << text;
+    EXPECT_TRUE(problems.empty()) << text;
+  }
+  for (const std::string& text :
+       {std::string("boundaryField { lid { type fixedValue; value uniform $fast; } }"),
+        std::string(
+            "round $again;\nagain $round;\nboundaryField { lid { type fixedValue; value uniform $round; } }"),
+        std::string("#include \"elsewhere\"\nboundaryField { lid $....floor; }")}) {
+    EXPECT_TRUE(lid_of(text, problems).empty()) << text;
+    EXPECT_TRUE(says(problems, "stands for nothing")) << text;
+  }
 }
 
 TEST(FoamBoundaryText, ItsNameInCommentsAndStringsIsNoBoundary) {

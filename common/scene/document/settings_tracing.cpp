@@ -111,7 +111,7 @@ const Setting kTracingRows[] = {
      .groups = {Group::kLines},
      .kinds = kFlows,
      .unit = "data units",
-     .otherwise = "the time of the input; of streaklines in windows the first"},
+     .otherwise = "of pathlines the time of the input, else the first"},
     {.name = "release-every",
      .place = kLineAt<&TracingOptions::release_every>,
      .help = "time from one release to the next, of all lines but streamlines",
@@ -130,7 +130,7 @@ const Setting kTracingRows[] = {
      .groups = {Group::kLines},
      .kinds = kFlows,
      .unit = "data units",
-     .otherwise = "the last time, in windows that of the slider"},
+     .otherwise = "the last time, of streaklines and timelines that of --time, in windows of the slider"},
 
     {.name = "seeds",
      .place = kTractAt<&TractTracingOptions::seeds>,

@@ -92,7 +92,9 @@ TEST(ConstantCells, OfEveryKindShareNoPoints) {
     const bool polyhedron = to.types[c] == 42;
     auto at = static_cast<std::size_t>(to.offsets[c]);
     const auto end = static_cast<std::size_t>(to.offsets[c + 1]);
-    if (polyhedron) EXPECT_EQ(to.connectivity[at], from.connectivity[at]);
+    if (polyhedron) {
+      EXPECT_EQ(to.connectivity[at], from.connectivity[at]);
+    }
     at += polyhedron ? 1 : 0;
     while (at < end) {
       std::size_t count = end - at;
