@@ -19,9 +19,7 @@
 #include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
 #include <vtkParticleTracer.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -47,8 +45,11 @@ double processor_seconds() {
 /// The flow as VTK's pipeline asks for it, step by step.
 class TimedImage final : public vtkImageAlgorithm {
  public:
-  static TimedImage* New();
-  vtkTypeMacro(TimedImage, vtkImageAlgorithm);
+  static TimedImage* New() {
+    auto* const made = new TimedImage;
+    made->InitializeObjectBase();
+    return made;
+  }
   std::vector<double> times;
 
  protected:
@@ -86,8 +87,6 @@ class TimedImage final : public vtkImageAlgorithm {
     return 1;
   }
 };
-vtkStandardNewMacro(TimedImage);
-
 void print(const char* who, std::vector<double> errors, std::size_t seeds, double seconds) {
   std::sort(errors.begin(), errors.end());
   const double p95 = errors.empty() ? NAN : errors[errors.size() * 95 / 100];
