@@ -13,7 +13,6 @@
 #include "common/compose/lines_of_flow.h"
 #include "common/compose/trace_options.h"
 #include "common/load/write/write_lines.h"
-#include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -47,7 +46,7 @@ std::vector<std::string> advice_for(const TraceSummary& summary) {
   add(End::kMaxTime, "a longer --max-time follows them further");
   add(End::kMaxSteps, "raise --max-steps, or loosen --tolerance " + short_number(summary.tolerance) +
                           "; dp54 and rodas4 take the longest steps");
-  add(End::kBadData, "values there are NaN, infinite or blanked");
+  add(End::kBadData, "values there are NaN, infinite or blanked, or cells lie over one another");
   return advice;
 }
 
@@ -79,6 +78,8 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
   if (count_of(result, End::kBadData) == result.lines.size()) {
     return "no line: every seed lies where the data is NaN, infinite or blanked; choose other --seeds";
   }
+  if (count_of(result, End::kLeftDomain) == result.lines.size())
+    return "no line: every seed lies on the border, where the flow leaves; choose other --seeds, or --direction both";
   return "no line: the field does not move any seed (stagnation " +
          std::to_string(count_of(result, End::kStagnation)) + ", bad_data " +
          std::to_string(count_of(result, End::kBadData)) + "); choose other --seeds";
@@ -125,13 +126,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   TraceSummary summary;
   summary.input = input.title();
   summary.output = options.output.file.string();
-  if (options.common.explain) {
-    summary.plan = plan_scene(input, {.verb = "trace",
-                                      .tracing = true,
-                                      .lines = line_count(spec, trace),
-                                      .threads = resolve_threads(trace.threads)});
-    console.print(plan_text(summary.plan));
-  }
 
   const auto field = input.load_field(options.common.threads, &context.progress);
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
@@ -168,13 +162,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary));
-  if (options.common.explain) {
-    summary.measured = measured_costs(input, field->tet_mesh());
-    summary.measured.push_back(
-        {.what = "lines",
-         .milliseconds = 1e3 * (summary.result.seconds_prepare + summary.result.seconds_trace)});
-    console.print(measured_text(summary.measured));
-  }
   console.print_json(trace_json(summary));
   return ExitCode::kDone;
 }

@@ -37,7 +37,8 @@ bool ExactWalk::start(const Vec3& seed) {
   exit_face_ = -1;
   pieces_in_cell_ = 0;
   standing_ = 0;
-  seams_standing_ = 0;
+  seams_standing_ = crossings_ = 0;
+  moved_ = 0.0;
   modes_.reset();
   robust_pieces_ = long_cells_ = 0;
   has_piece_ = false;
@@ -61,7 +62,8 @@ std::optional<End> ExactWalk::advance() {
   if (exit_face_ >= 0) {
     const int face = exit_face_;
     exit_face_ = -1;
-    if (const std::optional<End> ended = cross(face)) return ended;
+    const bool stuck = ++crossings_ > kMaxCrossings;
+    if (const std::optional<End> ended = stuck ? cross_standing(face) : cross(face)) return ended;
   }
   for (;;) {
     if (!loaded_) {
@@ -96,11 +98,16 @@ std::optional<End> ExactWalk::cross_standing(int face) {
   constexpr int kWalk = 8;
   constexpr double kAhead = 1e-8;  // of the cell: beyond rounding, well within the next cell
   ++work_;
-  // It moves, but nobody can say where to.
-  if (++standing_ > kMaxStandingSteps) return End::kBadData;
-  if (standing_ % kWalk != 0) return cross(face);
   const Vec3 x = position(cell_, b_).xyz();
   TetPoint ahead;
+  if (++standing_ > kMaxStandingSteps) {
+    // Out, about a point of rest on an edge, or where nobody can say: cells are folded there.
+    constexpr double kOut = 1e-6, kSlow = 1e-6;  // of the cell, and of what the velocity changes over it
+    if (!mesh_->mesh().locate(x + (kOut * cell_.size) * direction_, cell_index_, ahead))
+      return End::kLeftDomain;
+    return end_.speed <= kSlow * cell_.norm * cell_.size ? End::kStagnation : End::kBadData;
+  }
+  if (standing_ % kWalk != 0) return cross(face);
   const double distance = kAhead * cell_.size;
   if (!mesh_->mesh().locate(x + distance * direction_, cell_index_, ahead)) return cross(face);
   settle(ahead.cell, x);
@@ -137,8 +144,13 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   w_ = w;
   entry_ = -1;
   ++pieces_in_cell_;
-  // What moves by rounding makes no progress.
-  if (arc > 16.0 * kUlp * cell_.size) standing_ = seams_standing_ = 0;
+  // What moves by rounding makes no progress, however often.
+  if (arc > 16.0 * kUlp * cell_.size) seams_standing_ = 0;
+  moved_ += arc;
+  if (moved_ > kProgress * cell_.size) {
+    moved_ = 0.0;
+    standing_ = crossings_ = 0;
+  }
   const Vec3 v = velocity(cell_, w).xyz();
   const double speed = glm::length(v);
   if (speed > 0.0) direction_ = v * (1.0 / speed);
@@ -164,13 +176,17 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   end_.speed = speed;
   const double of_point = std::abs(end_.position.x) + std::abs(end_.position.y) + std::abs(end_.position.z);
   // What this piece adds may lie in any direction, whatever that of the error so far.
-  end_.error = error_.across(direction_) + local_error + kRoundingOfPoint * kUlp * of_point;
+  const double rate = speed > 0.0 ? glm::length(velocity(cell_, apply(cell_, w)).xyz()) / speed : 0.0;
+  end_.error = error_.distance(direction_, speed, rate) + local_error + kRoundingOfPoint * kUlp * of_point;
   has_piece_ = true;
 }
 
 std::optional<End> ExactWalk::cross(int face) {
   const TetMesh& mesh = mesh_->mesh();
   const CellIndex from = cell_index_;
+  // The exit lies on the face that it names, or nobody knows where it is.
+  constexpr double kOnFace = 0x1p-20;
+  if (!(b_[face] <= kOnFace)) return End::kBadData;
   const CellIndex next = neighbors(from)[as_size(face)];
   if (next == kNoCell || mesh.zero_volume(next)) {
     const Vec3 x = position(cell_, b_).xyz();

@@ -38,7 +38,11 @@ class ExactWalk final : public LineWalk {
   /// robust path is to judge it before rounding drowns the rate.
   static constexpr double kSlowed = 1.0 / 64;
   static constexpr int kMaxStandingSteps =
-      256;                               ///< crossings without progress: more than cells meet at a point
+      256;  ///< crossings without progress: more than cells meet at a point
+  static constexpr double kProgress =
+      1e-10;  ///< of the cell: what is less, by however many pieces, leads nowhere
+  static constexpr int kMaxCrossings =
+      256;  ///< without progress; from then on they are those of a line that stands
   static constexpr int kMaxWork = 4096;  ///< of one advance() that finds no piece: the next goes on
 
   struct RobustFlow {
@@ -76,6 +80,8 @@ class ExactWalk final : public LineWalk {
   int pieces_in_cell_ = 0;
   double rate_at_entry_ = 0.0;
   int standing_ = 0;
+  int crossings_ = 0;       ///< of faces, since the line made progress
+  double moved_ = 0.0;      ///< its arc since then
   int seams_standing_ = 0;  ///< of the crossings without a move, those of seams
 
   std::optional<AffineModes> modes_;  ///< of the cell, where the robust path took it

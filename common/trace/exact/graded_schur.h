@@ -1,4 +1,5 @@
-/// The real Schur form of a matrix of three rows, its eigenvalues in order of falling size.
+/// The real Schur form of a matrix of three rows, its eigenvalues in order of falling size, as far as they are apart: a pair and
+/// a third eigenvalue within a factor of two stay as they are. What an exchange sets to zero is rounding only where they are apart.
 ///
 /// In this order each row of T is as small as the eigenvalues from it on: rounding of entries of fast rows leaves the slow ones
 /// their digits. In any other, slow rates are differences of products of fast ones.
@@ -17,6 +18,7 @@ struct GradedSchur {
   Matrix u, t;  ///< C = U T U^T, with a block of two rows for a complex pair
 
   explicit GradedSchur(const Matrix& c) {
+    const Real kApart = 4.0;  // of their squares
     using std::abs;
     const Eigen::RealSchur<Matrix> schur(c);
     u = schur.matrixU();
@@ -24,14 +26,14 @@ struct GradedSchur {
     if (t(1, 0) != Real(0.0)) {
       // The pair stands first; its product is the square of its size.
       const Real mu = t(2, 2);
-      if (mu * mu > t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0)) {
+      if (mu * mu > kApart * (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0))) {
         // The right eigenvector (x, 1) of mu becomes the first axis.
         reflect(solve(t(0, 0) - mu, t(0, 1), t(1, 0), t(1, 1) - mu, t(0, 2), t(1, 2), 2), 0);
         t(1, 0) = t(2, 0) = 0.0;
       }
     } else if (t(2, 1) != Real(0.0)) {
       const Real mu = t(0, 0);
-      if (mu * mu < t(1, 1) * t(2, 2) - t(1, 2) * t(2, 1)) {
+      if (kApart * mu * mu < t(1, 1) * t(2, 2) - t(1, 2) * t(2, 1)) {
         // The left eigenvector (1, z) of mu becomes the last.
         reflect(solve(t(1, 1) - mu, t(2, 1), t(1, 2), t(2, 2) - mu, t(0, 1), t(0, 2), 0), 2);
         t(2, 0) = t(2, 1) = 0.0;

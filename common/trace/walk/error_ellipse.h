@@ -5,8 +5,8 @@
 /// is the linearised flow about the line (Hairer, Norsett, Wanner 1993, I.14). One vector e would follow the
 /// direction that grew most so far and miss what grows in the other one from here on. So all e within an
 /// ellipse of semi-axes a and b are carried: both obey (1), and each step lengthens both by its own local
-/// error, whatever its direction and sign, so contributions never cancel. What lies along the flow only
-/// shifts the point on its curve; it never turns into distance from the curve and is left out.
+/// error, whatever its direction and sign, so contributions never cancel. What lies along the flow is taken out
+/// each step: it only shifts the point on its curve, and time_shift.h says what that costs.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +19,11 @@ namespace palpate {
 
 class ErrorEllipse {
  public:
-  /// A circle. @param direction unit tangent of the line at its seed.  @param radius the error to begin with.
+  /// @param direction unit tangent of the line at its seed.  @param radius the error to begin with.
   void start(const Vec3& direction, double radius) noexcept {
-    const Vec3 oblique{0.533, -0.717, 0.449};  // to every axis that a field may have
-    const Vec3 u = oblique - glm::dot(oblique, direction) * direction;
-    const double length = glm::length(u);
-    a_ = length > 0.1 ? u * (radius / length) : Vec3{radius, 0.0, 0.0};
-    b_ = glm::cross(direction, a_);
-    largest_ = radius;
+    circle(direction, radius);
+    along_ = 0.0;
+    shift_.start();
   }
 
   /// As carry_error() of error_transport.h.
@@ -38,8 +35,10 @@ class ErrorEllipse {
 
   /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.
   void add(double size, const Vec3& direction) noexcept {
-    a_ -= glm::dot(a_, direction) * direction;
-    b_ -= glm::dot(b_, direction) * direction;
+    const double a_along = glm::dot(a_, direction), b_along = glm::dot(b_, direction);
+    along_ += std::sqrt(a_along * a_along + b_along * b_along);
+    a_ -= a_along * direction;
+    b_ -= b_along * direction;
     double aa = glm::dot(a_, a_), bb = glm::dot(b_, b_);
     const double ab = glm::dot(a_, b_);
     constexpr double kAskew = 0.01;  // square of the cosine between them: half of it is neglected
@@ -49,7 +48,7 @@ class ErrorEllipse {
       bb = glm::dot(b_, b_);
     }
     if (!(aa > 0.0 && bb > 0.0)) {  // shrunk to nothing
-      start(direction, std::sqrt(std::max(aa, bb)) + size);
+      circle(direction, std::sqrt(std::max(aa, bb)) + size);
       return;
     }
     const double a = std::sqrt(aa), b = std::sqrt(bb);
@@ -58,10 +57,23 @@ class ErrorEllipse {
     largest_ = std::max(a, b) + size;
   }
 
-  /// The longer semi-axis, the largest distance from the curve. @pre `direction` is that of the last add().
-  [[nodiscard]] double across(const Vec3& /*direction*/) const noexcept { return largest_; }
+  /// The largest from the curve, as ErrorTransport::distance(). @pre `direction` is that of the last add().
+  [[nodiscard]] double distance(const Vec3& /*direction*/, double speed, double rate) noexcept {
+    shift_.add(along_ / speed, rate);
+    along_ = 0.0;
+    return largest_ + shift_.distance(speed);
+  }
 
  private:
+  void circle(const Vec3& direction, double radius) noexcept {
+    const Vec3 oblique{0.533, -0.717, 0.449};  // to every axis that a field may have
+    const Vec3 u = oblique - glm::dot(oblique, direction) * direction;
+    const double length = glm::length(u);
+    a_ = length > 0.1 ? u * (radius / length) : Vec3{radius, 0.0, 0.0};
+    b_ = glm::cross(direction, a_);
+    largest_ = radius;
+  }
+
   /// a cos t + b sin t is the same ellipse for any two conjugate semi-diameters; makes them perpendicular,
   /// by the rotation of a 2 x 2 Jacobi sweep.
   void turn_to_axes(double aa, double bb, double ab) noexcept {
@@ -75,7 +87,9 @@ class ErrorEllipse {
 
   Vec3 a_{0.0};
   Vec3 b_{0.0};
-  double largest_ = 0.0;
+  double largest_ = 0.0;  ///< the longer semi-axis
+  double along_ = 0.0;    ///< taken out since the last distance()
+  TimeShift shift_;
 };
 
 }  // namespace palpate

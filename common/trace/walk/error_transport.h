@@ -4,13 +4,14 @@
 ///
 /// is the linearised flow about the line (Hairer, Norsett, Wanner 1993, I.14). Each step adds its own local
 /// error to the length of e, whatever its sign, in the direction that e has by then, so contributions never
-/// cancel. What lies along the flow only shifts the point on its curve, and is left out of the distance.
+/// cancel. What lies along the flow only shifts the point on its curve; time_shift.h says what that costs.
 #pragma once
 
 #include <cmath>
 
 #include "common/math/vec.h"
 #include "common/ode/linear_step.h"
+#include "common/trace/walk/time_shift.h"
 
 namespace palpate {
 
@@ -24,8 +25,7 @@ void carry_error(Vec3& e, const Apply& apply, const Matrix& matrix, double h) {
   if (change > kStiff * size) {
     const Mat3 jacobian = matrix();
     const Vec3 moved = linear_growth(jacobian, h) * e;
-    // Beyond any domain by far: how much farther says nothing.
-    constexpr double kFar = 0x1p300;
+    constexpr double kFar = TimeShift::kFar;
     e = glm::dot(moved, moved) < kFar * kFar ? moved : e * (kFar / std::sqrt(size));
   } else if (change > kSmall * size) {
     e += first + (0.5 * h) * apply(first);
@@ -43,6 +43,7 @@ class ErrorTransport {
     e_ = oblique - glm::dot(oblique, direction) * direction;
     const double length = glm::length(e_);
     e_ = length > 0.1 ? e_ * (rounding / length) : Vec3{rounding, 0.0, 0.0};
+    shift_.start();
   }
 
   [[nodiscard]] const Vec3& vector() const noexcept { return e_; }
@@ -64,13 +65,16 @@ class ErrorTransport {
     }
   }
 
-  /// Length of the part of e normal to the flow.
-  [[nodiscard]] double across(const Vec3& direction) const noexcept {
-    return glm::length(e_ - glm::dot(e_, direction) * direction);
+  /// From the curve. @param direction unit tangent.  @param rate |J direction|, in the unit of time of `speed`.
+  [[nodiscard]] double distance(const Vec3& direction, double speed, double rate) noexcept {
+    const double along = glm::dot(e_, direction);
+    shift_.set(std::abs(along) / speed, rate);
+    return glm::length(e_ - along * direction) + shift_.distance(speed);
   }
 
  private:
   Vec3 e_{0.0};
+  TimeShift shift_;
 };
 
 }  // namespace palpate

@@ -462,7 +462,8 @@ class FaceWalk final : public LineWalk {
     end_.time = y_[3];
     end_.arc = begin_.arc + length;
     end_.speed = 1.0 / inverse_speed;
-    end_.error = error_.across(n) + 2.0 * kUlp * magnitude(end_.position);
+    const double rate = glm::length(gradient_.along(Pack4{n, 0.0}).xyz());
+    end_.error = error_.distance(n, end_.speed, rate) + 2.0 * kUlp * magnitude(end_.position);
     has_piece_ = true;
     stepped_ = true;
     if (method_.stiff()) ++stiff_steps_;

@@ -363,8 +363,10 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
       if (!(dot(v, v) > 0)) break;
       t += dot(d, v) / dot(v, v);
     }
-    const double error = static_cast<double>(nearest);
     ++verdict.points;
+    // The curve is out of the numbers' range, and the line says that it may be anywhere.
+    if (!(nearest < HUGE_VALL) && p.error >= diagonal) continue;
+    const double error = static_cast<double>(nearest);
     // The curve itself is known to some roundings of a double: the seed's and the time's.
     if (!(error <= p.error)) {
       ++verdict.understated;

@@ -88,6 +88,39 @@ TEST(ExactLines, LeaveSlowlyOnceASpiralHasDiedOut) {
   }
 }
 
+// Cells that a file has twice, as pieces with a layer in common: lines are those of the mesh without them, and end at its border.
+TEST(ExactLines, PassThroughCellsThatAreThereTwice) {
+  std::mt19937_64 random{7};
+  AffineField field;
+  field.name = "helix";
+  field.a = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 0.25L}}};
+  field.frame = {{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}};
+  field.form = {.rate = 0.25L, .a = 0, .b = -1, .c = 1, .d = 0};
+  field.center = {0.25, -0.375, -2.0};
+  for (const Integrator method : {Integrator::kExact, Integrator::kDp54}) {
+    for (int n = 0; n < 6; ++n) {
+      AffineMesh mesh = draw_mesh(random);
+      const std::size_t half = mesh.cells.size() / 2;
+      mesh.cells.insert(mesh.cells.end(), mesh.cells.begin(),
+                        mesh.cells.begin() + static_cast<std::ptrdiff_t>(half));
+      const auto flow = sampled(field, mesh);
+      ASSERT_NE(flow, nullptr);
+      std::vector<Vec3> seeds;
+      for (int i = 0; i < 10; ++i) seeds.push_back(draw_seed(random, mesh));
+      TraceOptions options{.integrator = method, .tolerance = 1e-9};
+      options.backward = true;
+      options.threads = 1;
+      options.max_steps = 20000;
+      for (const Line& line : trace_lines(*flow, seeds, options).lines) {
+        const LineVerdict verdict = judge(line, field, mesh, seeds[line.seed], flow->diagonal());
+        EXPECT_EQ(line.end, End::kLeftDomain) << mesh.name << " " << line.seed;
+        EXPECT_EQ(verdict.wrong_end, "") << mesh.name << " " << line.seed;
+        EXPECT_LE(verdict.worst_error, method == Integrator::kExact ? 1e-12 : 1e-7) << mesh.name;
+      }
+    }
+  }
+}
+
 // A solid block in the flow, whose speed is the rounding of what computed it: lines rest at it, as far as its values tell.
 TEST(ExactLines, EndWhereValuesCannotTellTheSpeedFromZero) {
   std::mt19937_64 random{1};

@@ -63,6 +63,32 @@ TEST(Pathlines, FollowAClosedFormOnEveryGridWithinTheirError) {
   }
 }
 
+// From rest: v = 20 t (-y, x, 0) between two steps turns a particle by 10 t^2.
+TEST(Pathlines, StartAtRestAndFollowAFlowThatSetsIn) {
+  const std::vector<double> times{0.0, 1.0};
+  for (const Grid grid : test::kGrids) {
+    const StepReader reader = [&](std::size_t step) {
+      const double rate = step == 0 ? 0.0 : 20.0;
+      return test::at_moment(grid, [rate](const Vec3& x) { return Vec3{-rate * x.y, rate * x.x, 0.0}; });
+    };
+    const UnsteadyResult result =
+        trace_unsteady(times, reader, kSeeds, {.order = TimeOrder::kLinear, .trace = {}});
+    const std::string what = std::to_string(static_cast<int>(grid));
+    ASSERT_EQ(result.trace.lines.size(), kSeeds.size()) << what;
+    EXPECT_EQ(result.trace.ends[as_size(End::kEndOfTime)], kSeeds.size()) << what;
+    for (const Line& line : result.trace.lines) {
+      const Vec3& seed = kSeeds[line.seed];
+      EXPECT_DOUBLE_EQ(line.points.back().time, 1.0) << what;
+      for (const LinePoint& point : line.points) {
+        const double angle = 10.0 * point.time * point.time;
+        const double c = std::cos(angle), s = std::sin(angle);
+        const Vec3 there{c * seed.x - s * seed.y, s * seed.x + c * seed.y, seed.z};
+        EXPECT_LT(glm::distance(point.position, there), 1e-4) << what << " at " << point.time;
+      }
+    }
+  }
+}
+
 TEST(Pathlines, ErrorFallsWithTheOrderOfTheInterpolationInTime) {
   for (const TimeOrder order : {TimeOrder::kLinear, TimeOrder::kCubic}) {
     std::vector<double> errors;

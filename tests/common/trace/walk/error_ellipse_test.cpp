@@ -38,7 +38,7 @@ TEST(ErrorEllipse, IsReadyForGrowthInEitherDirection) {
   const double x = sum(sum(1e-12, grow, 500), fall, 900);
   const double y = sum(sum(1e-12, fall, 500), grow, 900);
   ASSERT_GT(y, 10.0 * x);
-  EXPECT_NEAR(ellipse.across(kAlongZ), y, 0.02 * y);
+  EXPECT_NEAR(ellipse.distance(kAlongZ, 1.0, 0.0), y, 0.02 * y);
 }
 
 // Under rotation and shear no direction is special: the largest error is that of the matrix, its norm.
@@ -49,7 +49,7 @@ TEST(ErrorEllipse, CarriesAnyDirectionThroughARotation) {
   for (int i = 0; i < 1000; ++i)
     ellipse.advance([&](const Vec3& e) { return j * e; }, [&] { return j; }, 1e-3);
   ellipse.add(0.0, kAlongZ);
-  EXPECT_NEAR(ellipse.across(kAlongZ), 1.0, 1e-3);
+  EXPECT_NEAR(ellipse.distance(kAlongZ, 1.0, 0.0), 1.0, 1e-3);
 }
 
 TEST(ErrorEllipse, LeavesOutWhatLiesAlongTheFlow) {
@@ -60,7 +60,7 @@ TEST(ErrorEllipse, LeavesOutWhatLiesAlongTheFlow) {
     ellipse.advance([&](const Vec3& e) { return shear * e; }, [&] { return shear; }, 0.05);
     ellipse.add(0.0, kAlongZ);
   }
-  EXPECT_NEAR(ellipse.across(kAlongZ), 1.0, 1e-12);
+  EXPECT_NEAR(ellipse.distance(kAlongZ, 1.0, 0.0), 1.0, 1e-12);
 }
 
 TEST(ErrorEllipse, ScalesByPowersOfTwoBitForBit) {
@@ -75,7 +75,7 @@ TEST(ErrorEllipse, ScalesByPowersOfTwoBitForBit) {
     one.add(1e-10, kAlongZ);
     scaled.add(0x1p60 * 1e-10, kAlongZ);
   }
-  EXPECT_EQ(scaled.across(kAlongZ), 0x1p60 * one.across(kAlongZ));
+  EXPECT_EQ(scaled.distance(kAlongZ, 1.0, 0.0), 0x1p60 * one.distance(kAlongZ, 1.0, 0.0));
 }
 
 // rk34 estimates the error of the very solution it keeps: its statement has to hold all the same.
