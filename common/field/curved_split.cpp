@@ -323,8 +323,12 @@ class CurvedSplitter {
     const auto number = static_cast<std::int64_t>(position.size() / 3);
     if (shared) {
       std::vector<std::pair<std::int64_t, std::int64_t>> key;
-      constexpr double kDigits = 999'983.0;  // no dyadic weight lies half way between two of its parts
-      for (const auto& [node, weight] : sum) key.emplace_back(nodes[node], std::llround(kDigits * weight));
+      // Weights are fractions of small denominators, rounded. In parts of 2^-20 none lies half way between two.
+      constexpr double kParts = 0x1p20;
+      for (const auto& [node, weight] : sum) {
+        const std::int64_t parts = std::llround(kParts * weight);
+        if (parts != 0) key.emplace_back(nodes[node], parts);
+      }
       std::ranges::sort(key);
       const auto [found, fresh] = made_.try_emplace(std::move(key), number);
       if (!fresh) return found->second;

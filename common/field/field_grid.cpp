@@ -424,9 +424,11 @@ std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, cons
         count_text(grid->tets->inverted_count(), "inverted tetrahedron", "inverted tetrahedra") +
         " inside warped cells: turned; they overlap their neighbours");
   }
-  if (grid->tets->non_manifold_face_count() > 0) {
-    grid->notes.lines.push_back(count_text(grid->tets->non_manifold_face_count(), "face", "faces") +
-                                " shared by more than two tetrahedra: treated as border");
+  if (grid->tets->overlapping_face_count() > 0) {
+    grid->notes.lines.push_back(
+        count_text(grid->tets->overlapping_face_count(), "face", "faces") +
+        " with tetrahedra over one another on a side, as of cells that the file has twice: lines take "
+        "either of them");
   }
   return grid;
 }

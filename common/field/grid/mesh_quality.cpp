@@ -65,7 +65,7 @@ void count_border(const TetMesh& mesh, MeshQuality& quality) {
 }  // namespace
 
 std::size_t folded_faces(const TetMesh& mesh) {
-  std::size_t folded = 0;
+  std::size_t folded = mesh.overlapping_face_count();  // which have no neighbours there
   for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
     if (mesh.zero_volume(static_cast<CellIndex>(c))) continue;
     for (std::size_t f = 0; f < 4; ++f) {
@@ -109,7 +109,6 @@ MeshQuality mesh_quality(const TetMesh& mesh) {
   MeshQuality quality;
   quality.cells = mesh.cells().size();
   quality.zero_volume = mesh.zero_volume_count();
-  quality.manifold_faults = mesh.non_manifold_face_count();
   std::vector<std::uint8_t> used(mesh.points().size(), 0);
   for (std::size_t c = 0; c < quality.cells; ++c) {
     std::array<Vec3, 4> corners;

@@ -25,16 +25,14 @@ struct MeshQuality {
   std::size_t components = 0;         ///< parts that no face joins
   std::size_t largest_component = 0;  ///< cells of the largest one
   std::size_t border_faces = 0;
-  std::size_t open_edges = 0;  ///< of the border: with an odd number of faces
-  std::size_t manifold_faults =
-      0;  ///< faces that more than two cells share, edges with more than two border faces
-  std::size_t folded_faces = 0;  ///< with both their cells on one side: these overlap
+  std::size_t open_edges = 0;       ///< of the border: with an odd number of faces
+  std::size_t manifold_faults = 0;  ///< edges with more than two border faces
+  std::size_t folded_faces = 0;     ///< with both their cells on one side: these overlap
 };
 
 [[nodiscard]] MeshQuality mesh_quality(const TetMesh& mesh);
 
-/// Faces that both their cells, turned the same way round, see alike: these lie on one side of it and
-/// overlap.
+/// Faces with cells on one side of them, which overlap: cells that were turned, and TetMesh::overlapping_face_count().
 [[nodiscard]] std::size_t folded_faces(const TetMesh& mesh);
 
 /// The six dihedral angles of a tetrahedron [degrees], in no particular order; NaN where a face has no area.

@@ -10,6 +10,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/memory.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/tet_shape.h"
@@ -44,6 +45,8 @@ int least(const Vec4& b) noexcept {
 
 TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads)
     : points_(std::move(points)) {
+  Work work("tetrahedra", "found by their neighbours and a tree of boxes");
+  work.takes(points_.size() * sizeof(Vec3) + cells.size() * (sizeof(Tet) + sizeof(Neighbors)));
   if (cells.empty()) refuse("no tetrahedron", "at least one");
   if (cells.size() > as_size(std::numeric_limits<CellIndex>::max()) - 1) {
     refuse(std::to_string(cells.size()) + " tetrahedra", "at most 2^31 - 2");
@@ -71,8 +74,7 @@ TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threa
   parallel_for(cells.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) cells_[c] = cells[cell_order_[c]];
   });
-  orient_cells(threads);
-  find_neighbors(threads);
+  find_neighbors(orient_cells(threads), threads);
   tree_.finish(points_, cells_, threads);
   const bool single = std::ranges::all_of(points_, [](const Vec3& x) {
     return x.x == static_cast<float>(x.x) && x.y == static_cast<float>(x.y) && x.z == static_cast<float>(x.z);
@@ -100,7 +102,8 @@ void TetMesh::fill_steps(LargeVector<Step<T>>& steps, int threads) {
   });
 }
 
-void TetMesh::orient_cells(int threads) {
+std::vector<std::uint8_t> TetMesh::orient_cells(int threads) {
+  std::vector<std::uint8_t> turned(cells_.size(), 0);
   zero_volume_.assign(cells_.size(), 0);
   std::atomic<std::size_t> inverted{0};
   std::atomic<std::size_t> flat{0};
@@ -114,6 +117,7 @@ void TetMesh::orient_cells(int threads) {
         ++flat_here;
       } else if (shape.volume6 < 0.0) {
         std::swap(cells_[c][2], cells_[c][3]);
+        turned[c] = 1;
         ++inverted_here;
       }
     }
@@ -122,9 +126,24 @@ void TetMesh::orient_cells(int threads) {
   });
   inverted_count_ = inverted;
   zero_volume_count_ = flat;
+  return turned;
 }
 
-void TetMesh::find_neighbors(int threads) {
+bool TetMesh::lies_over(std::uint32_t a, std::uint32_t b, const std::array<std::uint32_t, 3>& face,
+                        const std::vector<std::uint8_t>& turned) const {
+  if (zero_volume_[a] != 0 || zero_volume_[b] != 0 || turned[a] != turned[b]) return false;
+  const Vec3 x = points_[face[0]];
+  const Vec3 normal = glm::cross(points_[face[1]] - x, points_[face[2]] - x);
+  const auto side = [&](std::uint32_t cell) {
+    const Tet& v = cells_[cell];
+    const auto* const apex =
+        std::ranges::find_if(v, [&](std::uint32_t n) { return std::ranges::count(face, n) == 0; });
+    return glm::dot(points_[*apex] - x, normal) > 0.0;
+  };
+  return side(a) == side(b);
+}
+
+void TetMesh::find_neighbors(const std::vector<std::uint8_t>& turned, int threads) {
   // Faces are gathered by their smallest vertex; those of one vertex are few and sorted by the other two.
   struct Face {
     std::uint32_t middle;
@@ -157,7 +176,7 @@ void TetMesh::find_neighbors(int threads) {
   }
 
   neighbors_.assign(cells_.size(), Neighbors{kNoCell, kNoCell, kNoCell, kNoCell});
-  std::atomic<std::size_t> non_manifold{0};
+  std::atomic<std::size_t> overlapping{0};
   parallel_for(points_.size(), threads, [&](std::size_t first, std::size_t last) {
     const auto place = [&](const Face& face, std::uint32_t smallest) -> CellIndex& {
       const Tet& cell = cells_[face.cell];
@@ -184,18 +203,28 @@ void TetMesh::find_neighbors(int threads) {
           const auto rest = std::partition(sharing.begin(), sharing.end(),
                                            [this](const Face& face) { return zero_volume_[face.cell] == 0; });
           sharing = sharing.first(as_size(rest - sharing.begin()));
-          if (sharing.size() > 2) ++non_manifold;
         }
-        if (sharing.size() == 2) {
-          const auto smallest = static_cast<std::uint32_t>(v);
-          place(sharing[0], smallest) = static_cast<CellIndex>(sharing[1].cell);
-          place(sharing[1], smallest) = static_cast<CellIndex>(sharing[0].cell);
+        const auto smallest = static_cast<std::uint32_t>(v);
+        const std::array<std::uint32_t, 3> face{smallest, around[i].middle, around[i].largest};
+        bool over = sharing.size() > 2;
+        // Each with the first one across that is still alone.
+        for (std::size_t a = 0; a < sharing.size(); ++a) {
+          for (std::size_t b = a + 1; b < sharing.size() && place(sharing[a], smallest) == kNoCell; ++b) {
+            if (place(sharing[b], smallest) != kNoCell) continue;
+            if (lies_over(sharing[a].cell, sharing[b].cell, face, turned)) {
+              over = true;
+              continue;
+            }
+            place(sharing[a], smallest) = static_cast<CellIndex>(sharing[b].cell);
+            place(sharing[b], smallest) = static_cast<CellIndex>(sharing[a].cell);
+          }
         }
+        if (over) ++overlapping;
         i = end;
       }
     }
   });
-  non_manifold_face_count_ = non_manifold;
+  overlapping_face_count_ = overlapping;
 }
 
 void TetMesh::close(CellIndex cell, int face) {

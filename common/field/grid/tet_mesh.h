@@ -46,7 +46,8 @@ class TetMesh {
   [[nodiscard]] bool zero_volume(CellIndex cell) const noexcept { return zero_volume_[as_size(cell)] != 0; }
   [[nodiscard]] std::size_t zero_volume_count() const noexcept { return zero_volume_count_; }
   [[nodiscard]] std::size_t inverted_count() const noexcept { return inverted_count_; }
-  [[nodiscard]] std::size_t non_manifold_face_count() const noexcept { return non_manifold_face_count_; }
+  /// Faces with cells that lie over one another on a side: each cell has at most one neighbour there, the others none.
+  [[nodiscard]] std::size_t overlapping_face_count() const noexcept { return overlapping_face_count_; }
   /// Makes a wall of a face: nothing is behind it, though cells may lie there. Location does not heed walls.
   void close(CellIndex cell, int face);
   [[nodiscard]] bool closed(CellIndex cell, int face) const noexcept {
@@ -89,8 +90,13 @@ class TetMesh {
   template <typename T>
   void fill_steps(LargeVector<Step<T>>& steps, int threads);
   [[nodiscard]] bool search(const Vec3& x, TetPoint& found) const noexcept;
-  void orient_cells(int threads);
-  void find_neighbors(int threads);
+  /// @return which cells were turned.
+  [[nodiscard]] std::vector<std::uint8_t> orient_cells(int threads);
+  void find_neighbors(const std::vector<std::uint8_t>& turned, int threads);
+  /// Whether two cells lie on the same side of a face that they share, as doubled cells do: no neighbours. A cell that was turned
+  /// folds over its neighbour, and is left as one: its file has them on different sides.
+  [[nodiscard]] bool lies_over(std::uint32_t a, std::uint32_t b, const std::array<std::uint32_t, 3>& face,
+                               const std::vector<std::uint8_t>& turned) const;
 
   std::vector<Vec3> points_;
   LargeVector<Tet> cells_;
@@ -101,7 +107,7 @@ class TetMesh {
   std::vector<std::uint32_t> cell_order_;
   std::size_t zero_volume_count_ = 0;
   std::size_t inverted_count_ = 0;
-  std::size_t non_manifold_face_count_ = 0;
+  std::size_t overlapping_face_count_ = 0;
   Box bounds_;
   double slack_ = 0.0;  ///< distance that rounding moves a point [frame L]
   CellTree tree_;

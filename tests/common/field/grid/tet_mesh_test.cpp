@@ -242,16 +242,37 @@ TEST(TetMesh, MeshesThatAreNoneAreRefused) {
   EXPECT_NO_THROW(TetMesh(points, one));
 }
 
-TEST(TetMesh, AFaceOfThreeCellsIsABorderAndCounted) {
+TEST(TetMesh, CellsOverOneAnotherAreNoNeighbours) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2, 0.2, 2}, {0, 0, -1}};
   const std::vector<TetMesh::Tet> cells{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 2, 5}};
   const TetMesh mesh(points, cells);
-  EXPECT_EQ(mesh.non_manifold_face_count(), 1U);
-  for (const auto& behind : mesh.neighbors()) {
-    for (const CellIndex cell : behind) EXPECT_EQ(cell, kNoCell);
+  EXPECT_EQ(mesh.overlapping_face_count(), 1U);
+  std::array<CellIndex, 3> behind{};  // of each cell as given
+  for (std::size_t c = 0; c < 3; ++c) {
+    behind[mesh.cell_order()[c]] = kNoCell;
+    for (const CellIndex cell : mesh.neighbors()[c])
+      if (cell != kNoCell)
+        behind[mesh.cell_order()[c]] = static_cast<CellIndex>(mesh.cell_order()[as_size(cell)]);
   }
+  EXPECT_EQ(behind, (std::array<CellIndex, 3>{2, kNoCell, 0}));
   TetPoint found;
   EXPECT_TRUE(mesh.locate({0.1, 0.1, -0.3}, 0, found));
+}
+
+// Cells that a file has twice: each has a neighbour across, none beside itself, and the border is the border.
+TEST(TetMesh, DoubledCellsKeepTheBorder) {
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  const std::vector<TetMesh::Tet> cells{{0, 1, 2, 3}, {0, 2, 1, 4}, {1, 2, 0, 3}, {0, 2, 1, 4}};
+  const TetMesh mesh(points, cells);
+  for (std::size_t c = 0; c < 4; ++c) {
+    int neighbours = 0;
+    for (const CellIndex next : mesh.neighbors()[c]) {
+      if (next == kNoCell) continue;
+      ++neighbours;
+      EXPECT_NE(mesh.cell_order()[as_size(next)] % 2, mesh.cell_order()[c] % 2);
+    }
+    EXPECT_EQ(neighbours, 1);
+  }
 }
 
 // Sizes of 1, 1e-3 and 1e-6 along the axes, and half of all cells in a corner of 1e-4 of the size.
