@@ -1,0 +1,13 @@
+// A loader of images with its library behind it. The build names its folder, how it is made, and its format.
+#include PALPATE_FUZZ_HEADER
+#include "tests/fuzz/reader_fuzz.h"
+
+using namespace palpate;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const bool packed = size > 1 && data[0] == 0x1f && data[1] == 0x8b;
+  const test::MemoryPath input(data, size);
+  return test::read_files(input.path(std::string("input") + PALPATE_FUZZ_ENDING + (packed ? ".gz" : "")),
+                          PALPATE_FUZZ_MAKE,
+                          [](Format format) { return format == Format::PALPATE_FUZZ_FORMAT; });
+}
