@@ -95,6 +95,7 @@ LinesOfFlow trace_flow(Input& input, const VectorField& field, std::span<const V
   }
   const auto read = [&](std::size_t step) { return series.read(step, progress); };
   UnsteadyResult traced = trace_unsteady(times, read, seeds, options, progress);
+  for (std::string& note : series.field_notes(field.notes().lines)) lines.notes.push_back(std::move(note));
   lines.result = std::move(traced.trace);
   lines.in_time = traced.in_time;
   note(lines.in_time, lines.kind, field.diagonal(), lines.notes);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
 
@@ -49,10 +51,53 @@ bool same_arrays(const DataSet& a, const DataSet& b) {
   });
 }
 
-/// Points that were joined, or not, since their values agree at one step may not at another.
-bool knows_no_values(const FieldGrid& grid) { return grid.box != nullptr || grid.point_of_input.empty(); }
+bool has_points_at_one_place(const TetMesh& mesh) {
+  std::vector<Vec3> points(mesh.points().begin(), mesh.points().end());
+  const auto before = [](const Vec3& a, const Vec3& b) {
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+  };
+  std::ranges::sort(points, before);
+  return std::ranges::adjacent_find(points) != points.end();
+}
+
+bool has_walls(const TetMesh& mesh) {
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    for (int face = 0; face < 4; ++face) {
+      if (mesh.closed(static_cast<CellIndex>(c), face)) return true;
+    }
+  }
+  return false;
+}
+
+/// Points that were joined, or not, since their values agree at one step may not at another; and faces through which
+/// nothing flows at one step may be no walls.
+bool knows_no_values(const FieldGrid& grid) {
+  if (grid.box != nullptr) return true;
+  return grid.point_of_input.empty() && !has_walls(*grid.tets) && !has_points_at_one_place(*grid.tets);
+}
+
+/// What two notes have in common that differ in numbers.
+std::string without_numbers(std::string_view note) {
+  std::string out;
+  for (const char c : note) {
+    if (c < '0' || c > '9') out += c;
+  }
+  return out;
+}
 
 }  // namespace
+
+std::vector<std::string> FlowSeries::field_notes(std::span<const std::string> known) const {
+  std::vector<std::string> out;
+  std::set<std::string> left;
+  for (const std::string& note : known) left.insert(without_numbers(note));
+  for (const auto& [key, said] : said_) {
+    if (left.count(key) > 0) continue;
+    out.push_back("at " + counted(said.steps.size(), "step") + ", the first of them at time " +
+                  short_number(times_[*said.steps.begin()]) + ": " + said.note);
+  }
+  return out;
+}
 
 FlowSeries::FlowSeries(Input& input, int threads) : input_(input), threads_(threads) {
   const std::vector<double>& times = input.times();
@@ -92,6 +137,11 @@ std::shared_ptr<const VectorField> FlowSeries::read(std::size_t index, Progress*
                     });
   auto field = kept ? make_vector_field(grid_, blocks, choice, file, threads_)
                     : make_vector_field(blocks, choice, file, threads_);
+  for (const std::string& note : field->notes().lines) {
+    Said& said = said_.try_emplace(without_numbers(note), Said{.note = note, .steps = {}}).first->second;
+    if (said.steps.empty() || index < *said.steps.begin()) said.note = note;
+    said.steps.insert(index);
+  }
   if (kept) return field;
   grid_.reset();
   before_.clear();

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <span>
@@ -282,7 +283,9 @@ class GmshReader {
     }
     for (std::int64_t i = 0, n = words_.integer("a count of numbers", 0, 1000); i < n; ++i) {
       const double real_tag = words_.number("a time");
-      if (i == 0) values.time = real_tag;
+      if (i > 0) continue;
+      if (!std::isfinite(real_tag)) words_.refuse("a time that is no number", "a time");
+      values.time = real_tag;
     }
     std::array<std::int64_t, 3> whole{0, 1, 0};
     for (std::int64_t i = 0, n = words_.integer("a count of whole numbers", 3, 1000); i < n; ++i) {
@@ -341,56 +344,112 @@ class GmshReader {
     cells_.take(mesh);
     const std::size_t cell_count = mesh.types.size();
     block.topology = std::move(mesh);
-    // A view has a section for each step: those of one number, by their times.
-    std::map<double, std::map<std::pair<std::string, bool>, const Values*>> by_time;
-    for (const Values& values : values_) by_time[values.time][{values.name, values.of_nodes}] = &values;
-    if (by_time.empty()) by_time[0.0];
-    std::map<std::pair<std::string, bool>, std::size_t> uses;
-    for (const auto& [time, arrays] : by_time) {
-      for (const auto& [key, values] : arrays) ++uses[key];
-    }
-    for (const auto& [time, arrays] : by_time) {
-      DataSet step = block;
-      auto all = arrays;
-      // What stands once holds at all times.
-      for (const Values& values : values_) {
-        if (uses[{values.name, values.of_nodes}] == 1) all[{values.name, values.of_nodes}] = &values;
-      }
-      for (const auto& [key, values] : all) add_array(*values, cell_count, step, out.notes);
-      out.times.push_back(time);
-      out.steps.push_back({std::move(step)});
-    }
+    add_steps(block, cell_count, out);
     keep_common(out);
     return out;
   }
 
-  void add_array(const Values& values, std::size_t cell_count, DataSet& block,
-                 std::vector<std::string>& notes) {
-    const auto n = static_cast<std::size_t>(values.components);
-    const std::size_t tuples = values.of_nodes ? positions_.size() / 3 : cell_count;
-    std::vector<double> all(n * tuples, std::numeric_limits<double>::quiet_NaN());
-    std::size_t unknown = 0, given = 0;
-    const auto& index = values.of_nodes ? index_ : cell_of_;
-    for (const auto& [tag, at] : values.tags) {
-      const auto found = index.find(tag);
-      if (found == index.end()) {
-        ++unknown;
-        continue;
-      }
-      ++given;
-      std::copy_n(values.numbers.begin() + static_cast<std::ptrdiff_t>(at), n,
-                  all.begin() + static_cast<std::ptrdiff_t>(n * found->second));
+  using Name = std::pair<std::string, bool>;       ///< and whether it is of nodes
+  using Sections = std::vector<const Values*>;     ///< one for each partition
+  using Moment = std::pair<double, std::int64_t>;  ///< time and step
+  static Name name_of(const Values& values) { return {values.name, values.of_nodes}; }
+
+  /// A view has a section for each step and partition. Steps are told apart by their times, or, where a view has
+  /// several at one time, by their numbers, too.
+  void add_steps(const DataSet& block, std::size_t cell_count, MeshFile& out) {
+    std::map<Name, std::map<Moment, Sections>> views;
+    for (const Values& values : values_)
+      views[name_of(values)][{values.time, values.step}].push_back(&values);
+    bool numbered = false;
+    for (const auto& [name, moments] : views) {
+      for (auto at = moments.begin(); at != moments.end(); ++at)
+        numbered = numbered || (at != moments.begin() && std::prev(at)->first.first == at->first.first);
     }
-    const auto note = [&](const std::string& text) {
-      const std::string whole = "'" + values.name + "': " + text;
-      if (std::ranges::find(notes, whole) == notes.end()) notes.push_back(whole);
-    };
-    if (values.of_nodes && unknown > 0) note(counted(unknown, "value") + " of nodes that there are not");
+    // What stands once holds at all times.
+    std::map<Moment, std::map<Name, Sections>> steps;
+    for (const auto& [name, moments] : views) {
+      if (moments.size() == 1) continue;
+      for (const auto& [moment, sections] : moments)
+        steps[{moment.first, numbered ? moment.second : 0}][name] = sections;
+    }
+    for (const auto& [name, moments] : views) {
+      if (moments.size() > 1) continue;
+      const auto& [moment, sections] = *moments.begin();
+      if (steps.empty()) continue;
+      add_note("'" + name.first + "' is given at time " + short_number(moment.first) +
+                   " alone: it is held constant",
+               out.notes);
+      for (auto& [when, arrays] : steps) arrays[name] = sections;
+    }
+    if (steps.empty()) {
+      auto& all = steps[{0.0, 0}];
+      for (const auto& [name, moments] : views) all[name] = moments.begin()->second;
+    }
+    for (const auto& [moment, arrays] : steps) {
+      DataSet step = block;
+      for (const auto& [name, sections] : arrays) add_array(sections, cell_count, step, out.notes);
+      out.times.push_back(moment.first);
+      out.steps.push_back({std::move(step)});
+    }
+    if (numbered) {
+      bool rising = true;
+      std::vector<double> numbers;
+      for (const auto& [moment, arrays] : steps) {
+        rising = rising && (numbers.empty() || numbers.back() < static_cast<double>(moment.second));
+        numbers.push_back(static_cast<double>(moment.second));
+      }
+      for (std::size_t i = 0; !rising && i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
+      out.times = std::move(numbers);
+      add_note(std::string("several steps have one time: ") +
+                   (rising ? "the numbers of the steps" : "the numbers 0, 1, 2, ...") +
+                   " are taken for times",
+               out.notes);
+    }
+  }
+
+  static void add_note(const std::string& text, std::vector<std::string>& notes) {
+    if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
+  }
+
+  /// @param sections of one view, which its partitions may have in part each.
+  void add_array(const Sections& sections, std::size_t cell_count, DataSet& block,
+                 std::vector<std::string>& notes) {
+    const Values& first = *sections.front();
+    const auto n = static_cast<std::size_t>(first.components);
+    const std::size_t tuples = first.of_nodes ? positions_.size() / 3 : cell_count;
+    std::vector<double> all(n * tuples, std::numeric_limits<double>::quiet_NaN());
+    std::vector<std::uint8_t> known(tuples, 0);
+    std::size_t unknown = 0, given = 0, other = 0;
+    const auto& index = first.of_nodes ? index_ : cell_of_;
+    for (const Values* const section : sections) {
+      if (section->components != first.components) {
+        throw input_error({words_.file(), "'" + first.name + "'",
+                           "has " + std::to_string(first.components) + " and " +
+                               std::to_string(section->components) + " components at one time",
+                           "as many in each section", ""});
+      }
+      for (const auto& [tag, at] : section->tags) {
+        const auto found = index.find(tag);
+        if (found == index.end()) {
+          ++unknown;
+          continue;
+        }
+        const auto from = section->numbers.begin() + static_cast<std::ptrdiff_t>(at);
+        const auto to = all.begin() + static_cast<std::ptrdiff_t>(n * found->second);
+        if (known[found->second] != 0 && !std::equal(to, to + static_cast<std::ptrdiff_t>(n), from)) ++other;
+        if (known[found->second] == 0) ++given;
+        known[found->second] = 1;
+        std::copy_n(from, n, to);
+      }
+    }
+    const auto note = [&](const std::string& text) { add_note("'" + first.name + "': " + text, notes); };
+    if (first.of_nodes && unknown > 0) note(counted(unknown, "value") + " of nodes that there are not");
+    if (other > 0) note(counted(other, "value") + " given again, and otherwise: the last are taken");
     if (given < tuples)
-      note(counted(tuples - given, values.of_nodes ? "node" : "cell") + " without a value: no data there");
-    if (given == 0 && !values.of_nodes) return;  // of surfaces alone
-    block.arrays.push_back(mesh_array(values.name, values.of_nodes ? Association::kPoint : Association::kCell,
-                                      values.components, all));
+      note(counted(tuples - given, first.of_nodes ? "node" : "cell") + " without a value: no data there");
+    if (given == 0 && !first.of_nodes) return;  // of surfaces alone
+    block.arrays.push_back(mesh_array(first.name, first.of_nodes ? Association::kPoint : Association::kCell,
+                                      first.components, all));
   }
 
   /// Arrays that all steps have: others would be missing at some time.

@@ -96,7 +96,11 @@ MeshFile read_su2(std::string_view text, const std::string& file) {
       (void)words.rest_of_line();
       for (std::int64_t n = 0; n < count && !words.done(); ++n) (void)words.rest_of_line();
     } else {
+      // Its lines, up to the next entry.
       (void)words.rest_of_line();
+      for (MeshWords ahead = words; !ahead.done(); words = ahead) {
+        if (ahead.rest_of_line().find('=') != std::string_view::npos) break;
+      }
     }
   }
   close();

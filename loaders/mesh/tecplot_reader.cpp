@@ -27,20 +27,6 @@ std::string upper(std::string_view text) {
   return out;
 }
 
-/// The numbers that a list such as "[1-3,7]" holds. @returns none where it is malformed.
-std::vector<std::size_t> numbers_in(std::string_view list) {
-  std::vector<std::size_t> out;
-  for (const std::string_view part : split(list, ',')) {
-    const auto range = split(trimmed(part), '-');
-    const auto first = parsed<std::size_t>(trimmed(range.front()));
-    const auto last = range.size() == 2 ? parsed<std::size_t>(trimmed(range.back())) : first;
-    constexpr std::size_t kMost = 100000;
-    if (!first || !last || range.size() > 2 || *first == 0 || *last > kMost) return {};
-    for (std::size_t n = *first; n <= *last; ++n) out.push_back(n - 1);
-  }
-  return out;
-}
-
 struct Zone {
   std::string name;
   bool block = false, elements = false;
@@ -67,7 +53,7 @@ struct Zone {
 class TecplotReader {
  public:
   TecplotReader(std::string_view text, const std::string& file)
-      : words_(text, file, '#'), bytes_(text.size()) {}
+      : words_(text, file, '#'), budget_(kFew + kMostABytes * text.size()) {}
 
   MeshFile read() {
     next();
@@ -100,6 +86,15 @@ class TecplotReader {
   }
 
  private:
+  /// Numbers that a file of so many bytes may have without a letter for each: repeated and shared ones.
+  static constexpr std::size_t kFew = std::size_t{1} << 22U, kMostABytes = 64;
+
+  /// A few letters must not fill the memory.
+  void spend(std::size_t numbers, const std::string& what) {
+    if (numbers > budget_) words_.refuse(what, "as many as the file is long");
+    budget_ -= numbers;
+  }
+
   static bool starts_record(const std::string& key) {
     for (const char* const known : {"TITLE", "FILETYPE", "VARIABLES", "ZONE", "TEXT", "GEOMETRY",
                                     "CUSTOMLABELS", "DATASETAUXDATA", "VARAUXDATA"}) {
@@ -127,8 +122,12 @@ class TecplotReader {
     }
     if (open == 0) {
       // Lists may hold blanks and commas, which part words.
-      while (std::ranges::count(token_, '(') > std::ranges::count(token_, ')')) {
-        const std::string_view more = words_.word();
+      const auto opened = [](std::string_view text) {
+        return std::ranges::count(text, '(') - std::ranges::count(text, ')');
+      };
+      std::string_view more;
+      for (auto depth = opened(token_); depth > 0; depth += opened(more)) {
+        more = words_.word();
         if (more.empty()) words_.refuse("'" + printable(token_.substr(0, 40)) + "'", "a closed list");
         (token_ += ' ') += more;
       }
@@ -153,11 +152,15 @@ class TecplotReader {
 
   void read_variables() {
     (void)value_of("VARIABLES");
+    std::vector<std::string> found;
     while (!token_.empty() || quoted_) {
       if (!quoted_ && starts_record(upper(token_))) break;
-      variables_.push_back(token_);
+      found.push_back(token_);
       next();
     }
+    if (!variables_.empty() && found != variables_)
+      words_.refuse("other VARIABLES than before", "the same for all zones");
+    variables_ = std::move(found);
   }
 
   std::int64_t whole(const std::string& text, const char* what, std::int64_t least) {
@@ -166,6 +169,29 @@ class TecplotReader {
     if (!value || *value < least || *value > kMost)
       words_.refuse("'" + printable(text.substr(0, 40)) + "'", what);
     return *value;
+  }
+
+  /// The variables that a list such as "1-3,7" names, each once.
+  std::set<std::size_t> variables_in(std::string_view list) {
+    std::set<std::size_t> out;
+    const auto known = [&](std::string_view text) {
+      const auto n = parsed<std::size_t>(trimmed(text));
+      if (!n || *n == 0)
+        words_.refuse("'" + printable(list.substr(0, 40)) + "'", "numbers of variables such as 1-3,7");
+      if (*n > variables_.size()) words_.refuse("variable " + std::to_string(*n), "one that there is");
+      return *n;
+    };
+    for (const std::string_view part : split(list, ',')) {
+      if (trimmed(part).empty()) continue;
+      const std::size_t dash = part.find('-');
+      const std::size_t first = known(part.substr(0, dash));
+      const std::size_t last = dash == std::string_view::npos ? first : known(part.substr(dash + 1));
+      for (std::size_t n = first; n <= last; ++n) {
+        spend(1, "a list of many variables");
+        out.insert(n - 1);
+      }
+    }
+    return out;
   }
 
   /// "([4-6]=CELLCENTERED, [7]=NODAL)" or "(NODAL, CELLCENTERED, ...)": what stands for which variables.
@@ -177,13 +203,13 @@ class TecplotReader {
     while (!trimmed(rest).empty()) {
       rest = trimmed(rest);
       while (!rest.empty() && (rest.front() == ',' || rest.front() == ' ')) rest.remove_prefix(1);
-      std::vector<std::size_t> of{place};
+      std::set<std::size_t> of{place};
       if (!rest.empty() && rest.front() == '[') {
         const std::size_t close = rest.find(']');
         if (close == std::string_view::npos) break;
         std::string numbers(rest.substr(1, close - 1));
         std::ranges::replace(numbers, ' ', ',');
-        of = numbers_in(numbers);
+        of = variables_in(numbers);
         rest = trimmed(rest.substr(close + 1));
         if (!rest.empty() && rest.front() == '=') rest = trimmed(rest.substr(1));
       } else if (!rest.empty() && rest.front() >= '0' && rest.front() <= '9') {
@@ -191,7 +217,7 @@ class TecplotReader {
         const std::size_t end = std::min(rest.find_first_of(", "), rest.size());
         const std::string_view word = rest.substr(0, end);
         const std::size_t equal = word.find('=');
-        of = numbers_in(word.substr(0, equal));
+        of = variables_in(word.substr(0, equal));
         for (const std::size_t v : of)
           out[v] = equal == std::string_view::npos ? "" : std::string(word.substr(equal + 1));
         rest.remove_prefix(end);
@@ -302,11 +328,7 @@ class TecplotReader {
     const std::size_t star = token_.find('*');
     if (star != std::string::npos) {
       repeats_ = static_cast<std::size_t>(whole(token_.substr(0, star), "a repetition", 1)) - 1;
-      // A few letters must not fill the memory.
-      constexpr std::size_t kFew = std::size_t{1} << 22U, kMostABytes = 64;
-      if (repeats_ > std::max(kFew, kMostABytes * bytes_))
-        words_.refuse("a number repeated " + std::to_string(repeats_ + 1) + " times",
-                      "as many as the file is long");
+      spend(repeats_, "a number repeated " + std::to_string(repeats_ + 1) + " times");
       token_.erase(0, star + 1);
     }
     MeshWords one(token_, words_.file());
@@ -353,6 +375,7 @@ class TecplotReader {
         words_.refuse("variable " + std::to_string(variable + 1), "one that there is");
       if (zones_[from].values[variable].size() != (zone.of_cells.count(variable) > 0 ? cells : nodes))
         words_.refuse("a variable of a zone of another size", "one of the same");
+      spend(zones_[from].values[variable].size(), "many values of other zones");
       zone.values[variable] = zones_[from].values[variable];
     }
     if (zone.elements) read_elements(zone, nodes, cells);
@@ -366,6 +389,7 @@ class TecplotReader {
       const Zone& other = zones_[*zone.cells_of];
       if (other.cells != zone.cells || other.corners != zone.corners || other.nodes > zone.nodes)
         words_.refuse("the elements of a zone of another size", "one of the same");
+      spend(other.connectivity.size(), "many elements of other zones");
       zone.connectivity = other.connectivity;
       return;
     }
@@ -496,7 +520,13 @@ class TecplotReader {
     if (by_time.empty()) {
       out.steps.push_back(std::move(always));
     } else {
+      std::size_t repeated = 0;
+      for (const DataSet& block : always) {
+        if (const auto* mesh = std::get_if<UnstructuredTopology>(&block.topology))
+          repeated += mesh->connectivity.size();
+      }
       for (auto& [time, blocks] : by_time) {
+        spend(repeated, "many elements that stand at all times");
         out.times.push_back(time);
         out.steps.push_back(always);
         out.steps.back().insert(out.steps.back().end(), blocks.begin(), blocks.end());
@@ -507,7 +537,7 @@ class TecplotReader {
   }
 
   MeshWords words_;
-  std::size_t bytes_;
+  std::size_t budget_;  ///< of spend()
   std::string token_, pending_;
   bool quoted_ = false;
   std::size_t repeats_ = 0;

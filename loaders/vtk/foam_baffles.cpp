@@ -89,7 +89,10 @@ FoamBaffles::FoamBaffles(const FoamFaces& faces, std::span<const FoamPatch> patc
   each([&](std::int64_t p, std::int64_t own, std::int64_t other) {
     if (other >= 0) groups.unite(corners.at({p, own}), corners.at({p, other}));
   });
-  for (const std::int64_t cell : owner) cells_ = std::max(cells_, static_cast<std::size_t>(cell) + 1);
+  // The last cell may own no face.
+  for (const auto& of_faces : {owner, neighbour}) {
+    for (const std::int64_t cell : of_faces) cells_ = std::max(cells_, static_cast<std::size_t>(cell + 1));
+  }
   std::int64_t point = -1;
   std::map<std::uint32_t, std::int64_t> of_group;
   for (const auto& [corner, number] : corners) {

@@ -21,6 +21,7 @@ class FoamBaffles {
   /// the rim of a baffle there is one group, and the point stays one.
   /// What is cyclic lets the flow through (fans, porous baffles).
   /// @param faces all of the mesh. @param owner,neighbour as the files have them. @param points of the mesh.
+  /// @pre owners are not negative, neighbours at least -1 (none).
   FoamBaffles(const FoamFaces& faces, std::span<const FoamPatch> patches, std::span<const std::int64_t> owner,
               std::span<const std::int64_t> neighbour, std::size_t points);
 

@@ -95,6 +95,7 @@ struct PatchEntry {
 struct PatchSays {
   std::string type;
   std::optional<FoamPatchValues> values;
+  std::optional<double> fixed_part;  ///< valueFraction, where it is one for all faces
   std::string problem;
 
   void read(FoamTokens tokens, const FoamScope& scope, std::size_t components, int depth = 0) {
@@ -119,7 +120,12 @@ struct PatchSays {
         }
         const std::string_view text = tokens.entry();
         if (key == "type") type = word_in(text, scope);
-        if (key == "value") read_value(text, tokens.storage(), scope, components);
+        if (key == "value") read_value(values, text, tokens.storage(), scope, components);
+        if (key == "valueFraction") {
+          std::optional<FoamPatchValues> part;
+          read_value(part, text, tokens.storage(), scope, 1);
+          if (part && part->uniform) fixed_part = part->numbers.front();
+        }
       } catch (const FoamMalformed& what) {
         problem = what.found;
       }
@@ -133,17 +139,17 @@ struct PatchSays {
     FoamTokens tokens(whole, {});
     return std::string(tokens.next());
   }
-  void read_value(std::string_view text, const FoamStorage& storage, const FoamScope& scope,
-                  std::size_t components) {
+  static void read_value(std::optional<FoamPatchValues>& into, std::string_view text,
+                         const FoamStorage& storage, const FoamScope& scope, std::size_t components) {
     // Macros stand in text alone, before a list that may be binary.
-    values.reset();
+    into.reset();
     const std::size_t list = std::min(text.find("List<"), text.size());
     std::string made;
     if (text.substr(0, list).find('$') != std::string_view::npos) text = made = scope.expanded(text);
     FoamTokens tokens(text, storage);
     FoamPatchValues found = values_in(tokens, components);
     if (!tokens.done()) throw FoamMalformed{"values by '" + std::string(tokens.peek().substr(0, 40)) + "'"};
-    values = std::move(found);
+    into = std::move(found);
   }
 };
 
@@ -168,10 +174,19 @@ PatchEntry entry_in(std::string key, bool pattern, std::string_view text, const 
     out.problem.clear();
     return out;
   }
-  if (slides_along(type)) {
+  const bool in_part = type == "partialSlip";
+  if (in_part && values && !values->uniform) {
+    out.given = true;
+    out.values = std::move(*values);
+  } else if (in_part && says.fixed_part && *says.fixed_part == 1.0) {
+    out.given = true;
+    out.values = {.numbers = std::vector<double>(components, 0.0), .uniform = true};
+  } else if (slides_along(type)) {
     out.problem.clear();
     out.given = true;
     out.values.slides = true;
+    if (in_part && !(says.fixed_part && *says.fixed_part == 0.0))
+      out.problem = "partialSlip without a value of each face, taken for slip whatever its valueFraction";
   } else if (type == "noSlip") {
     out.given = true;
     out.problem.clear();
@@ -358,10 +373,21 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
   for (const FoamPatch& patch : patches) {
     if (patch.faces == 0) continue;
     const PatchEntry* const entry = entry_of(patch, entries);
-    if (entry == nullptr) continue;
+    const std::string name = "patch '" + patch.name.substr(0, 60) + "': ";
+    if (entry == nullptr) {
+      // A constraint of the mesh holds for every field.
+      if (slides_along(patch.type)) {
+        if (components == 3) out[patch.name] = {.numbers = {}, .slides = true};
+      } else if (!follows_cells(patch.type)) {
+        problems.push_back(name + "no entry in the boundaryField");
+      }
+      continue;
+    }
     std::string problem = entry->problem;
     if (entry->values.slides) {
-      if (components == 3) out[patch.name] = entry->values;
+      if (components != 3) continue;
+      out[patch.name] = entry->values;
+      if (!problem.empty()) problems.push_back(name + problem);
       continue;
     }
     if (entry->given) {
@@ -372,7 +398,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
       }
       problem = std::to_string(tuples) + " values for " + std::to_string(patch.faces) + " faces";
     }
-    if (!problem.empty()) problems.push_back("patch '" + patch.name.substr(0, 60) + "': " + problem);
+    if (!problem.empty()) problems.push_back(name + problem);
   }
   return out;
 }

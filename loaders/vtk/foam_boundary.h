@@ -3,7 +3,8 @@
 ///
 /// A face has the values listed for its patch: those of patches of fixed value (fixedValue and its kin, noSlip,
 /// movingWallVelocity), and those listed face by face for any other type but zeroGradient and the constraints (empty,
-/// wedge, cyclic, processor). Of slip and symmetry it is known that nothing of a vector goes through. OpenFOAM User Guide, "Boundaries" and "Mesh description".
+/// wedge, cyclic, processor). Of slip and symmetry it is known that nothing of a vector goes through. A patch without an
+/// entry is what its constraint in the mesh says. OpenFOAM User Guide, "Boundaries" and "Mesh description".
 #pragma once
 
 #include <cstddef>

@@ -238,6 +238,16 @@ const FoamBoundaryReader::Mesh& FoamBoundaryReader::mesh_in(const fs::path& fold
     const auto owner = read_foam_labels(FoamText(folder / "owner").text(), (folder / "owner").string());
     const auto neighbour =
         read_foam_labels(FoamText(folder / "neighbour").text(), (folder / "neighbour").string());
+    // A cell has faces, so that there are fewer cells than faces.
+    for (const auto* list : {&owner, &neighbour}) {
+      const std::int64_t least = list == &owner ? 0 : -1;
+      for (const std::int64_t cell : *list) {
+        if (cell >= least && cell < static_cast<std::int64_t>(owner.size())) continue;
+        throw input_error({(folder / (list == &owner ? "owner" : "neighbour")).string(), "",
+                           "has a face of cell " + std::to_string(cell), "a cell of the mesh",
+                           "the file may be damaged"});
+      }
+    }
     mesh.baffles = FoamBaffles(all, mesh.patches, owner, neighbour, mesh.points);
     for (std::size_t face = 0; face + 1 < mesh.faces.begin.size() && mesh.first_face + face < owner.size();
          ++face) {
@@ -281,12 +291,13 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
     try {
       const Mesh& mesh = mesh_in(mesh_folder(region, time));
       points = mesh.points;
-      if (!mesh.baffles.empty() && points == mesh_of_block->positions.tuples) {
+      if (!mesh.baffles.empty()) {
         if (mesh.baffles.split(block)) {
           points = mesh.baffles.points();
         } else {
           problems.insert(
-              "baffles are not parted: the mesh has other cells than its files; flow goes through them");
+              "baffles are not parted: the mesh has other cells or points than its files; flow goes through "
+              "them");
         }
       }
     } catch (const Error& error) {

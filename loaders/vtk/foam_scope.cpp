@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <utility>
 
 namespace palpate {
 namespace {
 
-constexpr int kDeepest = 16;
-constexpr std::size_t kLongest = std::size_t{64} << 20U;  // of what macros make
+constexpr std::size_t kDeepest = 16, kMostFiles = 256;
+constexpr std::size_t kLongest = std::size_t{64} << 20U;  // of what macros make, and of all files
 
 bool in_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == ':' || c == '/';
@@ -30,23 +31,35 @@ std::string_view entry_of(std::string_view dictionary, std::string_view name) {
 
 }  // namespace
 
-FoamScope::FoamScope(FoamTokens& tokens, const FoamScope* parent, const FoamInclude& include, int depth)
+FoamScope::FoamScope(FoamTokens& tokens, const FoamScope* parent, const FoamInclude& include)
     : parent_(parent) {
-  add(tokens, include, depth);
+  add(tokens, include);
 }
 
-void FoamScope::add(FoamTokens& tokens, const FoamInclude& include, int depth) {
+void FoamScope::add_file(const std::string& name, const FoamInclude& include) {
+  std::string file = std::filesystem::path(name).lexically_normal().generic_string();
+  const std::string what = "#include \"" + name.substr(0, 60) + "\"";
+  if (std::ranges::find(open_, file) != open_.end()) throw FoamMalformed{what + ", which includes itself"};
+  if (open_.size() >= kDeepest || included_.size() >= kMostFiles)
+    throw FoamMalformed{what + " in more files than are read"};
+  std::string text = include(name);
+  if (text.empty()) return;
+  if (text.size() > kLongest - included_bytes_) throw FoamMalformed{what + " of more text than is read"};
+  included_bytes_ += text.size();
+  included_.push_back(std::move(text));
+  open_.push_back(std::move(file));
+  FoamTokens inner = foam_body(included_.back());
+  add(inner, include);
+  open_.pop_back();
+}
+
+void FoamScope::add(FoamTokens& tokens, const FoamInclude& include) {
   while (!tokens.done() && tokens.peek() != "}") {
     const std::string key(tokens.next());
     if (key == ";") continue;
     if (!key.empty() && key.front() == '#') {  // with an argument, without an end
       const std::string what(tokens.next());
-      if (!include || depth > kDeepest || key.substr(0, 8) != "#include" || key == "#includeEtc") continue;
-      std::string text = include(what);
-      if (text.empty()) continue;
-      included_.push_back(std::move(text));
-      FoamTokens inner = foam_body(included_.back());
-      add(inner, include, depth + 1);
+      if (include && key.substr(0, 8) == "#include" && key != "#includeEtc") add_file(what, include);
       continue;
     }
     if (!key.empty() && key.front() == '$' && tokens.peek() == ";") continue;
@@ -110,7 +123,7 @@ std::string FoamScope::expanded(std::string_view text, int depth) const {
     }
     const std::string_view name = text.substr(begin, end - begin);
     const std::string_view found = name.empty() ? std::string_view() : find(name);
-    if (found.empty() || depth > kDeepest || out.size() + found.size() > kLongest)
+    if (found.empty() || static_cast<std::size_t>(depth) > kDeepest || out.size() + found.size() > kLongest)
       throw FoamMalformed{"$" + std::string(name.substr(0, 40)) + ", which stands for nothing there"};
     out += expanded(found, depth + 1);
     at = std::min(text.size(), end + (braced ? 1 : 0));

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "loaders/vtk/foam_text.h"
 
@@ -20,7 +21,8 @@ using FoamInclude = std::function<std::string(std::string_view name)>;
 class FoamScope {
  public:
   /// @param tokens at the first entry; they are left at the end or at the closing bracket. @param parent outlives this.
-  FoamScope(FoamTokens& tokens, const FoamScope* parent, const FoamInclude& include = {}, int depth = 0);
+  /// @throws FoamMalformed for a file that includes itself, and for more files than any case has.
+  FoamScope(FoamTokens& tokens, const FoamScope* parent, const FoamInclude& include = {});
   FoamScope(const FoamScope&) = delete;
   FoamScope& operator=(const FoamScope&) = delete;
 
@@ -31,11 +33,14 @@ class FoamScope {
   [[nodiscard]] std::string expanded(std::string_view text, int depth = 0) const;
 
  private:
-  void add(FoamTokens& tokens, const FoamInclude& include, int depth);
+  void add(FoamTokens& tokens, const FoamInclude& include);
+  void add_file(const std::string& name, const FoamInclude& include);
   [[nodiscard]] std::string_view find(std::string_view name) const;
 
   std::map<std::string, std::string_view, std::less<>> entries_;
   std::deque<std::string> included_;  ///< that entries point into
+  std::size_t included_bytes_ = 0;
+  std::vector<std::string> open_;  ///< files that are being included, each by the one before
   const FoamScope* parent_;
 };
 

@@ -277,10 +277,14 @@ TEST(FoamBoundaryText, NamesStandForWhatTheyDoInTheFile) {
 
 /// The values of the patch "lid", by a file's text; empty where there are none.
 std::vector<double> lid_of(const std::string& text, std::vector<std::string>& problems) {
-  const std::vector<FoamPatch> patches{{"lid", {}, 2, 0}, {"floor", {}, 2, 2}};
+  const std::vector<FoamPatch> patches{{"lid", {}, 2, 0}};
   const FoamInclude include = [](std::string_view name) {
-    return name == "flow" ? std::string("fast (4 0 0);\nnested { deep { speed uniform (4 0 0); } }\n")
-                          : std::string();
+    if (name == "flow") return std::string("fast (4 0 0);\nnested { deep { speed uniform (4 0 0); } }\n");
+    if (name == "itself") return std::string("#include \"itself\"\n#include \"./itself\"\n");
+    // Two files of each that are there: without a limit 2^16 of them.
+    if (name.size() < 16 && name.substr(0, 1) == "+")
+      return "#include \"" + std::string(name) + "a\"\n#include \"" + std::string(name) + "b\"\n";
+    return std::string();
   };
   problems.clear();
   const auto found =
@@ -315,6 +319,60 @@ TEST(FoamBoundaryText, NamesLeadIntoDictionariesAndUpwards) {
     EXPECT_TRUE(lid_of(text, problems).empty()) << text;
     EXPECT_TRUE(says(problems, "stands for nothing")) << text;
   }
+}
+
+TEST(FoamBoundaryText, FilesThatIncludeThemselvesOrTooManyAreSaid) {
+  const std::string body = "boundaryField { lid { type noSlip; } }";
+  std::vector<std::string> problems;
+  (void)lid_of("#include \"itself\"\n" + body, problems);
+  EXPECT_TRUE(says(problems, "which includes itself"));
+  (void)lid_of("#include \"+\"\n" + body, problems);
+  EXPECT_TRUE(says(problems, "more files than are read"));
+}
+
+TEST(FoamBoundaryText, PatchesWithoutAnEntryAreWhatTheMeshSays) {
+  const auto found_of = [](const std::string& type, const std::string& entries,
+                           std::vector<std::string>& problems) {
+    return read_foam_boundary(
+        FoamBox::header("volVectorField", "U", false) + "boundaryField { " + entries + " }", 3,
+        {{"a", {}, 2, 0, type}}, problems);
+  };
+  for (const char* const type : {"symmetry", "symmetryPlane"}) {
+    std::vector<std::string> problems;
+    const auto found = found_of(type, "", problems);
+    ASSERT_EQ(found.count("a"), 1U) << type;
+    EXPECT_TRUE(found.at("a").slides);
+    EXPECT_TRUE(problems.empty()) << type;
+  }
+  for (const char* const type : {"empty", "wedge", "cyclic", "cyclicAMI", "processor"}) {
+    std::vector<std::string> problems;
+    EXPECT_TRUE(found_of(type, "", problems).empty()) << type;
+    EXPECT_TRUE(problems.empty()) << type;
+  }
+  for (const char* const type : {"patch", "wall", ""}) {
+    std::vector<std::string> problems;
+    EXPECT_TRUE(found_of(type, "", problems).empty()) << type;
+    EXPECT_TRUE(says(problems, "patch 'a': no entry")) << type;
+  }
+}
+
+TEST(FoamBoundaryText, PartialSlipIsAsItsValuesSayOrIsSaid) {
+  const auto found_of = [](const std::string& entry, std::vector<std::string>& problems) {
+    const auto all = read_foam_boundary(FoamBox::header("volVectorField", "U", false) +
+                                            "boundaryField { a { type partialSlip; " + entry + " } }",
+                                        3, {{"a", {}, 2, 0, "wall"}}, problems);
+    return all.at("a");
+  };
+  std::vector<std::string> problems;
+  const FoamPatchValues listed =
+      found_of("valueFraction uniform 0.3; value nonuniform List<vector> 2((1 2 3) (4 5 6));", problems);
+  EXPECT_FALSE(listed.slides);
+  EXPECT_EQ(listed.numbers, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  EXPECT_TRUE(found_of("valueFraction uniform 0;", problems).slides);
+  EXPECT_EQ(found_of("valueFraction uniform 1;", problems).numbers, std::vector<double>(3, 0.0));
+  EXPECT_TRUE(problems.empty());
+  EXPECT_TRUE(found_of("valueFraction uniform 0.3;", problems).slides);
+  EXPECT_TRUE(says(problems, "partialSlip without a value of each face"));
 }
 
 TEST(FoamBoundaryText, ItsNameInCommentsAndStringsIsNoBoundary) {

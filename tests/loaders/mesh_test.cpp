@@ -63,6 +63,39 @@ TEST_F(Meshes, GmshHasTimesAndValuesOfElements) {
   EXPECT_EQ(p->at(0), 42.5);
 }
 
+TEST_F(Meshes, GmshStepsOfOneTimeAreStepsAndPartitionsAreOne) {
+  const std::string file = gmsh_file(cell_kinds().front(), false, false, false);
+  const std::string mesh = file.substr(0, file.find("$NodeData"));
+  const auto section = [](const std::string& time, int step, int node, const std::string& value) {
+    return "$NodeData\n1\n\"q\"\n1\n" + time + "\n3\n" + std::to_string(step) + "\n1\n1\n" +
+           std::to_string(node) + " " + value + "\n$EndNodeData\n";
+  };
+  std::string steps = file;
+  for (int step = 0; step < 3; ++step) {
+    steps += section("0.0", step, 10, std::to_string(step) + ".5");
+    steps += section("0.0", step, 20, "9.25");
+  }
+  Source source = Source::open({{folder_.write("a.msh", steps)}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 1.0, 2.0}));
+  EXPECT_TRUE(says(source.info().notes, "several steps have one time"));
+  EXPECT_TRUE(says(source.info().notes, "'U' is given at time 0 alone"));
+  EXPECT_TRUE(says(source.info().notes, "'q': 2 nodes without a value"));
+  for (std::size_t step = 0; step < 3; ++step) {
+    const DataSet block = source.read({"U", "q"}, step).at(0);
+    ASSERT_NE(block.find("U", Association::kPoint), nullptr);
+    const DataArray* const q = block.find("q", Association::kPoint);
+    ASSERT_NE(q, nullptr);
+    EXPECT_EQ(q->at(0), static_cast<double>(step) + 0.5);
+    EXPECT_EQ(q->at(1), 9.25);
+  }
+  // Steps of rising times are told by these alone, whatever their numbers.
+  const std::string timed = mesh + section("0.5", 0, 10, "1") + section("0.25", 0, 10, "2");
+  EXPECT_EQ(Source::open({{folder_.write("b.msh", timed)}, {}}).info().times,
+            (std::vector<double>{0.25, 0.5}));
+  refused("c.msh", mesh + section("nan", 0, 10, "1"), "a time");
+  refused("c.msh", mesh + section("inf", 0, 10, "1"), "a time");
+}
+
 TEST_F(Meshes, GmshNodesWithoutValueHaveNoDataAndItIsSaid) {
   std::string file = gmsh_file(cell_kinds().front(), false, false, false);
   const std::size_t data = file.find("$NodeData");
@@ -140,6 +173,20 @@ TEST_F(Meshes, BrokenTecplotFilesAreRefused) {
   refused("a.dat", ordered("I=99999999999 J=2 K=2 F=POINT"), "a count of points");
   refused("a.dat", replaced(good, "0.5", "999*0.5"), "more values");
   refused("a.dat", replaced(good, "0.5", "999999999*0.5"), "repeated 999999999 times");
+  std::string repeats;
+  for (int n = 0; n < 1000; ++n) repeats += "4194304*1\n";
+  refused("a.dat", "VARIABLES = X Y Z\nZONE I=2048 J=2048 K=1000 F=BLOCK\n" + repeats,
+          "repeated 4194304 times");
+  const std::string last = "\n8*1 8*2 8*3\n";
+  refused("a.dat", "VARIABLES = X Y Z\nZONE I=2 J=2 K=2 F=BLOCK PASSIVEVARLIST=([1-99999])" + last,
+          "variable 99999");
+  refused("a.dat", "VARIABLES = X Y Z\nZONE I=2 J=2 K=2 F=BLOCK PASSIVEVARLIST=([a])" + last, "'a'");
+  refused("a.dat", good + "VARIABLES = X Y Z U V\nZONE I=2 J=2 K=2 F=POINT VARSHARELIST=([1-5]=1)\n",
+          "other VARIABLES");
+  // A zone that takes all from another one costs no more letters however large that is.
+  std::string sharing = "VARIABLES = X Y Z\nZONE I=128 J=128 K=64 F=BLOCK\n1048576*0 1048576*1 1048576*2\n";
+  for (int n = 0; n < 1000; ++n) sharing += "ZONE I=128 J=128 K=64 F=BLOCK VARSHARELIST=([1-3]=1)\n";
+  refused("a.dat", sharing, "as many as the file is long");
   refused("a.dat", ordered("I=9999999999 J=9999999999 K=9999999999 F=POINT"), "more points");
   refused("a.dat",
           "VARIABLES = X Y Z\nZONE N=4 E=1 F=FEPOINT ET=TETRAHEDRON\n0 0 0 1 0 0 0 1 0 0 0 1\n1 2 3 5\n",
@@ -162,6 +209,8 @@ TEST_F(Meshes, BrokenUcdAndSu2FilesAreRefused) {
   refused("a.su2", replaced(su2, "\n12 0", "\n17 0"), "type 17");
   Source source = Source::open({{folder_.write("a.su2", su2)}, {}});
   EXPECT_TRUE(says(source.info().notes, "holds no flow"));
+  const std::string more = "FFD_NBOX= 1\nFFD_CORNER_POINTS= 2\n0.0 1.0 2.0\n% 1 = 2\n3.0 4.0 5.0 % a = b\n";
+  EXPECT_EQ(Source::open({{folder_.write("b.su2", more + su2 + more)}, {}}).info().blocks.size(), 1U);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace {
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 constexpr double kEmbeddedOrder = 4.0;
 constexpr double kCellsAStep = 2.0;  // at most: farther, the stages might see nothing of what lies between
+constexpr double kStretch = 1.5;     // by what the fastest stage may go beyond that
 constexpr int kMaxAttempts = 64;
 
 using Step = ExplicitStep<Dp54, Vec3>;
@@ -104,11 +105,13 @@ void CarriedParticle::end(End why) {
 void CarriedParticle::carry(const FlowInTime& flow, double age) {
   const double sign = settings_.sign;
   SampleStatus status = SampleStatus::kOk;
+  double fastest = 0.0;  // of the stages of a step
   FlowInTime::Place place = place_;
   const auto slope = [&](double at, const Vec3& x) {
     Vec3 v{0.0};
     const SampleStatus found = flow.sample(release_ + sign * at, x, place, v);
     if (found != SampleStatus::kOk && status == SampleStatus::kOk) status = found;
+    fastest = std::max(fastest, glm::length(v));
     return sign * v;
   };
   Vec3 first = slope(now_.time, now_.position);
@@ -128,6 +131,7 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     if (speed * h > reach) h = reach / speed;
     const auto attempt = [&](double length) {
       status = SampleStatus::kOk;
+      fastest = speed;
       place = place_;
       step.step = length;
       step.advance(slope, now_.time);
@@ -143,6 +147,7 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     SampleStatus left_by = SampleStatus::kOk;
     for (int n = 0; n < kMaxAttempts && !taken; ++n) {
       if (!(now_.time + h > now_.time)) break;
+      leaves = false;
       if (!attempt(h)) {
         // The longest step whose stages all lie in the data.
         left_by = status;
@@ -154,16 +159,19 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
           (attempt(middle) ? inside : outside) = middle;
           if (outside - inside <= kClose * inside) break;
         }
-        const double beyond = (outside - inside) * speed;
         if (inside == 0.0 || !attempt(inside)) {
           end(left_by == SampleStatus::kOutside ? End::kLeftDomain : End::kBadData);
           return;
         }
         h = inside;
-        leaves = h * speed + beyond <= settings_.tolerance * settings_.diagonal;
+        leaves = outside * fastest <= settings_.tolerance * settings_.diagonal;
+      }
+      if (fastest * h > kStretch * reach) {  // it was slower at the start
+        step_ = h = std::max(0.25 * h, reach / fastest);
+        continue;
       }
       const StepControl::Verdict verdict = control_.judge(local_error() / allowed(h));
-      taken = verdict.accepted || leaves;
+      taken = verdict.accepted;
       const double proposed = verdict.factor * h;
       // A step that was cut by the end of an interval says nothing against longer ones.
       step_ = taken && verdict.factor >= 1.0 ? std::max(step_, proposed) : proposed;

@@ -167,5 +167,30 @@ TEST(FlowSeries, MakesAnotherGridWherePointsMove) {
   EXPECT_EQ(second->bounds().upper.z, 2.0);
 }
 
+// Two cells with points of their own: apart where their values differ, joined where these agree.
+TEST(FlowSeries, MakesAnotherGridWhereValuesHaveASayInIt) {
+  const TempFolder folder;
+  std::string list = R"(<VTKFile type="Collection"><Collection>)";
+  for (int step = 0; step < 2; ++step) {
+    std::string text =
+        "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 float\n"
+        "0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 0 1 0 1 0 0 0 0 -1\n"
+        "CELLS 2 10\n4 0 1 2 3\n4 4 5 6 7\nCELL_TYPES 2\n10 10\nPOINT_DATA 8\nVECTORS v float\n";
+    for (int point = 0; point < 8; ++point) text += point < 4 || step == 1 ? "1 0 1\n" : "3 0 1\n";
+    const std::string name = "j" + std::to_string(step) + ".vtk";
+    (void)folder.write(name, text);
+    list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
+  }
+  Input input = Input::open({.files = {folder.write("j.pvd", list + "</Collection></VTKFile>")}});
+  FlowSeries series(input, 1);
+  const auto first = series.read(0), second = series.read(1);
+  EXPECT_NE(first->grid(), second->grid());
+  ASSERT_FALSE(first->notes().lines.empty());
+  const auto notes = series.field_notes({});
+  ASSERT_FALSE(notes.empty());
+  EXPECT_NE(notes.front().find("the first of them at time 0"), std::string::npos) << notes.front();
+  EXPECT_LT(series.field_notes(first->notes().lines).size(), notes.size());
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -42,9 +42,9 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
   }
   {
     const auto& [files, solution, example, field, secondary, time, kind, refine, raw, tensor, series, gaps,
-                 directions, mesher, volume, remesher, cache, markers] = document.input;
-    expect("input", files, solution, example, field, time, refine, series, gaps, directions, mesher, volume,
-           cache, markers);
+                 cells, directions, mesher, volume, remesher, cache, markers] = document.input;
+    expect("input", files, solution, example, field, time, refine, series, gaps, cells, directions, mesher,
+           volume, cache, markers);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
@@ -52,8 +52,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     (void)secondary, (void)kind, (void)remesher;  // what the program makes of the others
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i] = document.tracing;
-    expect("tracing", a, b, c, d, e, f, g, h, i);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.tracing;
+    expect("tracing", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = document.tracts;
