@@ -80,6 +80,7 @@ struct LiveTrial {
   std::vector<HandStep> steps;       ///< from begin on
   std::uint64_t begin = 0, end = 0;
   std::optional<HandStep> newest;
+  Stopwatch opened;
   bool begun = false, ended = false;
 };
 
@@ -110,7 +111,9 @@ class ParticipantWindow {
  private:
   static constexpr float kTextHeight = 20.0F;
   static constexpr Background kGround{{0.62F, 0.62F, 0.62F}, {0.62F, 0.62F, 0.62F}};
-  static constexpr double kAtStart = 0.004;  ///< [m] from the start where a trial may begin
+  static constexpr double kAtStart = 0.004;      ///< [m] from the start where a trial may begin
+  static constexpr double kLeastTrial = 0.3;     ///< [s] before which none is ended: a slip of the finger
+  static constexpr double kLongestStart = 60.0;  ///< [s] that the start waits
 
   [[nodiscard]] WindowOptions window_options() const {
     WindowOptions window;
@@ -127,7 +130,9 @@ class ParticipantWindow {
   [[nodiscard]] ParticipantSight sight() const;
   void take(const std::vector<InputEvent>& events);
   void space();
+  [[nodiscard]] double trial_seconds() const;
   void open_trial();
+  void leave_start();
   void begin_trial();
   void end_trial(bool by_clock);
   void save_trial(bool by_clock);
@@ -157,6 +162,8 @@ class ParticipantWindow {
   Vec2 mouse_{0.0};
   double depth_ = 0.0;  ///< [m] of the mouse's cursor, towards the viewer from the focal point
   bool pressed_ = false;
+  bool space_down_ = false;
+  bool entered_ = false;
   int width_ = 1, height_ = 1, frame_ = 0;
 };
 
@@ -170,7 +177,13 @@ ParticipantSight ParticipantWindow::sight() const {
   return out;
 }
 
+double ParticipantWindow::trial_seconds() const {
+  return live_->steps.empty() ? 0.0 : live_->steps.back().time - live_->steps.front().time;
+}
+
 void ParticipantWindow::open_trial() {
+  if (!entered_) folder_.enter(who_);  // not before: who leaves at the welcome takes no place
+  entered_ = true;
   live_ = std::make_unique<LiveTrial>();
   live_->planned = left_.front();
   live_->task = tasks_[as_size(live_->planned.task)].get();
@@ -184,16 +197,30 @@ void ParticipantWindow::open_trial() {
   const auto file = folder_.path() / ("sub-" + who_.code) / "trial_at_work.txt";
   live_->recorder = std::make_unique<Recorder>(file, header_, true);
   ServoOptions servo{.rate = options_.touch.servo_rate};
-  live_->servo = std::make_unique<ServoLoop>(device_.get(), start_chain(start), std::string(kStartChain),
-                                             servo, live_->recorder.get());
+  const std::string words = start_text(options_.touch.most_stiffness);
+  live_->servo = std::make_unique<ServoLoop>(device_.get(), chain_of(*live_->trial, words), words, servo,
+                                             live_->recorder.get());
   screen_ = ParticipantScreen::kStart;
   lead_mouse(true);
 }
 
+/// Nobody began: the recording is not to grow for as long as nobody does.
+void ParticipantWindow::leave_start() {
+  live_->servo.reset();
+  live_->recorder->finish();
+  device_.let_go();
+  live_.reset();
+  std::error_code ignored;
+  std::filesystem::remove(folder_.path() / ("sub-" + who_.code) / "trial_at_work.txt", ignored);
+  last_ = "Nobody has begun the trial for a minute.";
+  screen_ = ParticipantScreen::kPause;
+}
+
 void ParticipantWindow::begin_trial() {
   const ChainWords words{live_->task->info().name, live_->planned.stimulus, live_->planned.guided,
-                         folder_.plan().guidance};
-  live_->servo->swap_chain(live_->trial->chain(words.guided, words.guidance), chain_text(words));
+                         folder_.plan().guidance, options_.touch.most_stiffness};
+  const std::string text = chain_text(words);
+  live_->servo->swap_chain(chain_of(*live_->trial, text), text);
   live_->begin = live_->servo->next_step();
   live_->recorder->event(live_->begin, static_cast<std::uint64_t>(frame_), kBeginEvent);
   live_->begun = true;
@@ -230,15 +257,17 @@ void ParticipantWindow::save_trial(bool by_clock) {
                      planned.guided,
                      false,
                      options_.device,
-                     TrialOutcome{}};
+                     TrialOutcome{},
+                     options_.touch.most_stiffness};
   TrialOutcome& outcome = record.outcome;
   outcome.begin = live_->begin;
   outcome.end = live_->end;
   outcome.timed_out = by_clock;
   if (live_->steps.size() == live_->end - live_->begin && !live_->steps.empty()) {
-    outcome.seconds = live_->steps.back().time - live_->steps.front().time;
+    outcome.seconds = trial_seconds();
     outcome.error = live_->trial->error();
     outcome.reached = live_->trial->reached();
+    outcome.flaws = flaws_of(live_->steps, live_->recorder->lost());
   } else {  // a picture took so long that steps were dropped on their way here: the recording has them all
     const std::unique_ptr<StudyTrial> again = live_->task->open(planned.stimulus);
     outcome = replay_trial(*again, read_recording(file.string())).outcome;
@@ -303,7 +332,7 @@ void ParticipantWindow::space() {
       }
       break;
     case ParticipantScreen::kTrial:
-      end_trial(false);
+      if (trial_seconds() >= kLeastTrial) end_trial(false);
       break;
     case ParticipantScreen::kForm:
     case ParticipantScreen::kThanks:
@@ -318,7 +347,11 @@ void ParticipantWindow::take(const std::vector<InputEvent>& events) {
     if (event.kind == InputKind::kPress && event.button == MouseButton::kLeft) pressed_ = true;
     if (event.kind == InputKind::kRelease && event.button == MouseButton::kLeft) pressed_ = false;
     if (event.kind == InputKind::kWheel && live_ && !live_->task->info().flat) depth_ -= kNotch * event.y;
-    if (event.kind == InputKind::kKeyDown && event.key == GLFW_KEY_SPACE) space();
+    if (event.key == GLFW_KEY_SPACE && event.kind == InputKind::kKeyUp) space_down_ = false;
+    if (event.key == GLFW_KEY_SPACE && event.kind == InputKind::kKeyDown) {
+      const bool repeated = std::exchange(space_down_, true);  // held, a key comes again and again
+      if (!repeated) space();
+    }
     if (event.kind == InputKind::kKeyDown && event.key == GLFW_KEY_ESCAPE)
       glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
   }
@@ -382,8 +415,7 @@ void ParticipantWindow::draw_hint() {
   std::string text = device_.advice();
   if (text.empty() && screen_ == ParticipantScreen::kStart)
     text = "Bring the crosshair to the blue dot, then press the space bar.";
-  if (text.empty() && live_->steps.size() > 1 &&
-      live_->steps.back().time - live_->steps.front().time > info.limit)
+  if (text.empty() && trial_seconds() > info.limit)
     text = "The time is up: finish, then press the space bar.";
   if (text.empty()) return;
   const ImVec2 size = ImGui::CalcTextSize(text.c_str());
@@ -439,9 +471,9 @@ void ParticipantWindow::run() {
     take(events);
     lead_mouse(false);
     follow();
-    if (screen_ == ParticipantScreen::kTrial && live_->steps.size() > 1 &&
-        live_->steps.back().time - live_->steps.front().time >= live_->task->info().most_seconds())
+    if (screen_ == ParticipantScreen::kTrial && trial_seconds() >= live_->task->info().most_seconds())
       end_trial(true);
+    if (screen_ == ParticipantScreen::kStart && live_->opened.seconds() > kLongestStart) leave_start();
     const double seconds = clock.seconds();
     clock.restart();
     draw(events, seconds);

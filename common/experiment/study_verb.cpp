@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -48,7 +49,12 @@ class StudyWork {
   /// The tasks of those names, prepared. Says out of how many stimuli they were chosen where `tell`.
   StudyTasks prepared(const std::vector<std::string>& names, const DesignRequest& design, bool tell);
   [[nodiscard]] StudyFolder open() const;
-  [[nodiscard]] StudyParticipant next_participant(const StudyFolder& folder) const;
+  /// The tasks of the folder, prepared; their stimuli are the folder's.
+  [[nodiscard]] StudyTasks tasks_of(const StudyFolder& folder);
+  /// Who sits down, and the place, which nobody else takes from then on.
+  [[nodiscard]] std::pair<StudyParticipant, StudyLock> seated(const StudyFolder& folder) const;
+  [[nodiscard]] std::pair<StudyParticipant, StudyLock> at_place(const StudyFolder& folder, int number,
+                                                                const std::string& code) const;
   [[nodiscard]] RecordingHeader header() const;
   void print(const std::string& text) const { context_.console.print(text + "\n"); }
 
@@ -76,6 +82,12 @@ StudyTasks StudyWork::prepared(const std::vector<std::string>& names, const Desi
     out.push_back(*found);
   }
   return out;
+}
+
+StudyTasks StudyWork::tasks_of(const StudyFolder& folder) {
+  StudyTasks tasks = prepared(folder.plan().tasks, folder.plan().design, false);
+  folder.check_stimuli(tasks);
+  return tasks;
 }
 
 StudyFolder StudyWork::open() const {
@@ -107,6 +119,7 @@ void StudyWork::make() {
                  .practice = asked_.practice,
                  .recorded = asked_.recorded,
                  .seed = options_.common.seed};
+  StudyFolder::check(plan);
   const DesignBalance balance = balance_of(make_design(plan.design));
   const StudyTasks tasks = prepared(plan.tasks, plan.design, true);
   const StudyFolder folder = StudyFolder::make(asked_.folder, plan, tasks, options_.common.force);
@@ -129,7 +142,8 @@ void StudyWork::make() {
     print("balanced: conditions, stimuli and tasks occur equally often, for participants and at all places");
   } else {
     context_.console.note("counts that should be equal differ: " + off + "; a multiple of " +
-                          std::to_string(asked_.recorded) + " participants (and of 4 trials) has them equal");
+                          std::to_string(std::lcm(asked_.recorded, plan.design.tasks)) +
+                          " participants (and of 4 trials) has them equal");
   }
   context_.console.print_json(json.dump());
 }
@@ -137,7 +151,8 @@ void StudyWork::make() {
 void StudyWork::simulate() {
   StudyFolder folder = open();
   const StudyPlan& plan = folder.plan();
-  const StudyTasks tasks = prepared(plan.tasks, plan.design, false);
+  const StudyLock alone = folder.hold(StudyLock::Kind::kAlone, "study simulate");
+  const StudyTasks tasks = tasks_of(folder);
   std::vector<StudyParticipant> participants;
   const std::vector<StudyParticipant> known = folder.participants();
   for (int number = 0; number < plan.design.participants; ++number) {
@@ -207,7 +222,7 @@ void StudyWork::analyse() {
 
 ExitCode StudyWork::replay() {
   const StudyFolder folder = open();
-  const StudyTasks tasks = prepared(folder.plan().tasks, folder.plan().design, false);
+  const StudyTasks tasks = tasks_of(folder);
   std::vector<TrialRecord> records = folder.trials();
   std::erase_if(records, [&](const TrialRecord& r) {
     const bool other = !asked_.participant.empty() && r.participant != asked_.participant;
@@ -228,7 +243,15 @@ ExitCode StudyWork::replay() {
       const bool same = again.outcome.error == r.outcome.error &&
                         again.outcome.seconds == r.outcome.seconds &&
                         again.outcome.reached == r.outcome.reached;
-      if (!same || !again.identical) {
+      const ChainWords logged{r.task, r.stimulus, r.guided, folder.plan().guidance, r.most_stiffness};
+      if (again.words != logged || again.outcome.begin != r.outcome.begin ||
+          again.outcome.end != r.outcome.end) {
+        differing[i] = r.participant + " " + r.task + "/" + std::to_string(r.run) +
+                       ": the recording is of '" + chain_text(again.words) + "', steps " +
+                       std::to_string(again.outcome.begin) + " to " + std::to_string(again.outcome.end) +
+                       "; logged is '" + chain_text(logged) + "', steps " + std::to_string(r.outcome.begin) +
+                       " to " + std::to_string(r.outcome.end);
+      } else if (!same || !again.identical) {
         differing[i] = r.participant + " " + r.task + "/" + std::to_string(r.run) + ": error " +
                        exact_number(again.outcome.error) + " mm, logged " + exact_number(r.outcome.error) +
                        " mm; " + again.verdict;
@@ -250,7 +273,7 @@ ExitCode StudyWork::replay() {
 
 void StudyWork::sheet() {
   const StudyFolder folder = open();
-  const StudyTasks tasks = prepared(folder.plan().tasks, folder.plan().design, false);
+  const StudyTasks tasks = tasks_of(folder);
   const fs::path out = options_.output.file.empty() ? folder.path() / "sheet.png" : options_.output.file;
   const Image sheet =
       contact_sheet(tasks, folder.plan().design.practice + folder.plan().design.recorded, context_.progress);
@@ -261,36 +284,76 @@ void StudyWork::sheet() {
       Json{{"out", out.string()}, {"width", sheet.width}, {"height", sheet.height}}.dump());
 }
 
-StudyParticipant StudyWork::next_participant(const StudyFolder& folder) const {
+std::pair<StudyParticipant, StudyLock> StudyWork::at_place(const StudyFolder& folder, int number,
+                                                           const std::string& code) const {
+  return {StudyParticipant{code, number, false, {}}, folder.hold_place(number, "study run of " + code)};
+}
+
+std::pair<StudyParticipant, StudyLock> StudyWork::seated(const StudyFolder& folder) const {
   const std::vector<StudyParticipant> known = folder.participants();
-  if (!asked_.participant.empty()) {
-    const auto found = std::ranges::find(known, asked_.participant, &StudyParticipant::code);
-    if (found != known.end() && found->simulated)
-      throw usage_error("--participant " + asked_.participant + " is a simulated one; give another code");
-    if (found != known.end()) return *found;
+  const std::string& code = asked_.participant;
+  const int places = folder.plan().design.participants;
+  if (const auto found = std::ranges::find(known, code, &StudyParticipant::code); found != known.end()) {
+    if (found->simulated)
+      throw usage_error("--participant " + code + " is a simulated one; give another code");
+    return at_place(folder, found->number, code);
   }
-  for (int number = 0; number < folder.plan().design.participants; ++number) {
-    if (std::ranges::find(known, number, &StudyParticipant::number) != known.end()) continue;
-    return {
-        asked_.participant.empty() ? StudyFolder::code_of(number) : asked_.participant, number, false, {}};
+  const auto taken = [&](int number) {
+    return std::ranges::find(known, number, &StudyParticipant::number) != known.end();
+  };
+  // A code of the design is of the place that it names.
+  const auto named = code.starts_with('P') ? parsed<int>(std::string_view(code).substr(1)) : std::nullopt;
+  if (named && *named > 0 && code == StudyFolder::code_of(*named - 1)) {
+    if (*named > places)
+      throw usage_error("--participant " + code + ": the design has places P01 to " +
+                        StudyFolder::code_of(places - 1));
+    if (taken(*named - 1))
+      throw usage_error("--participant " + code + ": somebody with another code has that place");
+    print(code + " is new");
+    return at_place(folder, *named - 1, code);
+  }
+  for (int number = 0; number < places; ++number) {
+    if (taken(number)) continue;
+    if (code.empty()) {
+      auto out = at_place(folder, number, StudyFolder::code_of(number));
+      print(out.first.code + " is new");
+      return out;
+    }
+    try {
+      auto out = at_place(folder, number, code);
+      print(code + " is new, at place " + std::to_string(number) + " of design.tsv");
+      return out;
+    } catch (const Error& error) {  // somebody who is about to begin there
+      if (error.code() != ExitCode::kUsage) throw;
+    }
   }
   throw usage_error("all places of the design are taken; make one with more --participants");
 }
 
 void StudyWork::run() {
   StudyFolder folder = open();
-  const StudyParticipant who = next_participant(folder);
+  for (const char* device : {"replay:", "hands:"}) {
+    if (options_.hand.device.starts_with(device))
+      throw usage_error("--device " + options_.hand.device +
+                        " is a file, and no participant; name a device, mouse or simulated");
+  }
+  if (!options_.hand.replay.empty()) throw usage_error("study run replays no recording; study replay does");
+  const StudyLock session = folder.hold(StudyLock::Kind::kShared, "study run");
+  const auto seat = seated(folder);
+  const StudyParticipant& who = seat.first;
   ParticipantWindowOptions window;
   window.touch = window_touch(modes_of(context_.explorer.kind), options_, context_);
   window.device = options_.hand.device;
   window.stereo = stereo_of(options_.view);
   window.stop_requested = [this] { return context_.progress.cancelled(); };
-  if (window.touch.hands.empty() && !window.touch.link && !window.touch.simulated)
+  if (window.touch.tracker)
+    throw usage_error("--device " + options_.hand.device +
+                      ": a tracker shows no force; an experiment needs an arm, mouse or simulated");
+  if (!window.touch.link && !window.touch.simulated)
     context_.console.note(
         "a mouse shows no force, so that both conditions feel alike; --device simulated leads a "
         "simulated hand that feels it, or name a device");
-  const StudyTasks tasks = prepared(folder.plan().tasks, folder.plan().design, false);
-  folder.enter(who);
+  const StudyTasks tasks = tasks_of(folder);
   const std::size_t before = folder.left_for(who).size();
   run_participant_window(folder, tasks, who, header(), window);
   const std::size_t left = folder.left_for(who).size();

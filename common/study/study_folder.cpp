@@ -2,19 +2,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <fstream>
-#include <sstream>
+#include <cmath>
+#include <limits>
 
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/base/unique_fd.h"
 #include "common/base/version.h"
 #include "common/study/packed_text.h"
+#include "common/study/study_disk.h"
 
 namespace palpate {
 namespace {
@@ -23,58 +20,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanFile = "study.json";
-
-std::string read_text(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw input_error({path.string(), "", "cannot be read (" + errno_text() + ")", "", ""});
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-Json read_json(const fs::path& path) {
-  Json json = Json::parse(read_text(path), nullptr, false);
-  if (!json.is_object())
-    throw input_error({path.string(), "", "it holds no JSON object", "", "restore it from a copy"});
-  return json;
-}
-
-/// `take`, with what it misses as an error of that file.
-template <typename Take>
-auto taken(const fs::path& path, const Take& take) {
-  try {
-    return take(read_json(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw input_error({path.string(), "", error.what(), "", "restore it from a copy"});
-  }
-}
+constexpr const char* kLocks = ".locks";  // beside what BIDS knows
 
 std::string pretty(const Json& json) {
   return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-/// The whole of it is on the disk, under its name, when this returns.
-void write_safely(const fs::path& path, const std::string& text) {
-  const fs::path temporary = path.string() + ".part";
-  const auto refuse = [&] { throw work_error(path.string() + ": cannot be written (" + errno_text() + ")"); };
-  UniqueFd file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-  if (file.get() < 0) refuse();
-  for (std::size_t at = 0; at < text.size();) {
-    const ssize_t got = ::write(file.get(), text.data() + at, text.size() - at);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) refuse();
-    at += static_cast<std::size_t>(got);
-  }
-  if (::fsync(file.get()) != 0) refuse();
-  if (std::rename(temporary.c_str(), path.c_str()) != 0) refuse();
-  const UniqueFd folder(::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() < 0 || ::fsync(folder.get()) != 0) refuse();
-}
-
-void make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw work_error(path.string() + ": cannot be made (" + error.message() + ")");
 }
 
 /// Letters and digits alone: what becomes part of a file's name.
@@ -99,50 +48,74 @@ Json plan_json(const StudyPlan& plan) {
           {"guidance", plan.guidance}};
 }
 
-StudyPlan plan_of(const Json& json) {
+constexpr int kMostParticipants = 10'000, kMostTrials = 300, kMostTasks = 32, kMostPlanned = 1'000'000;
+constexpr double kMostGuidance = 10.0;
+
+StudyPlan plan_of(const fs::path& file, const Json& json) {
   StudyPlan plan;
   plan.program = json.at("program");
   plan.version = json.at("version");
-  plan.design.seed = json.at("seed");
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  plan.design.seed = static_cast<std::uint64_t>(whole_number(file, json, "seed", 0, kMost));
   plan.tasks = json.at("tasks").get<std::vector<std::string>>();
   plan.design.tasks = static_cast<int>(plan.tasks.size());
-  plan.design.participants = json.at("participants");
-  plan.design.practice = json.at("practice_trials");
-  plan.design.recorded = json.at("recorded_trials");
+  plan.design.participants = static_cast<int>(whole_number(file, json, "participants", 1, kMostParticipants));
+  plan.design.practice = static_cast<int>(whole_number(file, json, "practice_trials", 0, kMostTrials));
+  plan.design.recorded = static_cast<int>(whole_number(file, json, "recorded_trials", 2, kMostTrials));
   plan.guidance = json.at("guidance");
   return plan;
 }
 
 Json dictionary_of(const StudyTaskInfo& info) {
-  return {{"TaskName", info.title},
-          {"flat", info.flat},
-          {"pair", info.pair},
-          {"TaskDescription", info.instruction},
-          {"participant", {{"Description", "anonymous code"}}},
-          {"run", {{"Description", "trial of the task, from 1; those for practice first"}}},
-          {"phase", {{"Levels", {{"practice", "not analysed"}, {"recorded", "analysed"}}}}},
-          {"stimulus", {{"Description", "row of the table in stimuli/, from 0"}}},
-          {"condition",
-           {{"Levels",
-             {{"ISO", "slight drag, the same in all directions"},
-              {"ANISO", "guided along what is to be followed"}}}}},
-          {"completion_time",
-           {{"Description", "from the space bar that begins to the one that ends"}, {"Units", "s"}}},
-          {"position_error", {{"Description", info.error}, {"Units", "mm"}}},
-          {"reached", {{"Description", "whether the goal was met"}}},
-          {"end", {{"Levels", {{"space", "the participant ended it"}, {"timeout", "it ended by itself"}}}}},
-          {"simulated", {{"Description", "true where the participant is a program"}}},
-          {"cutoff_time",
-           {{"Description", "slower trials are left out"}, {"Value", info.cutoff_time}, {"Units", "s"}}},
-          {"cutoff_error",
-           {{"Description", "trials with a larger error are left out"},
-            {"Value", info.cutoff_error},
-            {"Units", "mm"}}},
-          {"motion.tsv.gz",
-           {{"SamplingFrequency", 100},
-            {"Columns",
-             {"time [s]", "x", "y", "z (cursor [m])", "px", "py", "pz (proxy [m])", "fx", "fy",
-              "fz (force [N])", "state"}}}}};
+  return {
+      {"TaskName", info.title},
+      {"flat", info.flat},
+      {"pair", info.pair},
+      {"TaskDescription", info.instruction},
+      {"participant", {{"Description", "anonymous code"}}},
+      {"run", {{"Description", "trial of the task, from 1; those for practice first"}}},
+      {"phase", {{"Levels", {{"practice", "not analysed"}, {"recorded", "analysed"}}}}},
+      {"stimulus", {{"Description", "row of the table in stimuli/, from 0"}}},
+      {"condition",
+       {{"Levels",
+         {{"ISO", "slight drag, the same in all directions"},
+          {"ANISO", "guided along what is to be followed"}}}}},
+      {"completion_time",
+       {{"Description", "from the space bar that begins to the one that ends"}, {"Units", "s"}}},
+      {"position_error", {{"Description", info.error}, {"Units", "mm"}}},
+      {"reached", {{"Description", "whether the goal was met"}}},
+      {"lost_steps", {{"Description", "steps that the recording lacks; the trial is left out"}}},
+      {"fault_steps", {{"Description", "steps with a fault of device or servo; the trial is left out"}}},
+      {"cut_steps",
+       {{"Description", "steps without force, as the hand was off or out of reach; the trial is left out"}}},
+      {"off_steps", {{"Description", "steps with the force switched off; the trial is left out"}}},
+      {"most_stiffness",
+       {{"Description", "of which the device was found capable; null: not bounded"}, {"Units", "N/m"}}},
+      {"end", {{"Levels", {{"space", "the participant ended it"}, {"timeout", "it ended by itself"}}}}},
+      {"simulated", {{"Description", "true where the participant is a program"}}},
+      {"cutoff_time",
+       {{"Description", "slower trials are left out"}, {"Value", info.cutoff_time}, {"Units", "s"}}},
+      {"cutoff_error",
+       {{"Description", "trials with a larger error are left out"},
+        {"Value", info.cutoff_error},
+        {"Units", "mm"}}},
+      {"motion.tsv.gz",
+       {{"SamplingFrequency", 100},
+        {"Columns",
+         {"time [s]", "x", "y", "z (cursor [m])", "px", "py", "pz (proxy [m])", "fx", "fy", "fz (force [N])",
+          "state"}}}}};
+}
+
+std::string stimulus_table(const StudyTask& task, const DesignRequest& design) {
+  std::string table = "stimulus";
+  for (const std::string& column : task.stimulus_columns()) table += "\t" + column;
+  table += "\n";
+  for (int s = 0; s < design.practice + design.recorded; ++s) {
+    table += std::to_string(s);
+    for (const double value : task.stimulus_row(s)) table += "\t" + exact_number(value);
+    table += "\n";
+  }
+  return table;
 }
 
 std::string motion_table(const std::vector<HandStep>& steps) {
@@ -198,21 +171,73 @@ StudyFolder::StudyFolder(fs::path folder) : folder_(std::move(folder)) {
     throw input_error({folder_.string(), "", "it holds no experiment (no study.json)", "",
                        "make one: study make " + folder_.string()});
   }
-  plan_ = taken(file, plan_of);
-  const DesignRequest& d = plan_.design;
-  constexpr int kMostParticipants = 10'000, kMostTrials = 200, kMostTasks = 32;
-  const bool sound = d.participants > 0 && d.participants <= kMostParticipants && d.practice >= 0 &&
-                     d.practice <= kMostTrials && d.recorded > 0 && d.recorded <= kMostTrials &&
-                     d.recorded % 2 == 0 && d.tasks > 0 && d.tasks <= kMostTasks && plan_.guidance >= 0.0 &&
-                     std::ranges::all_of(plan_.tasks, is_plain);
-  if (!sound)
-    throw input_error(
-        {file.string(), "", "its numbers or names of tasks make no sense", "", "restore it from a copy"});
+  plan_ = taken(file, [&](const Json& json) { return plan_of(file, json); });
+  try {
+    check(plan_);
+  } catch (const Error& error) {
+    throw input_error({file.string(), "", error.what(), "", "restore it from a copy"});
+  }
   design_ = make_design(plan_.design);
+}
+
+void StudyFolder::check(const StudyPlan& plan) {
+  const DesignRequest& d = plan.design;
+  std::vector<std::string> names = plan.tasks;
+  std::ranges::sort(names);
+  if (const auto twice = std::ranges::adjacent_find(names); twice != names.end())
+    throw usage_error("--tasks: '" + *twice + "' is there twice; name each task once");
+  if (const auto odd = std::ranges::find_if_not(names, is_plain); odd != names.end())
+    throw usage_error("--tasks: '" + *odd + "' is no name of a task");
+  if (names.empty() || names.size() > as_size(kMostTasks) || as_size(d.tasks) != names.size())
+    throw usage_error("an experiment has 1 to " + std::to_string(kMostTasks) + " tasks");
+  if (d.participants < 1 || d.participants > kMostParticipants || d.practice < 0 ||
+      d.practice > kMostTrials || d.recorded < 2 || d.recorded > kMostTrials || d.recorded % 2 != 0)
+    throw usage_error(
+        "--recorded, --practice, --participants: an even number of recorded trials is needed, and up to " +
+        std::to_string(kMostTrials) + " of each kind for up to " + std::to_string(kMostParticipants) +
+        " participants");
+  const std::int64_t planned = std::int64_t{d.participants} * d.tasks * (d.practice + d.recorded);
+  if (planned > kMostPlanned)
+    throw usage_error(std::to_string(planned) + " trials are planned; at most " +
+                      std::to_string(kMostPlanned) + " are: fewer --participants, --tasks or trials");
+  if (!(plan.guidance >= 0.0 && plan.guidance <= kMostGuidance))
+    throw usage_error("--guidance: a factor from 0 to " + short_number(kMostGuidance) + " is needed");
+}
+
+void StudyFolder::check_stimuli(const StudyTasks& tasks) const {
+  constexpr double kSame = 1e-6;  // rounding of another compiler; what it is measured in is metres
+  const auto numbers_of = [](const std::string& text) {
+    std::vector<double> out;
+    std::string flat = text.substr(std::min(text.size(), text.find('\n')));
+    for (const std::string_view word : words(flat)) out.push_back(number(word).value_or(NAN));
+    return out;
+  };
+  for (const auto& task : tasks) {
+    const fs::path file = folder_ / "stimuli" / ("task-" + task->info().name + "_stimuli.tsv");
+    const std::string kept = read_study_text(file), made = stimulus_table(*task, plan_.design);
+    if (kept == made) continue;
+    const bool same = std::ranges::equal(numbers_of(kept), numbers_of(made), [](double a, double b) {
+      return std::abs(a - b) <= kSame * std::max(1.0, std::abs(b));
+    });
+    if (!same)
+      throw input_error({file.string(), "",
+                         "the stimuli that this program makes from the seed are other ones", "",
+                         "use the version that made the experiment, " + plan_.version +
+                             ", and study.json and stimuli as they were"});
+  }
+}
+
+StudyLock StudyFolder::hold_place(int number, const std::string& by) const {
+  return {folder_ / kLocks / ("place-" + two_digits(number + 1)), StudyLock::Kind::kAlone, by};
+}
+
+StudyLock StudyFolder::hold(StudyLock::Kind kind, const std::string& by) const {
+  return {folder_ / kLocks / "session", kind, by};
 }
 
 StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, const StudyTasks& tasks,
                               bool overwrite) {
+  check(plan);
   std::error_code ignored;
   if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored)) {
     if (!overwrite || !fs::exists(folder / kPlanFile, ignored))
@@ -221,21 +246,22 @@ StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, con
     if (fs::exists(folder / "participants.tsv", ignored))
       throw usage_error(folder.string() + " holds an experiment that has begun; it is not replaced");
   }
-  make_folder(folder / "stimuli");
+  make_study_folder(folder / "stimuli");
   StudyFolder out;
   out.folder_ = folder;
   out.plan_ = plan;
   out.design_ = make_design(plan.design);
+  const StudyLock alone = out.hold(StudyLock::Kind::kAlone, "study make");
   write_safely(folder / "dataset_description.json",
                pretty({{"Name", "Haptic guidance in " + plan.program},
                        {"BIDSVersion", "1.8.0"},
                        {"DatasetType", "raw"},
                        {"GeneratedBy", {{{"Name", "Palpate"}, {"Version", plan.version}}}}}));
   std::string readme = "An experiment: does guidance of the hand help?\n\nTasks:";
-  std::string design = "participant\torder\ttask\trun\tphase\tstimulus\tcondition\n";
+  std::string design = "number\torder\ttask\trun\tphase\tstimulus\tcondition\n";
   std::map<std::pair<int, int>, int> place;
   for (const PlannedTrial& t : out.design_) {
-    design += code_of(t.participant) + "\t" + std::to_string(++place[{t.participant, 0}]) + "\t" +
+    design += std::to_string(t.participant) + "\t" + std::to_string(++place[{t.participant, 0}]) + "\t" +
               plan.tasks[as_size(t.task)] + "\t" + std::to_string(t.trial + 1) + "\t" +
               (t.practice ? "practice" : "recorded") + "\t" + std::to_string(t.stimulus) + "\t" +
               std::string(condition_name(t.guided)) + "\n";
@@ -244,15 +270,8 @@ StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, con
     const StudyTaskInfo& info = task->info();
     readme += "\n  " + info.name + ": " + info.title;
     write_safely(folder / ("task-" + info.name + "_beh.json"), pretty(dictionary_of(info)));
-    std::string table = "stimulus";
-    for (const std::string& column : task->stimulus_columns()) table += "\t" + column;
-    table += "\n";
-    for (int s = 0; s < plan.design.practice + plan.design.recorded; ++s) {
-      table += std::to_string(s);
-      for (const double value : task->stimulus_row(s)) table += "\t" + exact_number(value);
-      table += "\n";
-    }
-    write_safely(folder / "stimuli" / ("task-" + info.name + "_stimuli.tsv"), table);
+    write_safely(folder / "stimuli" / ("task-" + info.name + "_stimuli.tsv"),
+                 stimulus_table(*task, plan.design));
   }
   write_safely(
       folder / "README",
@@ -260,7 +279,8 @@ StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, con
           "\n\nAll stimuli are made again from the seed in study.json. Participants are known by codes alone.\n");
   write_safely(folder / "design.tsv", design);
   write_safely(folder / "design.json",
-               pretty({{"order", {{"Description", "of the trial in the participant's session, from 1"}}},
+               pretty({{"number", {{"Description", "of the participant, from 0: see participants.tsv"}}},
+                       {"order", {{"Description", "of the trial in the participant's session, from 1"}}},
                        {"run", {{"Description", "of the trial in its task, from 1"}}},
                        {"condition", {{"Description", "ISO or ANISO: see the dictionaries of the tasks"}}}}));
   write_safely(folder / kPlanFile, pretty(plan_json(plan)));
@@ -273,7 +293,9 @@ std::vector<StudyParticipant> StudyFolder::participants() const {
   if (!fs::exists(file)) return out;
   return taken(file, [&](const Json& json) {
     for (const Json& one : json.at("participants")) {
-      StudyParticipant p{one.at("code"), one.at("number"), one.at("simulated"), {}};
+      const int number =
+          static_cast<int>(whole_number(file, one, "number", 0, plan_.design.participants - 1));
+      StudyParticipant p{one.at("code"), number, one.at("simulated"), {}};
       if (!is_plain(p.code)) throw input_error({file.string(), "", "'" + p.code + "'", "a code", ""});
       for (const auto& [name, value] : one.at("traits").items())
         p.traits.emplace_back(name, value.get<double>());
@@ -285,6 +307,9 @@ std::vector<StudyParticipant> StudyFolder::participants() const {
 
 void StudyFolder::enter(const StudyParticipant& participant) {
   check_code(participant.code);
+  const StudyLock alone(folder_ / kLocks / "participants");
+  // Before it is entered: one that is has its folder, whenever the program ends.
+  make_study_folder(folder_ / ("sub-" + participant.code) / "beh");
   std::vector<StudyParticipant> all = participants();
   for (const StudyParticipant& other : all) {
     if (other.code == participant.code && other.number == participant.number) return;
@@ -307,7 +332,6 @@ void StudyFolder::enter(const StudyParticipant& participant) {
                pretty({{"number", {{"Description", "row of the design, from 0"}}},
                        {"simulated", {{"Description", "true where the participant is a program"}}},
                        {"participants", list}}));
-  make_folder(folder_ / ("sub-" + participant.code) / "beh");
 }
 
 fs::path StudyFolder::stem(const std::string& code, const std::string& task, int run) const {
@@ -333,46 +357,68 @@ std::vector<PlannedTrial> StudyFolder::left_for(const StudyParticipant& particip
 void StudyFolder::write(const TrialRecord& record, const std::string& recording,
                         const std::vector<HandStep>& steps) {
   const std::string start = stem(record.participant, record.task, record.run).string();
+  if (!std::isfinite(record.outcome.seconds) || !std::isfinite(record.outcome.error) || steps.empty())
+    throw work_error(start +
+                     "beh.json: the trial has no steps, or its time or error is no number; it is not kept");
   write_safely(start + "recording.txt.gz", packed(recording));
   write_safely(start + "motion.tsv.gz", packed(motion_table(steps)));
   const TrialOutcome& o = record.outcome;
-  write_safely(start + "beh.json", pretty({{"participant", record.participant},
-                                           {"task", record.task},
-                                           {"run", record.run},
-                                           {"phase", record.practice ? "practice" : "recorded"},
-                                           {"stimulus", record.stimulus},
-                                           {"condition", condition_name(record.guided)},
-                                           {"simulated", record.simulated},
-                                           {"device", record.device},
-                                           {"completion_time", o.seconds},
-                                           {"position_error", o.error},
-                                           {"reached", o.reached},
-                                           {"end", o.timed_out ? kTimeEvent : kDoneEvent},
-                                           {"first_step", o.begin},
-                                           {"end_step", o.end}}));
+  write_safely(start + "beh.json",
+               pretty({{"participant", record.participant},
+                       {"task", record.task},
+                       {"run", record.run},
+                       {"phase", record.practice ? "practice" : "recorded"},
+                       {"stimulus", record.stimulus},
+                       {"condition", condition_name(record.guided)},
+                       {"simulated", record.simulated},
+                       {"device", record.device},
+                       {"completion_time", o.seconds},
+                       {"position_error", o.error},
+                       {"reached", o.reached},
+                       {"end", o.timed_out ? kTimeEvent : kDoneEvent},
+                       {"first_step", o.begin},
+                       {"end_step", o.end},
+                       {"lost_steps", o.flaws.lost},
+                       {"fault_steps", o.flaws.faults},
+                       {"cut_steps", o.flaws.cut},
+                       {"off_steps", o.flaws.off},
+                       {"most_stiffness", std::isfinite(record.most_stiffness) ? Json(record.most_stiffness)
+                                                                               : Json(nullptr)}}));
 }
 
-TrialRecord StudyFolder::read(const std::string& code, const std::string& task, int run) const {
-  const fs::path file = stem(code, task, run).string() + "beh.json";
+TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& planned) const {
+  const std::string& task = plan_.tasks[as_size(planned.task)];
+  const fs::path file = stem(who.code, task, planned.trial + 1).string() + "beh.json";
   return taken(file, [&](const Json& json) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+    const auto count = [&](const char* key) {
+      return static_cast<std::uint64_t>(whole_number(file, json, key, 0, kMost));
+    };
     TrialRecord r;
     r.participant = json.at("participant");
     r.task = json.at("task");
-    r.run = json.at("run");
-    r.practice = json.at("phase") == "practice";
-    r.stimulus = json.at("stimulus");
-    r.guided = json.at("condition") == condition_name(true);
+    r.run = static_cast<int>(whole_number(file, json, "run", 1, 2 * kMostTrials));
+    r.practice = is_second(file, json, "phase", "recorded", "practice");
+    r.stimulus = static_cast<int>(whole_number(file, json, "stimulus", 0, 2 * kMostTrials));
+    r.guided = is_second(file, json, "condition", condition_name(false), condition_name(true));
     r.simulated = json.at("simulated");
     r.device = json.at("device");
     r.outcome.seconds = json.at("completion_time");
     r.outcome.error = json.at("position_error");
     r.outcome.reached = json.at("reached");
-    r.outcome.timed_out = json.at("end") == kTimeEvent;
-    r.outcome.begin = json.at("first_step");
-    r.outcome.end = json.at("end_step");
-    const bool known = r.stimulus >= 0 && r.stimulus < plan_.design.practice + plan_.design.recorded;
-    if (!known || r.participant != code || r.task != task || r.run != run)
-      throw input_error({file.string(), "", "it is of another trial", "", "restore it from a copy"});
+    r.outcome.timed_out = is_second(file, json, "end", kDoneEvent, kTimeEvent);
+    r.outcome.begin = count("first_step");
+    r.outcome.end = count("end_step");
+    r.outcome.flaws = {count("lost_steps"), count("fault_steps"), count("cut_steps"), count("off_steps")};
+    if (const Json& most = json.at("most_stiffness"); !most.is_null()) r.most_stiffness = most;
+    if (r.participant != who.code || r.task != task || r.run != planned.trial + 1 ||
+        r.stimulus != planned.stimulus || r.practice != planned.practice || r.guided != planned.guided ||
+        r.simulated != who.simulated)
+      throw input_error({file.string(), "", "it is of another trial than the design has there", "",
+                         "restore it, or study.json and participants.json, from a copy"});
+    if (!(r.outcome.seconds >= 0.0) || !(r.outcome.error >= 0.0) || !(r.most_stiffness >= 0.0))
+      throw input_error(
+          {file.string(), "", "a negative time, error or stiffness", "", "restore it from a copy"});
     return r;
   });
 }
@@ -384,13 +430,12 @@ Recording StudyFolder::recording(const std::string& code, const std::string& tas
 
 std::vector<TrialRecord> StudyFolder::trials() const {
   std::vector<TrialRecord> out;
-  std::map<int, std::string> codes;
-  for (const StudyParticipant& p : participants()) codes[p.number] = p.code;
+  std::map<int, StudyParticipant> known;
+  for (StudyParticipant& p : participants()) known[p.number] = std::move(p);
   for (const PlannedTrial& t : design_) {
-    const auto code = codes.find(t.participant);
-    if (code == codes.end()) continue;
-    const std::string& task = plan_.tasks[as_size(t.task)];
-    if (has(code->second, task, t.trial + 1)) out.push_back(read(code->second, task, t.trial + 1));
+    const auto who = known.find(t.participant);
+    if (who != known.end() && has(who->second.code, plan_.tasks[as_size(t.task)], t.trial + 1))
+      out.push_back(read(who->second, t));
   }
   return out;
 }

@@ -7,11 +7,13 @@
 ///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_recording.txt.gz   all input of the hand, to play it back
 ///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_motion.tsv.gz      cursor, proxy, force, each hundredth of a second
 ///   sub-CODE/sub-CODE_questionnaire.json
+///   .locks/  who has the folder in use
 ///
 /// A trial is there once its _beh.json is: that file is written last, and each of them under another name first,
 /// is forced to the disk and then renamed. Nothing but the code tells who a participant was.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -21,6 +23,7 @@
 #include <vector>
 
 #include "common/study/design.h"
+#include "common/study/study_lock.h"
 #include "common/study/task.h"
 #include "common/study/trial_run.h"
 
@@ -54,12 +57,15 @@ struct TrialRecord {
   bool simulated = false;
   std::string device;  ///< what moved the cursor
   TrialOutcome outcome;
+  double most_stiffness = HUGE_VAL;  ///< [N/m] of the chain, as the device bears it
 };
 
 class StudyFolder {
  public:
   /// Opens one that is there. @throws Error (bad input) where it is none.
   explicit StudyFolder(std::filesystem::path folder);
+  /// @throws Error (usage) where a task is named twice, or a number is beyond its limits.
+  static void check(const StudyPlan& plan);
   /// Makes one. @param overwrite an experiment there without any trial is replaced.
   /// @throws Error (usage) where the folder holds something else, or trials; (work failed).
   static StudyFolder make(const std::filesystem::path& folder, const StudyPlan& plan, const StudyTasks& tasks,
@@ -70,6 +76,12 @@ class StudyFolder {
   [[nodiscard]] const std::vector<PlannedTrial>& design() const noexcept { return design_; }
   /// What the dictionary of a task says of it. @throws Error (bad input).
   [[nodiscard]] StudyTaskInfo task(const std::string& name) const;
+  /// Whether the stimuli that the tasks have prepared are those of the folder, to 1e-6. @throws Error (bad input).
+  void check_stimuli(const StudyTasks& tasks) const;
+  /// Takes a place of the design, or the whole folder, for a session: `kShared` where others may sit at other places.
+  /// @throws Error (usage) that says who has it.
+  [[nodiscard]] StudyLock hold_place(int number, const std::string& by) const;
+  [[nodiscard]] StudyLock hold(StudyLock::Kind kind, const std::string& by) const;
   /// "P01": of that number in the design.
   [[nodiscard]] static std::string code_of(int number);
 
@@ -82,10 +94,11 @@ class StudyFolder {
   /// Trials of a participant that are not there yet, in their order.
   [[nodiscard]] std::vector<PlannedTrial> left_for(const StudyParticipant& participant) const;
   /// Writes a trial: it is on the disk when this returns.
-  /// @param recording its text. @throws Error (work failed).
+  /// @param recording its text. @throws Error (work failed), also for a trial without steps, or a time or an error that
+  /// is not finite.
   void write(const TrialRecord& record, const std::string& recording, const std::vector<HandStep>& steps);
-  /// @throws Error (bad input) where it is damaged.
-  [[nodiscard]] TrialRecord read(const std::string& code, const std::string& task, int run) const;
+  /// @throws Error (bad input) where it is damaged, or no trial of the design.
+  [[nodiscard]] TrialRecord read(const StudyParticipant& who, const PlannedTrial& planned) const;
   [[nodiscard]] Recording recording(const std::string& code, const std::string& task, int run) const;
   /// All trials that are there, in the order of the design.
   [[nodiscard]] std::vector<TrialRecord> trials() const;

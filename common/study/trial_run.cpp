@@ -1,5 +1,6 @@
 #include "common/study/trial_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -20,30 +21,67 @@ Vec3 rounded(const Vec3& x) noexcept {
   return glm::round(x * kUnits) / kUnits;
 }
 
+std::unique_ptr<ProxyChain> bounded(std::unique_ptr<ProxyChain> chain, double most_stiffness) {
+  ChainSettings settings = chain->settings();
+  settings.stiffness = std::min(settings.stiffness, most_stiffness);
+  chain->apply(settings);
+  return chain;
+}
+
+std::unique_ptr<ProxyChain> start_chain(const Vec3& start, double most_stiffness) {
+  constexpr double kPoint = 1e-6;  // [m] a segment of that length is a point
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<PolylineConstraint>(start, start + Vec3{kPoint, 0.0, 0.0}));
+  return bounded(std::make_unique<ProxyChain>(std::move(links), trial_settings(kGuideStiffness, 1.0)),
+                 most_stiffness);
+}
+
 }  // namespace
+
+TrialFlaws flaws_of(const std::vector<HandStep>& steps, std::uint64_t lost) noexcept {
+  TrialFlaws flaws{.lost = lost};
+  for (const HandStep& step : steps) {
+    if (is_fault(step.cut) || step.state == HoldState::kFault) {
+      ++flaws.faults;
+    } else if (step.cut == ForceCut::kSwitchedOff) {
+      ++flaws.off;
+    } else if (step.cut != ForceCut::kNone && step.cut != ForceCut::kStart && step.cut != ForceCut::kJump) {
+      ++flaws.cut;
+    }
+  }
+  return flaws;
+}
 
 std::string chain_text(const ChainWords& words) {
   return "trial " + words.task + " " + std::to_string(words.stimulus) + " " +
-         std::string(condition_name(words.guided)) + " " + exact_number(words.guidance);
+         std::string(condition_name(words.guided)) + " " + exact_number(words.guidance) + " " +
+         exact_number(words.most_stiffness);
 }
 
 ChainWords chain_words(const std::string& text) {
   const std::vector<std::string_view> parts = words(text);
-  if (parts.size() == 5 && parts[0] == "trial") {
+  if (parts.size() == 6 && parts[0] == "trial") {
     const auto stimulus = parsed<int>(parts[2]);
-    const auto guidance = number(parts[4]);
-    if (stimulus && *stimulus >= 0 && guidance && *guidance >= 0.0)
-      return {std::string(parts[1]), *stimulus, parts[3] == condition_name(true), *guidance};
+    const auto guidance = number(parts[4]), most = number(parts[5]);
+    const bool guided = parts[3] == condition_name(true);
+    if (stimulus && *stimulus >= 0 && (guided || parts[3] == condition_name(false)) && guidance &&
+        *guidance >= 0.0 && std::isfinite(*guidance) && most && *most >= 0.0)
+      return {std::string(parts[1]), *stimulus, guided, *guidance, *most};
   }
-  throw input_error({"recording", "", "'" + text + "'", "trial TASK STIMULUS CONDITION GUIDANCE",
+  throw input_error({"recording", "", "'" + printable(text) + "'",
+                     "trial TASK STIMULUS CONDITION GUIDANCE STIFFNESS",
                      "it is not a recording of an experiment"});
 }
 
-std::unique_ptr<ProxyChain> start_chain(const Vec3& start) {
-  constexpr double kPoint = 1e-6;  // [m] a segment of that length is a point
-  std::vector<std::unique_ptr<Constraint>> links;
-  links.push_back(std::make_unique<PolylineConstraint>(start, start + Vec3{kPoint, 0.0, 0.0}));
-  return std::make_unique<ProxyChain>(std::move(links), trial_settings(kGuideStiffness, 1.0));
+std::string start_text(double most_stiffness) { return "start " + exact_number(most_stiffness); }
+
+std::unique_ptr<ProxyChain> chain_of(const StudyTrial& trial, const std::string& text) {
+  const std::vector<std::string_view> parts = words(text);
+  if (parts.size() == 2 && parts[0] == "start") {
+    if (const auto most = number(parts[1]); most && *most >= 0.0) return start_chain(trial.start(), *most);
+  }
+  const ChainWords words = chain_words(text);
+  return bounded(trial.chain(words.guided, words.guidance), words.most_stiffness);
 }
 
 TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
@@ -52,11 +90,12 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
   const Vec3 start = trial.start();
   const DeviceProfile profile = find_profile("premium3");
   SimulatedArm arm(profile, traits.hand, 0.0, start);
-  HandStepper stepper(start_chain(start), header != nullptr ? header->limits : DeviceLimits{});
+  HandStepper stepper(chain_of(trial, start_text(words.most_stiffness)),
+                      header != nullptr ? header->limits : DeviceLimits{});
   ParticipantModel model(traits, trial.view_axes(), info.flat, start, random);
   RecordingText text;
   if (header != nullptr) text.header(*header);
-  text.chain(0, kStartChain);
+  text.chain(0, start_text(words.most_stiffness));
   TrialRun run;
   constexpr std::uint64_t kSettle = 300;  // steps that the hand rests at the start
   const std::uint64_t most =
@@ -65,7 +104,7 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
   for (std::uint64_t n = 0; n < most; ++n) {
     const double time = ParticipantModel::kStep * static_cast<double>(n);
     if (n == kSettle) {
-      (void)stepper.exchange_chain(trial.chain(words.guided, words.guidance));
+      (void)stepper.exchange_chain(chain_of(trial, chain_text(words)));
       text.chain(n, chain_text(words));
       text.event(n, 0, kBeginEvent);
       run.outcome.begin = n;
@@ -92,6 +131,7 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
   text.end();
   run.outcome.error = trial.error();
   run.outcome.reached = trial.reached();
+  run.outcome.flaws = flaws_of(run.steps, 0);
   if (header != nullptr) run.recording = text.text();
   return run;
 }
@@ -109,20 +149,21 @@ TrialReplay replay_trial(StudyTrial& trial, Recording recording) {
   }
   if (!ended) throw input_error({"recording", "", "no end of the trial", "", "the trial was not completed"});
   ReplaySource source(std::move(recording), [&](const std::string& text) {
-    if (text == kStartChain) return start_chain(trial.start());
-    const ChainWords words = chain_words(text);
-    return trial.chain(words.guided, words.guidance);
+    if (text.starts_with("trial ")) out.words = chain_words(text);
+    return chain_of(trial, text);
   });
   trial.begin();
-  double first = NAN, last = NAN;
+  std::vector<HandStep> steps;
   while (!source.done()) {
     const HandStep step = source.step();
     if (step.number < out.outcome.begin || step.number >= out.outcome.end) continue;
-    if (std::isnan(first)) first = step.time;
-    last = step.time;
     trial.follow(step);
+    steps.push_back(step);
   }
-  out.outcome.seconds = last - first;
+  if (steps.empty())
+    throw input_error({"recording", "", "no step of the trial", "", "the trial was not completed"});
+  out.outcome.seconds = steps.back().time - steps.front().time;
+  out.outcome.flaws = flaws_of(steps, source.recording().lost);
   out.outcome.error = trial.error();
   out.outcome.reached = trial.reached();
   out.verdict = verdict_text(source.verdict(), source.recording());

@@ -1,6 +1,7 @@
 /// A trial as it happened: run by a simulated participant, and played back from its recording.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -11,6 +12,17 @@
 
 namespace palpate {
 
+/// What makes a trial tell nothing about its condition: steps of it, counted.
+struct TrialFlaws {
+  std::uint64_t lost = 0;    ///< that the recording lacks
+  std::uint64_t faults = 0;  ///< with a fault (ForceCut)
+  std::uint64_t cut = 0;     ///< without force: no hand, out of reach, enabling button released
+  std::uint64_t off = 0;     ///< with the force switched off
+
+  [[nodiscard]] bool any() const noexcept { return lost + faults + cut + off > 0; }
+};
+[[nodiscard]] TrialFlaws flaws_of(const std::vector<HandStep>& steps, std::uint64_t lost) noexcept;
+
 /// How a trial ended.
 struct TrialOutcome {
   double seconds = 0.0;              ///< from the beginning to the space bar, or to the end of the time
@@ -18,6 +30,7 @@ struct TrialOutcome {
   bool reached = false;              ///< whether the goal was met
   bool timed_out = false;            ///< it ended by itself
   std::uint64_t begin = 0, end = 0;  ///< steps: the first one of the trial, and the one after its last
+  TrialFlaws flaws;
 };
 
 /// What happens while it goes on, as text of the recording.
@@ -29,20 +42,24 @@ struct TrialRun {
   std::vector<HandStep> steps;  ///< of the trial
 };
 
-/// Which trial a chain belongs to, as recordings have it: "trial advection2d 7 ANISO 1".
+/// Which trial a chain belongs to, as recordings have it: "trial advection2d 7 ANISO 1 inf".
 struct ChainWords {
   std::string task;
   int stimulus = 0;
   bool guided = false;
   double guidance = 1.0;
+  double most_stiffness = HUGE_VAL;  ///< [N/m] which the device bears: no chain is stiffer
+
+  bool operator==(const ChainWords&) const = default;
 };
 [[nodiscard]] std::string chain_text(const ChainWords& words);
 /// @throws Error (bad input) for words that say no chain.
 [[nodiscard]] ChainWords chain_words(const std::string& text);
 
-/// The chain that pulls the hand to the start of a trial before it begins.
-[[nodiscard]] std::unique_ptr<ProxyChain> start_chain(const Vec3& start);
-inline constexpr std::string_view kStartChain = "start";  ///< in recordings: the start of the next trial
+/// The chain that pulls the hand to the start of a trial before it begins, as recordings have it: "start inf".
+[[nodiscard]] std::string start_text(double most_stiffness);
+/// The chain of that text, of either kind. @throws Error (bad input) likewise.
+[[nodiscard]] std::unique_ptr<ProxyChain> chain_of(const StudyTrial& trial, const std::string& text);
 
 /// Runs the trial on a simulated arm of the reference's class, a step a millisecond.
 /// @param header of the recording; null: none is made.
@@ -50,9 +67,10 @@ inline constexpr std::string_view kStartChain = "start";  ///< in recordings: th
                                       const ParticipantTraits& traits, const RandomStream& random,
                                       const RecordingHeader* header);
 
-/// Plays a recording of this trial back.
+/// Plays a recording of this trial back. @throws Error (bad input) where it has no trial, or none to its end.
 struct TrialReplay {
   TrialOutcome outcome;
+  ChainWords words;        ///< of the chain in use during the trial
   std::string verdict;     ///< verdict_text()
   bool identical = false;  ///< all proxies and forces, as far as recorded
 };

@@ -21,6 +21,9 @@ TaskAnalysis analyse_task(const StudyTaskInfo& info, const std::vector<TrialReco
     auto& of_participant = good[trial.participant];
     if (counts(trial, info)) {
       of_participant[trial.guided ? 1 : 0].push_back(&trial);
+      out.unreached += trial.outcome.reached ? 0 : 1;
+    } else if (trial.outcome.flaws.any()) {
+      ++out.flawed;
     } else if (trial.outcome.error > info.cutoff_error) {
       ++out.too_far;
     } else {
@@ -84,15 +87,20 @@ std::pair<std::vector<double>, std::vector<double>> common_of(const TaskAnalysis
 
 bool counts(const TrialRecord& trial, const StudyTaskInfo& info) noexcept {
   return !trial.practice && trial.outcome.error <= info.cutoff_error &&
-         trial.outcome.seconds <= info.cutoff_time;
+         trial.outcome.seconds <= info.cutoff_time && !trial.outcome.flaws.any();
 }
 
-ExperimentAnalysis analyse_experiment(const StudyFolder& folder, const std::vector<TrialRecord>& trials) {
+ExperimentAnalysis analyse_experiment(const StudyFolder& folder, const std::vector<TrialRecord>& all) {
   ExperimentAnalysis out;
   std::map<std::string, bool> who;
-  for (const TrialRecord& trial : trials) who[trial.participant] = trial.simulated;
-  out.participants = who.size();
-  out.simulated = as_size(std::ranges::count_if(who, [](const auto& one) { return one.second; }));
+  for (const TrialRecord& trial : all) who[trial.participant] = trial.simulated;
+  const std::size_t programs =
+      as_size(std::ranges::count_if(who, [](const auto& one) { return one.second; }));
+  out.simulated = programs == who.size();
+  out.set_aside = out.simulated ? 0 : programs;
+  out.participants = who.size() - out.set_aside;
+  std::vector<TrialRecord> trials = all;
+  std::erase_if(trials, [&](const TrialRecord& trial) { return trial.simulated != out.simulated; });
   for (const std::string& name : folder.plan().tasks)
     out.tasks.push_back(analyse_task(folder.task(name), trials, folder.plan().design.seed));
   for (const TaskAnalysis& deep : out.tasks) {

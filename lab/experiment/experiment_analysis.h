@@ -31,8 +31,11 @@ struct MeasureAnalysis {
 
 struct TaskAnalysis {
   StudyTaskInfo info;
-  std::size_t trials = 0, too_far = 0,
-              too_slow = 0;               ///< recorded ones; left out for their error, else for their time
+  std::size_t trials = 0;                 ///< recorded ones
+  std::size_t flawed = 0;                 ///< left out: force or recording failed (TrialFlaws)
+  std::size_t too_far = 0;                ///< else for their error
+  std::size_t too_slow = 0;               ///< else for their time
+  std::size_t unreached = 0;              ///< of those that count: the goal was not met
   std::vector<std::string> participants;  ///< who is in the pairs
   std::vector<std::string> lacking;       ///< who has fewer than two good trials in a condition
   std::array<MeasureAnalysis, 2> measures;
@@ -51,12 +54,16 @@ struct DimensionTest {
 struct ExperimentAnalysis {
   std::vector<TaskAnalysis> tasks;
   std::vector<DimensionTest> dimensions;
-  std::size_t participants = 0, simulated = 0;
+  std::size_t participants = 0;  ///< who is analysed: all people, or all programs
+  bool simulated = false;        ///< they are programs
+  std::size_t set_aside = 0;     ///< programs beside people: not analysed
 };
 
-/// Whether a trial counts: practice does not, and neither do errors and times beyond the limits of its task.
+/// Whether a trial counts: practice does not, nor do errors and times beyond the limits of its task, nor trials in which
+/// force or recording failed.
 [[nodiscard]] bool counts(const TrialRecord& trial, const StudyTaskInfo& info) noexcept;
 
+/// People and programs are not analysed together: where there are people, they alone are.
 /// @throws Error (bad input) for a damaged folder.
 [[nodiscard]] ExperimentAnalysis analyse_experiment(const StudyFolder& folder,
                                                     const std::vector<TrialRecord>& trials);

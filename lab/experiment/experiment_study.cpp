@@ -62,7 +62,7 @@ class ExperimentPage {
       : folder_(folder), trials_(trials), found_(found) {}
 
   [[nodiscard]] std::vector<ReportSection> sections() const;
-  /// "Simulated participants. ": above everything that is of them; empty where there are none.
+  /// Whether it is of programs, or leaves them out: above every section; empty where there are people alone.
   [[nodiscard]] std::string label() const;
 
  private:
@@ -76,7 +76,7 @@ class ExperimentPage {
   [[nodiscard]] ReportSection power() const;
   [[nodiscard]] ReportSection answers() const;
   [[nodiscard]] std::string titled(const std::string& title) const {
-    return found_.simulated > 0 ? title + " (simulated)" : title;
+    return found_.simulated ? title + " (simulated)" : title;
   }
 
   const StudyFolder& folder_;
@@ -85,10 +85,10 @@ class ExperimentPage {
 };
 
 std::string ExperimentPage::label() const {
-  if (found_.simulated == 0) return {};
-  if (found_.simulated == found_.participants) return "Simulated participants: programs, no people.";
-  return "Simulated: " + std::to_string(found_.simulated) + " of " + std::to_string(found_.participants) +
-         " participants are programs.";
+  if (found_.simulated) return "Simulated participants: programs, no people.";
+  if (found_.set_aside == 0) return {};
+  return counted(found_.set_aside, "simulated participant") +
+         " left out: where there are people, they alone are analysed.";
 }
 
 ReportSection ExperimentPage::begin(const std::string& title) const {
@@ -103,34 +103,51 @@ ReportSection ExperimentPage::data() const {
       "A trial is left out where its position error is above the limit of its task, or its completion time is: "
       "these are those of people who got lost in the data (Ikits 2006, sec. 7.1, whose limits these are for its "
       "tasks; 70 of its 1600 trials were left out). Practice is left out, too. A participant with fewer than two "
-      "trials left in a condition is left out of the tests of that task.");
-  section.columns = {"task",           "recorded trials",      "left out: error",
-                     "left out: time", "limit of error [mm]",  "limit of time [s]",
-                     "participants",   "without enough trials"};
+      "trials left in a condition is left out of the tests of that task. Left out for flaws are trials in which steps were "
+      "lost or faulty, or the force was cut or switched off: they tell nothing about their condition. Trials that count "
+      "although the goal was not met, as they were ended before, are counted in the last column: in tracing their error is the mean over the part that was "
+      "done, which may be the easier one.");
+  section.columns = {"task",
+                     "recorded trials",
+                     "left out: flaws",
+                     "left out: error",
+                     "left out: time",
+                     "limit of error [mm]",
+                     "limit of time [s]",
+                     "participants",
+                     "without enough trials",
+                     "goal not met"};
   std::size_t trials = 0, left_out = 0;
   for (const TaskAnalysis& t : found_.tasks) {
-    section.table.push_back({t.info.title, std::to_string(t.trials), std::to_string(t.too_far),
-                             std::to_string(t.too_slow), short_number(t.info.cutoff_error),
-                             short_number(t.info.cutoff_time), std::to_string(t.participants.size()),
-                             std::to_string(t.lacking.size())});
+    section.table.push_back({t.info.title, std::to_string(t.trials), std::to_string(t.flawed),
+                             std::to_string(t.too_far), std::to_string(t.too_slow),
+                             short_number(t.info.cutoff_error), short_number(t.info.cutoff_time),
+                             std::to_string(t.participants.size()), std::to_string(t.lacking.size()),
+                             std::to_string(t.unreached)});
     trials += t.trials;
-    left_out += t.too_far + t.too_slow;
+    left_out += t.flawed + t.too_far + t.too_slow;
+    section.measurements.push_back(
+        {"trials", t.info.name, "", "goal not met", static_cast<double>(t.unreached)});
   }
   section.paragraphs.push_back(std::to_string(left_out) + " of " + std::to_string(trials) +
                                " trials are left out.");
   section.measurements.push_back({"trials", "all tasks", "", "left out", static_cast<double>(left_out)});
   section.csv.file = "trials.csv";
   section.csv.content =
-      "participant,simulated,task,run,phase,stimulus,condition,position_error_mm,completion_time_s,reached,end,counts\n";
+      "participant,simulated,task,run,phase,stimulus,condition,position_error_mm,completion_time_s,reached,end,flawed_steps,counts\n";
   for (const TrialRecord& r : trials_) {
     bool kept = false;
-    for (const TaskAnalysis& t : found_.tasks) kept = kept || (t.info.name == r.task && counts(r, t.info));
+    const TrialFlaws& flaws = r.outcome.flaws;
+    for (const TaskAnalysis& t : found_.tasks)
+      kept = kept || (r.simulated == found_.simulated && t.info.name == r.task && counts(r, t.info));
     section.csv.content += r.participant + (r.simulated ? ",true," : ",false,") + r.task + "," +
                            std::to_string(r.run) + (r.practice ? ",practice," : ",recorded,") +
                            std::to_string(r.stimulus) + "," + std::string(condition_name(r.guided)) + "," +
                            exact_number(r.outcome.error) + "," + exact_number(r.outcome.seconds) +
                            (r.outcome.reached ? ",true," : ",false,") +
-                           (r.outcome.timed_out ? "timeout," : "space,") + (kept ? "true" : "false") + "\n";
+                           (r.outcome.timed_out ? "timeout," : "space,") +
+                           std::to_string(flaws.lost + flaws.faults + flaws.cut + flaws.off) + "," +
+                           (kept ? "true" : "false") + "\n";
   }
   return section;
 }
@@ -223,7 +240,7 @@ ReportSection ExperimentPage::means() const {
       "Mean and standard deviation of each participant in each condition, which are what is tested.");
   section.csv.file = "participants.csv";
   section.csv.content =
-      "participant,task,condition,error_mean_mm,error_deviation_mm,time_mean_s,time_deviation_s\n";
+      "participant,simulated,task,condition,error_mean_mm,error_deviation_mm,time_mean_s,time_deviation_s\n";
   section.columns = {"task",
                      "condition",
                      "error: mean of means [mm]",
@@ -239,10 +256,10 @@ ReportSection ExperimentPage::means() const {
       };
       const MeasureAnalysis &e = t.of(Measure::kError), &s = t.of(Measure::kTime);
       for (std::size_t i = 0; i < t.participants.size(); ++i) {
-        section.csv.content += t.participants[i] + "," + t.info.name + "," +
-                               std::string(condition_name(guided)) + "," + exact_number(of(e.means)[i]) +
-                               "," + exact_number(of(e.deviations)[i]) + "," + exact_number(of(s.means)[i]) +
-                               "," + exact_number(of(s.deviations)[i]) + "\n";
+        section.csv.content += t.participants[i] + (found_.simulated ? ",true," : ",false,") + t.info.name +
+                               "," + std::string(condition_name(guided)) + "," +
+                               exact_number(of(e.means)[i]) + "," + exact_number(of(e.deviations)[i]) + "," +
+                               exact_number(of(s.means)[i]) + "," + exact_number(of(s.deviations)[i]) + "\n";
       }
       section.table.push_back({t.info.title, std::string(condition_name(guided)),
                                rounded(mean_of(of(e.means))), rounded(deviation_of(of(e.means))),
@@ -289,12 +306,13 @@ ReportSection ExperimentPage::dimensions() const {
   ReportSection section = begin("3D against 2D");
   section.paragraphs.push_back(
       "Paired t tests of the same participants' mean position errors in 3D less those in 2D. The reference prints t(19) = 7.38, p < "
-      "0.001 for tracing, also with guidance. Lengths in 2D and 3D are alike, and so are the sizes of what is seen.");
+      "0.001 for tracing with guidance. Lengths in 2D and 3D are alike, and so are the sizes of what is seen.");
   section.columns = {"task in 3D", "condition", "difference [mm]", "95 %", "t", "d_z", "printed"};
   for (const DimensionTest& d : found_.dimensions) {
     section.table.push_back({d.task, std::string(condition_name(d.guided)), rounded(d.errors.mean),
                              rounded(d.errors.lower) + " to " + rounded(d.errors.upper), t_text(d.errors),
-                             rounded(d.errors.effect_z), d.task == "3D tracing" ? "7.38, p < 0.001" : "-"});
+                             rounded(d.errors.effect_z),
+                             d.task == "3D tracing" && d.guided ? "7.38, p < 0.001" : "-"});
     section.measurements.push_back(
         {"3D less 2D", d.task, std::string(condition_name(d.guided)), "t", d.errors.t});
     section.measurements.push_back(
@@ -377,7 +395,7 @@ ReportAnswer study_experiment(const Study& study) {
   const ExperimentPage page(folder, trials, found);
   Report report;
   report.title = folder.plan().program + ": experiment " + folder.path().filename().string();
-  if (found.simulated > 0) report.title += " (simulated)";
+  if (found.simulated) report.title += " (simulated)";
   report.command_line = study.request().command_line;
   report.machine = this_machine();
   if (const std::string words = page.label(); !words.empty()) report.scene.push_back(words);
@@ -393,10 +411,11 @@ ReportAnswer study_experiment(const Study& study) {
             t_text(t.of(Measure::kTime).of_means) + "\n";
     ++rows;
   }
-  ReportAnswer answer = study.finish(report, text, rows, {});
+  ReportAnswer answer = study.finish(report, text, rows);
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(answer.json);
   json["participants"] = found.participants;
-  json["simulated"] = found.simulated;
+  json["simulated"] = found.simulated ? found.participants : 0;
+  json["set_aside"] = found.set_aside;
   for (const TaskAnalysis& t : found.tasks) {
     const MeasureAnalysis& e = t.of(Measure::kError);
     const auto number_or_null = [](double x) {
@@ -405,7 +424,8 @@ ReportAnswer study_experiment(const Study& study) {
     json["tasks"][t.info.name] = {{"t", number_or_null(e.of_means.t)},
                                   {"p", number_or_null(e.of_means.p)},
                                   {"difference_mm", number_or_null(e.of_means.mean)},
-                                  {"left_out", t.too_far + t.too_slow}};
+                                  {"left_out", t.flawed + t.too_far + t.too_slow},
+                                  {"goal_not_met", t.unreached}};
   }
   answer.json = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   return answer;

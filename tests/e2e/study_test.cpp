@@ -46,11 +46,23 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
   const Json replayed = json({"study", "replay", "s", "--participant", "P03"});
   EXPECT_EQ(replayed["trials"], 5);
   EXPECT_EQ(replayed["differ"], 0);
-  // A force that was not the logged one is told.
+  // A recording of another trial is told.
+  const auto file = [&](const char* code) {
+    return folder_.path("s/sub-" + std::string(code) + "/beh/sub-" + code +
+                        "_task-advection2d_run-02_recording.txt.gz");
+  };
+  std::filesystem::copy_file(file("P03"), folder_.path("kept"));
+  std::filesystem::copy_file(file("P02"), file("P03"), std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(json({"study", "replay", "s", "--participant", "P03"}, 1)["differ"], 1);
+  std::filesystem::copy_file(folder_.path("kept"), file("P03"),
+                             std::filesystem::copy_options::overwrite_existing);
+  // Stimuli that are not those of the folder are refused.
   std::string plan = read_file(folder_.path("s/study.json"));
   plan.replace(plan.find("\"seed\": 5"), 9, "\"seed\": 6");
   folder_.write("s/study.json", plan);
-  EXPECT_EQ(json({"study", "replay", "s", "--participant", "P03"}, 1)["differ"], 5);
+  const ProgramResult other = run({"study", "replay", "s", "--participant", "P03"});
+  EXPECT_EQ(other.exit_code, 3);
+  EXPECT_NE(other.err.find("other ones"), std::string::npos) << other.err;
 }
 
 TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
@@ -64,6 +76,9 @@ TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
   refused({"study", "dance", "s"}, 2, "dance");
   refused({"study", "make", "s", "--tasks", "juggling"}, 2, "tracing2d");
   refused({"study", "make", "s", "--recorded", "5"}, 2, "even");
+  refused({"study", "make", "s", "--tasks", "tracing2d,tracing2d"}, 2, "twice");
+  refused({"study", "make", "s", "--tasks", "tracing2d", "--recorded", "82", "--practice", "0"}, 2,
+          "at most 80");
   refused({"study", "analyse", "nowhere"}, 3, "study make");
   folder_.write("full/file.txt", "mine");
   refused({"study", "make", "full", "--tasks", "tracing2d", "--practice", "0", "--recorded", "2",
@@ -74,6 +89,10 @@ TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
                 .exit_code,
             0);
   refused({"study", "analyse", "s"}, 3, "no trial yet");
+  refused({"study", "run", "s", "--device", "replay:path.csv"}, 2, "is a file");
+  refused({"study", "run", "s", "--device", "hands:hands.csv"}, 2, "is a file");
+  refused({"study", "run", "s", "--participant", "P03"}, 2, "P01 to P02");
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("s/participants.json"))) << "nobody is entered by that";
   refused({"study", "simulate", "s", "--participant", "P09"}, 2, "P09");
   refused({"study", "replay", "s"}, 2, "no such trial");
 }

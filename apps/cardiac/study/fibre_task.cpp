@@ -90,7 +90,8 @@ class FibreTask final : public StudyTask {
       stimuli_.push_back(std::move(stimulus));
     }
     if (stimuli_.size() < as_size(count))
-      throw work_error("too few fibres are long enough; try another --seed");
+      throw work_error("only " + std::to_string(stimuli_.size()) + " of " + std::to_string(count) +
+                       " fibres are long enough; try another --seed, or fewer trials");
     return info_.title + ": " + std::to_string(count) + " fibres, from " + std::to_string(tried) + " places";
   }
 

@@ -127,7 +127,8 @@ class BundleTask final : public StudyTask {
       stimuli_.push_back(std::move(stimulus));
     }
     if (stimuli_.size() < as_size(count))
-      throw work_error("too few bundles are long enough; try another --seed");
+      throw work_error("only " + std::to_string(stimuli_.size()) + " of " + std::to_string(count) +
+                       " bundles are long enough; try another --seed, or fewer trials");
     return info_.title + ": " + std::to_string(count) + " parts of bundles, from " + std::to_string(tried) +
            " places";
   }

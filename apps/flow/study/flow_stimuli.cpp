@@ -218,6 +218,9 @@ PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Pro
   for (std::uint64_t f = 0; f < kFields; ++f)
     random.emplace_back(
         RandomStream({seed, 23, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal), f}));
+  if (as_size(count) > kGood)
+    throw usage_error("--practice and --recorded are " + std::to_string(count) +
+                      " paths of a task; at most " + std::to_string(kGood) + " can be chosen");
   progress.begin("choosing paths", kGood);
   PathChoice choice;
   std::vector<Candidate> good;
@@ -250,8 +253,9 @@ PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Pro
   }
   choice.good = good.size();
   if (good.size() < as_size(count)) {
-    throw work_error("only " + std::to_string(good.size()) + " good paths among " +
-                     std::to_string(choice.tried) + " places; try another --seed, or fewer trials");
+    throw work_error("only " + std::to_string(good.size()) + " of " + std::to_string(count) +
+                     " paths are good among " + std::to_string(choice.tried) +
+                     " places; try another --seed, or fewer trials");
   }
   std::ranges::stable_sort(good, {}, &Candidate::score);
   good.resize(as_size(count));

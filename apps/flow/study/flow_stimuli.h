@@ -43,7 +43,7 @@ inline constexpr int kFields = 30;             ///< data sets of a kind
 ///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length and fewer than a tenth of it lies
 ///     behind displayed lines.
 /// The score is least for paths far from displayed lines, of middling curvature and little depth and occlusion.
-/// @throws Error (work failed) where too few are good; Cancelled.
+/// @throws Error (usage) for a `count` above 80; (work failed) where too few are good; Cancelled.
 [[nodiscard]] PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count,
                                       Progress& progress);
 

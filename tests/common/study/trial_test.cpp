@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
@@ -133,11 +135,47 @@ TEST(SimulatedTrial, IsPlayedBackToTheLastBit) {
 TEST(SimulatedTrial, AnotherHandIsToldFromIt) {
   PathTrial trial(circle_stimulus(PathGoal::kEnd, true));
   TrialRun run = run_of(trial, true, 1.0, 3);
-  const std::string text = "ANISO 1\n", softer = "ANISO 0.5\n";
+  const std::string text = "ANISO 1 inf\n", softer = "ANISO 0.5 inf\n";
+  ASSERT_NE(run.recording.find(text), std::string::npos);
   run.recording.replace(run.recording.find(text), text.size(), softer);
   TempFolder folder;
   folder.write("run.txt.gz", packed(run.recording));
-  EXPECT_FALSE(replay_trial(trial, read_packed_recording(folder.path("run.txt.gz").string())).identical);
+  const TrialReplay again = replay_trial(trial, read_packed_recording(folder.path("run.txt.gz").string()));
+  EXPECT_FALSE(again.identical);
+  EXPECT_EQ(again.words.guidance, 0.5) << "it is told what the recording is of";
+}
+
+/// A device that bears less than the trial asks for gets less: force over distance is its stiffness.
+TEST(SimulatedTrial, NoChainIsStifferThanTheDeviceBears) {
+  PathTrial trial(circle_stimulus(PathGoal::kCircle, false));
+  const Vec3 off = trial.start() + Vec3{0.004, 0.0, 0.0};
+  for (const double most : {100.0, 250.0}) {
+    const auto held = chain_of(trial, start_text(most));
+    EXPECT_NEAR(glm::length(held->step(off).force), 0.004 * most, 0.01 * most * 0.004);
+    EXPECT_EQ(chain_of(trial, chain_text({"made", 0, true, 1.0, most}))->settings().stiffness, most);
+    EXPECT_EQ(chain_of(trial, chain_text({"made", 0, false, 1.0, most}))->settings().stiffness, 60.0);
+  }
+  EXPECT_EQ(chain_of(trial, start_text(HUGE_VAL))->settings().stiffness, 400.0);
+  EXPECT_THROW((void)chain_of(trial, "start"), Error);
+  EXPECT_THROW((void)chain_of(trial, "start nan"), Error);
+}
+
+TEST(SimulatedTrial, CountsStepsThatTellNothing) {
+  std::vector<HandStep> steps(20);
+  EXPECT_FALSE(flaws_of(steps, 0).any());
+  steps[0].cut = ForceCut::kStart;
+  steps[1].cut = ForceCut::kJump;
+  EXPECT_FALSE(flaws_of(steps, 0).any()) << "forces that grow from zero are as they should be";
+  steps[2].cut = ForceCut::kStale;
+  steps[3].state = HoldState::kFault;
+  steps[4].cut = ForceCut::kTooFast;
+  steps[5].cut = ForceCut::kOutOfReach;
+  steps[6].cut = steps[7].cut = ForceCut::kSwitchedOff;
+  const TrialFlaws flaws = flaws_of(steps, 9);
+  EXPECT_EQ(flaws.faults, 3U);
+  EXPECT_EQ(flaws.cut, 1U);
+  EXPECT_EQ(flaws.off, 2U);
+  EXPECT_EQ(flaws.lost, 9U);
 }
 
 /// Position errors of people, one trial each. @param trials names them: other ones have other noises.
@@ -181,12 +219,17 @@ TEST(SimulatedTrial, WithoutForceThereIsNoEffect) {
 }
 
 TEST(ChainWords, ComeBackFromText) {
+  const ChainWords bounded{"tracing3d", 12, true, 0.1, 312.5};
+  EXPECT_EQ(chain_words(chain_text(bounded)), bounded);
   const ChainWords words = chain_words(chain_text({"tracing3d", 12, true, 0.1}));
+  EXPECT_EQ(words.most_stiffness, HUGE_VAL);
   EXPECT_EQ(words.task, "tracing3d");
   EXPECT_EQ(words.stimulus, 12);
   EXPECT_TRUE(words.guided);
   EXPECT_EQ(words.guidance, 0.1);
-  for (const char* bad : {"", "start", "trial a b ISO 1", "trial a -1 ISO 1", "trial a 1 ISO nan"})
+  for (const char* bad : {"", "start", "trial a b ISO 1 inf", "trial a -1 ISO 1 inf", "trial a 1 ISO nan inf",
+                          "trial a 1 ISO 1 nan", "trial a 1 ISO 1 -1", "trial a 1 ISO inf inf",
+                          "trial a 1 NOISE 1 inf", "trial a 1 ISO 1"})
     EXPECT_THROW((void)chain_words(bad), Error) << bad;
 }
 
@@ -233,12 +276,145 @@ TEST(StudyFolder, ATrialWithoutItsLastFileIsDoneAgain) {
   EXPECT_THROW((void)made.trials(), Error) << "one that was damaged is named, not passed over";
 }
 
+/// A trial that is kept in a folder of its own, and its files.
+struct KeptTrial {
+  KeptTrial() : made(StudyFolder::make(temporary.path("s"), small_plan(), {}, false)) {
+    made.enter(who);
+    first = made.left_for(who).front();
+    record = {"P01",        "made", first.trial + 1, first.stimulus, first.practice,
+              first.guided, true,   "simulated"};
+    record.outcome.seconds = 2.0;
+    record.outcome.error = 3.0;
+    steps.resize(2);
+  }
+  void write() { made.write(record, "text", steps); }
+  [[nodiscard]] std::string file() const {
+    return "s/sub-P01/beh/sub-P01_task-made_run-" + std::string(first.trial + 1 < 10 ? "0" : "") +
+           std::to_string(first.trial + 1) + "_beh.json";
+  }
+
+  TempFolder temporary;
+  StudyFolder made;
+  StudyParticipant who{"P01", 0, true, {}};
+  PlannedTrial first;
+  TrialRecord record;
+  std::vector<HandStep> steps;
+};
+
+TEST(StudyFolder, KeepsNoTrialWithoutStepsTimeOrError) {
+  KeptTrial kept;
+  for (const double bad : {double(NAN), HUGE_VAL}) {
+    kept.record.outcome.seconds = bad;
+    EXPECT_THROW(kept.write(), Error);
+    kept.record.outcome.seconds = 2.0;
+    kept.record.outcome.error = bad;
+    EXPECT_THROW(kept.write(), Error);
+    kept.record.outcome.error = 3.0;
+  }
+  kept.steps.clear();
+  EXPECT_THROW(kept.write(), Error);
+  EXPECT_EQ(kept.made.left_for(kept.who).size(), 3U);
+  EXPECT_TRUE(kept.made.trials().empty()) << "and the folder is still read";
+  kept.steps.resize(2);
+  kept.record.outcome.flaws = {1, 2, 3, 4};
+  kept.record.most_stiffness = 250.0;
+  kept.write();
+  const TrialRecord again = kept.made.trials().at(0);
+  EXPECT_EQ(again.outcome.flaws.off, 4U);
+  EXPECT_EQ(again.outcome.flaws.lost, 1U);
+  EXPECT_EQ(again.most_stiffness, 250.0);
+}
+
+TEST(StudyFolder, RefusesTrialsThatAreNotThoseOfTheDesign) {
+  KeptTrial kept;
+  kept.write();
+  const std::string text = read_file(kept.temporary.path(kept.file()));
+  ASSERT_EQ(kept.made.trials().size(), 1U);
+  const std::string condition = kept.first.guided ? "\"ANISO\"" : "\"ISO\"";
+  for (const auto& [from, to] : std::vector<std::pair<std::string, std::string>>{
+           {condition, kept.first.guided ? "\"ISO\"" : "\"ANISO\""},
+           {condition, "\"iso\""},
+           {"\"practice\"", "\"recorded\""},
+           {"\"practice\"", "\"rehearsal\""},
+           {"\"space\"", "\"spacebar\""},
+           {"\"run\": 1", "\"run\": 1.5"},
+           {"\"run\": 1", "\"run\": 4294967297"},
+           {"\"first_step\": 0", "\"first_step\": -1"},
+           {"\"completion_time\": 2.0", "\"completion_time\": null"},
+           {"\"completion_time\": 2.0", "\"completion_time\": -2.0"},
+           {"\"simulated\": true", "\"simulated\": false"},
+           {"\"off_steps\": 0", "\"off_steps\": 1e300"}}) {
+    std::string other = text;
+    ASSERT_NE(other.find(from), std::string::npos) << from << text;
+    other.replace(other.find(from), from.size(), to);
+    kept.temporary.write(kept.file(), other);
+    EXPECT_THROW((void)kept.made.trials(), Error) << to;
+  }
+}
+
+TEST(StudyFolder, EntersNobodyWithoutAFolder) {
+  TempFolder temporary;
+  StudyFolder made = StudyFolder::make(temporary.path("s"), small_plan(), {}, false);
+  const StudyParticipant who{"P01", 0, false, {}};
+  made.enter(who);
+  std::filesystem::remove_all(temporary.path("s/sub-P01"));  // as a crash between two steps left it
+  made.enter(who);
+  EXPECT_TRUE(std::filesystem::is_directory(temporary.path("s/sub-P01/beh")));
+}
+
+TEST(StudyFolder, RefusesPlansBeyondItsLimits) {
+  const auto refused = [](const std::function<void(StudyPlan&)>& change) {
+    StudyPlan plan = small_plan();
+    change(plan);
+    EXPECT_THROW(StudyFolder::check(plan), Error);
+    TempFolder temporary;
+    EXPECT_THROW((void)StudyFolder::make(temporary.path("s"), plan, {}, false), Error);
+  };
+  EXPECT_NO_THROW(StudyFolder::check(small_plan()));
+  refused([](StudyPlan& p) {
+    p.tasks = {"made", "other", "made"};
+    p.design.tasks = 3;
+  });
+  refused([](StudyPlan& p) { p.guidance = 11.0; });
+  refused([](StudyPlan& p) { p.guidance = NAN; });
+  refused([](StudyPlan& p) {
+    p.design.participants = 10'000;
+    p.design.practice = p.design.recorded = 300;
+  });
+}
+
+TEST(StudyFolder, IsHeldByOneSession) {
+  TempFolder temporary;
+  const StudyFolder made = StudyFolder::make(temporary.path("s"), small_plan(), {}, false);
+  const StudyFolder other(temporary.path("s"));
+  {
+    const StudyLock session = made.hold(StudyLock::Kind::kShared, "a session");
+    const StudyLock place = made.hold_place(0, "study run of P01");
+    EXPECT_NO_THROW((void)other.hold(StudyLock::Kind::kShared, "another"));
+    EXPECT_NO_THROW((void)other.hold_place(1, "another"));
+    EXPECT_THROW((void)other.hold(StudyLock::Kind::kAlone, "simulate"), Error);
+    try {
+      (void)other.hold_place(0, "another");
+      ADD_FAILURE() << "the place is taken";
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("study run of P01 (process " + std::to_string(::getpid())),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_NO_THROW((void)other.hold_place(0, "another"));
+}
+
 TEST(StudyFolder, RefusesAPlanThatWouldNotFitIntoMemory) {
   TempFolder temporary;
   (void)StudyFolder::make(temporary.path("s"), small_plan(), {}, false);
   const std::string plan = read_file(temporary.path("s/study.json"));
   for (const auto& [from, to] :
        {std::pair{"\"participants\": 2", "\"participants\": 2000000000"},
+        std::pair{"\"participants\": 2", "\"participants\": 4294967298"},
+        std::pair{"\"participants\": 2", "\"participants\": 2.5"},
+        std::pair{"\"made\"\n", "\"made\", \"made\"\n"},
+        std::pair{"\"guidance\": 1.0", "\"guidance\": 1e300"},
         std::pair{"\"recorded_trials\": 2", "\"recorded_trials\": 3"},
         std::pair{"\"made\"\n", "\"../../etc\"\n"}, std::pair{"\"seed\": 4", "\"seed\": \"four\""}}) {
     std::string other = plan;

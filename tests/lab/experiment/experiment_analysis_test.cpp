@@ -85,6 +85,27 @@ TEST(ExperimentAnalysis, LeavesOutByTheRuleAndComparesTheRest) {
   EXPECT_EQ(found.tasks[0].participants.size(), 3U) << "one has too few trials left";
   EXPECT_EQ(found.tasks[0].lacking, std::vector<std::string>{"P01"});
   EXPECT_EQ(found.tasks[1].participants.size(), 4U);
+
+  // Steps without force, in a trial that was left out for its error: it is counted for the force, once.
+  for (TrialRecord& r : trials) {
+    if (r.task == "flat" && r.outcome.error == 31.0 && found.tasks[0].flawed == 0) r.outcome.flaws.cut = 1;
+  }
+  found = analyse_experiment(folder, trials);
+  EXPECT_EQ(found.tasks[0].flawed, 2U);
+  EXPECT_EQ(found.tasks[0].too_far, 0U);
+  EXPECT_EQ(found.tasks[1].unreached, 16U) << "none of these reached a goal, and that is told";
+
+  // A program beside people is not analysed.
+  for (TrialRecord& r : trials) r.simulated = r.participant == "P04";
+  found = analyse_experiment(folder, trials);
+  EXPECT_FALSE(found.simulated);
+  EXPECT_EQ(found.set_aside, 1U);
+  EXPECT_EQ(found.participants, 3U);
+  EXPECT_EQ(found.tasks[1].participants.size(), 3U);
+  for (TrialRecord& r : trials) r.simulated = true;
+  found = analyse_experiment(folder, trials);
+  EXPECT_TRUE(found.simulated);
+  EXPECT_EQ(found.set_aside, 0U);
 }
 
 }  // namespace
