@@ -6,6 +6,7 @@
 #include "common/compose/volume_fields.h"
 #include "common/compose/volume_scene.h"
 #include "common/haptics/workspace.h"
+#include "lab/data/volume_extremes.h"
 #include "lab/data/volume_quality.h"
 #include "lab/hand/plane_placing.h"
 #include "lab/page/html.h"
@@ -42,7 +43,7 @@ ReportAnswer study_scalars(const Study& study) {
   check_report_folder(document.output.file, document.common.force);
 
   const Stopwatch watch;
-  Input input = study.open({.drawing = true});
+  Input input = study.open();
   (void)input.scalar_choice();  // an unknown --field is refused before anything is read
   const SceneView scene =
       make_volume_scene(input, load_seen_volume(input, document.volume, study.progress()), document, 1.0);
@@ -53,9 +54,10 @@ ReportAnswer study_scalars(const Study& study) {
   const PlacingSettings placing = placing_settings(*scene.volume->image, effort, document.common.seed);
   const std::vector<PlacingRow> placed = run_plane_placing(placing, study.progress());
   report.sections.push_back(plane_placing_section(placed, placing));
-  report.stability = plane_placing_cases(placed);
+  report.stability = run_volume_extremes(*scene.volume, study.progress());
+  append(plane_placing_cases(placed), report.stability);
   report.seconds = watch.seconds();
-  return study.finish(report, figures_text(quality), quality.rows.size(), measured_costs(input, nullptr));
+  return study.finish(report, figures_text(quality), quality.rows.size());
 }
 
 }  // namespace palpate
