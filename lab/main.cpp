@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/ledger.h"
 #include "common/load/helper/serve.h"
 #include "common/scene/report_request.h"
 #include "lab/study.h"
@@ -42,7 +43,10 @@ std::string answer_to(std::string_view text) {
   Progress progress;
   const ProgressReporter reporter(progress);
   for (const Subject& subject : kSubjects) {
-    if (subject.name == request.subject) return encode(subject.study(Study(request, progress)));
+    if (subject.name != request.subject) continue;
+    ReportAnswer answer = subject.study(Study(request, progress));
+    answer.ledger = Ledger::entries();
+    return encode(answer);
   }
   throw work_error("there is no study of '" + request.subject + "'");
 }

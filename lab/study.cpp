@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/load/helper/serve.h"
@@ -19,16 +18,11 @@ void Study::note(const std::string& line) const { send_news(encode(ReportNews{.n
 
 void Study::print(const std::string& text) const { send_news(encode(ReportNews{.note = {}, .text = text})); }
 
-Input Study::open(SceneUse use) const {
+Input Study::open() const {
   Document with_mesher = document();
   if (with_mesher.input.kind == FieldKind::kFibre) with_mesher.input.remesher = remesher_of(with_mesher);
   Input input = open_input(with_mesher, progress_, [this](const std::string& line) { note(line); });
   note(input.choice_sentence());
-  if (document().common.explain) {
-    use.verb = "report";
-    use.threads = resolve_threads(threads());
-    print(plan_text(plan_scene(input, use)));
-  }
   return input;
 }
 
@@ -41,14 +35,12 @@ Report Study::begin(const Input& input) const {
   return report;
 }
 
-ReportAnswer Study::finish(const Report& report, const std::string& figures, std::size_t rows,
-                           const std::vector<MeasuredCost>& costs) const {
+ReportAnswer Study::finish(const Report& report, const std::string& figures, std::size_t rows) const {
   const std::filesystem::path& folder = document().output.file;
   write_report(report, folder, document().common.force);
   ReportAnswer answer;
   answer.text = report.title + " -> " + (folder / "index.html").string() + "\n" + figures +
                 cases_text(report.stability);
-  if (document().common.explain) answer.text += measured_text(costs);
   const auto failed = std::ranges::count_if(report.stability, [](const auto& c) { return !c.row.holds; });
   answer.json = nlohmann::ordered_json{
       {"out", folder.string()},

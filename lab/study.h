@@ -7,7 +7,6 @@
 
 #include "common/base/progress.h"
 #include "common/scene/input.h"
-#include "common/scene/plan.h"
 #include "common/scene/report_request.h"
 #include "lab/data/sweep.h"
 #include "lab/page/report.h"
@@ -31,19 +30,17 @@ class Study {
   /// A result, or part of one.
   void print(const std::string& text) const;
 
-  /// The document's input; with `--explain` what is taken of it is printed.
+  /// The document's input.
   /// @throws Error as Input::open(); (usage) for a field that is none.
-  [[nodiscard]] Input open(SceneUse use) const;
+  [[nodiscard]] Input open() const;
 
   /// A report of `input` on this machine; its scene begins with what was chosen of the input.
   [[nodiscard]] Report begin(const Input& input) const;
 
-  /// Writes the report to the document's folder, and says of it its title, `figures`, each case with its
-  /// limit and, with `--explain`, what the input cost.
+  /// Writes the report to the document's folder, and says of it its title, `figures` and each case with its limit.
   /// @param figures lines of text, may be empty. @param rows how many of them were measured.
   /// @throws Error as write_report().
-  [[nodiscard]] ReportAnswer finish(const Report& report, const std::string& figures, std::size_t rows,
-                                    const std::vector<MeasuredCost>& costs) const;
+  [[nodiscard]] ReportAnswer finish(const Report& report, const std::string& figures, std::size_t rows) const;
 
  private:
   const ReportRequest& request_;

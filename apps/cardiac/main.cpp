@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
               info_verb({{"cardiac info heart.exelem.gz", "mesh, fibres, where layers come from, memory"},
                          {"cardiac info mesh.pts --surfaces surfaces.vtp",
                           "and the surfaces of the wall that were found, with areas and thickness"},
-                         {"cardiac info mesh.pts --explain", "and what each verb would load"}}),
+                         {"cardiac info mesh.pts --explain", "and what that took, and what it left out"}}),
               trace_fibres_verb(
                   {{"cardiac trace heart.exelem.gz --layer 0.5 --seeds random:200 --out fibres.vtp",
                     "on the layer half way through the wall; with depth, gap and helix angle at each point"},

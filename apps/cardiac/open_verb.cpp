@@ -25,7 +25,6 @@ Verb open_verb(std::vector<UsageExample> examples) {
              (void)layer_of(options.heart);
              (void)parse_cut(options.heart.cut);
            },
-       .use = [](const Input&, const Document&) { return SceneUse{.tracing = true}; },
        .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<CardiacModel>(options, program); }},
       std::move(examples));

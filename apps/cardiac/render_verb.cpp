@@ -51,7 +51,6 @@ DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& option
   drawn.what = counted(heart.mesh.triangles.size(), "triangle");
   if (!heart.strokes.empty()) drawn.what += ", " + counted(heart.strokes.size(), "stroke");
   if (!heart.branches.empty()) drawn.what += ", " + counted(heart.branches.size(), "line");
-  drawn.measured = measured_costs(input, heart.grid ? heart.grid->tets.get() : nullptr);
   SceneView& view = drawn.view;
   view.style.color_by = ColorBy::kArray;
   view.style.array = scene.array;
@@ -83,8 +82,6 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   drawn.lines = layer.layer.lines->size();
   drawn.points = layer.layer.fibres.points;
   drawn.what = counted(drawn.lines, "fibre");
-  drawn.measured = measured_costs(input, heart->heart().layer->tet_mesh());
-  drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});
   drawn.view = std::move(layer.view);
   if (!options.hand.path.empty()) {
     const ScalarField& depth = *heart->heart().layer;
@@ -114,14 +111,7 @@ Verb render_layers_verb(std::vector<UsageExample> examples) {
           .run = [](const Document& options, const VerbContext& context) {
             const PictureMaker maker{
                 .check = check,
-                .use =
-                    [](const Document& given, const Input& input) {
-                      (void)input.field_label();  // an unknown --field is refused before anything is read
-                      return SceneUse{.verb = "render",
-                                      .tracing = true,
-                                      .threads = resolve_threads(given.common.threads),
-                                      .drawing = true};
-                    },
+                .check_input = [](const Document&, const Input& input) { (void)input.field_label(); },
                 .make = make_scene};
             return draw_picture(maker, options, context);
           }};

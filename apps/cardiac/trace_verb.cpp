@@ -13,7 +13,6 @@
 #include "common/cli/verbs.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/load/write/write_lines.h"
-#include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -69,11 +68,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.input = input.title();
   summary.output = options.output.file.string();
   summary.threads = resolve_threads(options.common.threads);
-  if (options.common.explain) {
-    summary.plan = plan_scene(
-        input, {.verb = "trace", .tracing = true, .lines = 2 * seed_count(spec), .threads = summary.threads});
-    console.print(plan_text(summary.plan));
-  }
   const auto heart = load_layered_heart(input, options.heart, options.common.threads, &context.progress);
   for (const std::string& note : heart->heart().notes) console.note(input.title() + ": " + note);
   const ScalarField& depth = *heart->heart().layer;
@@ -119,11 +113,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary, traced.step));
-  if (options.common.explain) {
-    summary.measured = measured_costs(input, depth.tet_mesh());
-    summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * traced.seconds});
-    console.print(measured_text(summary.measured));
-  }
   console.print_json(trace_json(summary));
   return ExitCode::kDone;
 }

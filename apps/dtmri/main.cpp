@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       .verbs =
           {
               info_verb({{"dtmri info helix-DTI.nhdr", "grid, tensors, orientation, memory"},
-                         {"dtmri info dwi.nii.gz --explain", "and what each verb would load"}}),
+                         {"dtmri info dwi.nii.gz --explain", "and what that took, and what it left out"}}),
               tensor_render_verb(
                   {{"dtmri render helix-DTI.nhdr --out helix.png", "three slices, coloured by direction"},
                    {"dtmri render dwi.nii.gz --slices -,-,20 --camera 0,90,0,1 --glyphs superquadric --out "

@@ -26,7 +26,6 @@ Verb open_verb(std::vector<UsageExample> examples) {
              check_tensor_options(options);
              check_view_tracts(options.tracts, options.tract_appearance);
            },
-       .use = [](const Input& input, const Document&) { return SceneUse{.field = !input.fields().empty()}; },
        .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); }},
       std::move(examples));

@@ -12,12 +12,8 @@
 namespace palpate {
 namespace {
 
-SceneUse use_of(const Document& options, const Input& input) {
+void check_input(const Document& options, const Input& input) {
   (void)with_input_role(options, input);  // what cannot be shown is refused before anything is read
-  return {.verb = "render",
-          .field = role_of(input) == FileRole::kTensors,
-          .threads = resolve_threads(options.common.threads),
-          .drawing = true};
 }
 
 ViewTracts tracts_of(const Document& options, const VerbContext& context,
@@ -44,7 +40,6 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
     drawn.what = counted(drawn.voxels, "voxel");
     parts.tensors = make_tensor_view(std::move(voxels), options.tensors);
   }
-  drawn.measured = measured_costs(input, nullptr);
   if (!options.tract_appearance.file.empty() || !options.tracts.seeds.empty()) {
     const ViewTracts tracts = tracts_of(options, context, parts.tensors);
     for (const std::string& note : tracts.notes) context.console.note(note);
@@ -80,7 +75,7 @@ Verb tensor_render_verb(std::vector<UsageExample> examples) {
                                            check_tensor_options(given);
                                            check_view_tracts(given.tracts, given.tract_appearance);
                                          },
-                                     .use = use_of,
+                                     .check_input = check_input,
                                      .make = make_scene};
             return draw_picture(maker, options, context);
           }};

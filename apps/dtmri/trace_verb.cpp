@@ -12,7 +12,6 @@
 #include "common/cli/verbs.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
-#include "common/scene/plan.h"
 #include "common/scene/tensor_spec.h"
 
 namespace palpate {
@@ -135,10 +134,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.input = input.title();
   summary.output = options.output.file.string();
   summary.threads = resolve_threads(threads);
-  if (options.common.explain) {
-    summary.plan = plan_scene(input, {.verb = "trace", .tracing = true, .threads = summary.threads});
-    console.print(plan_text(summary.plan));
-  }
 
   const TensorImage image = input.load_tensor_image(threads, &context.progress);
   for (const std::string& note : image.notes) console.note(input.title() + ": " + note);
@@ -185,11 +180,6 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     context.interrupt.keep(options.output.file);
   }
   console.print(summary_text(summary));
-  if (options.common.explain) {
-    summary.measured = measured_costs(input, nullptr);
-    summary.measured.push_back({.what = "lines", .milliseconds = 1e3 * summary.result.seconds});
-    console.print(measured_text(summary.measured));
-  }
   console.print_json(tract_json(summary));
   return ExitCode::kDone;
 }

@@ -11,7 +11,6 @@
 #include "common/compose/volume_fields.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
-#include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -157,14 +156,6 @@ SceneState FlowModel::present(Input& input, const FlowContent& content, const Do
   color(input, content, state, progress);
   show_volume(input, content, before, state, progress);
   return state;
-}
-
-std::string FlowModel::measured() const {
-  const Scene* const open = scene();
-  if (open == nullptr) return {};
-  std::vector<MeasuredCost> costs = measured_costs(open->input, open->content.field->tet_mesh());
-  costs.push_back({.what = "lines", .milliseconds = 1e3 * open->shown.seconds_trace});
-  return measured_text(costs);
 }
 
 void FlowModel::keep(const SceneView& view, Document& document) const {

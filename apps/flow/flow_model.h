@@ -22,7 +22,6 @@ class FlowModel final : public InputModel<FlowContent> {
   FlowModel(Document document, std::string program);
 
   void keep(const SceneView& view, Document& document) const override;
-  [[nodiscard]] std::string measured() const override;
 
  private:
   [[nodiscard]] FlowContent read(Input& input, const Document& document, Progress& progress) const override;

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
                    {"flow --example list", "the built-in data sets"}},
       .verbs = {
           info_verb({{"flow info carotid.vtk", "grids, fields, ranges, orientation, memory"},
-                     {"flow info disk_out_ref.ex2 --explain", "and what each verb would load"}}),
+                     {"flow info disk_out_ref.ex2 --explain", "and what that took, and what it left out"}}),
           trace_verb({{"flow trace carotid.vtk --seeds grid:8,8,8 --out lines.vtp",
                        "512 lines with time, speed and error at each point, for ParaView"},
                       {"flow trace bluntfinxyz.bin --solution bluntfinq.bin --seeds random:200 --direction "

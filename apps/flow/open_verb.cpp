@@ -11,21 +11,6 @@
 #include "common/window/open_window.h"
 
 namespace palpate {
-namespace {
-
-SceneUse use_of(const Input& input, const Document& options) {
-  const SeedSpec seeds = parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
-  const LineColor color = line_color(options.view.color, input);
-  SceneUse use;
-  use.tracing = true;
-  use.lines = line_count(seeds, trace_options(options, "both"));
-  if (color.array) use.color_array = color.name;
-  use.volume_arrays = flow_volume_arrays(input, options.volume);
-  return use;
-}
-
-}  // namespace
-
 Verb open_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at lines in a window (the verb that FILE alone stands for)",
@@ -40,7 +25,6 @@ Verb open_verb(std::vector<UsageExample> examples) {
              (void)trace_options(options, "both");
              check_flow_volume(options.volume);
            },
-       .use = use_of,
        .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<FlowModel>(options, program); }},
       std::move(examples));

@@ -2,6 +2,7 @@
 
 #include "apps/flow/flow_verbs.h"
 #include "common/base/clock.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/picture.h"
@@ -16,7 +17,6 @@
 #include "common/hand/haptic_surface_view.h"
 #include "common/hand/probe_picture.h"
 #include "common/hand/touch_options.h"
-#include "common/scene/plan.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -37,16 +37,11 @@ SeedSpec view_seeds(const Document& options) {
   return parse_seeds(options.tracing.seeds.empty() ? kViewSeeds : options.tracing.seeds);
 }
 
-SceneUse use_of(const Document& options, const Input& input) {
-  const LineColor color = line_color(options.view.color, input);
-  const TraceOptions trace = trace_options(options, "both");
-  return {.verb = "render",
-          .tracing = true,
-          .lines = line_count(view_seeds(options), trace),
-          .threads = resolve_threads(trace.threads),
-          .drawing = true,
-          .color_array = color.array ? color.name : std::string(),
-          .volume_arrays = flow_volume_arrays(input, options.volume)};
+void check_input(const Document& options, const Input& input) {
+  (void)line_color(options.view.color, input);
+  (void)trace_options(options, "both");
+  (void)view_seeds(options);
+  (void)flow_volume_arrays(input, options.volume);
 }
 
 /// Adds the volume that the options name, and what taking it on an image cost.
@@ -54,11 +49,10 @@ void show_volume(DrawnScene& drawn, Input& input, const std::shared_ptr<const Ve
                  const Document& options, const VerbContext& context) {
   const std::vector<std::string> names = flow_volume_names(input, options.volume);
   if (names.empty()) return;
-  const Stopwatch clock;
+  Work work("scalars as a volume", names.front());
   FlowVolume volume = load_flow_volume(input, field, names, options.volume.resample, options.common.threads,
                                        &context.progress);
-  drawn.measured.push_back(
-      {.what = "volume", .milliseconds = 1e3 * clock.seconds(), .bytes = volume.voxels.image->byte_count()});
+  work.takes(volume.voxels.image->byte_count());
   for (const TakenScalar& taken : volume.taken) context.console.note(taken_text(taken));
   drawn.volumes = std::move(volume.taken);
   drawn.voxels = volume.voxels.image->point_count();
@@ -83,8 +77,6 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.lines = traced.lines.size();
   drawn.points = traced.points;
   drawn.what = counted(drawn.lines, "line");
-  drawn.measured = measured_costs(input, field->tet_mesh());
-  drawn.measured.push_back({.what = "lines", .milliseconds = 1e3 * drawn.seconds_trace});
   if (traced.lines.empty())
     context.console.note("no seed lies in the data: the picture shows the domain alone");
 
@@ -130,7 +122,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
                       (void)find_mode(modes, given.touch.mode);
                       (void)touch_settings(given.touch);
                     },
-                .use = use_of,
+                .check_input = check_input,
                 .make = [&modes](Input& input, const Document& given, const VerbContext& where,
                                  double aspect) { return make_scene(modes, input, given, where, aspect); }};
             return draw_picture(maker, options, context);

@@ -162,7 +162,6 @@ DrawnScene make_scene(Input& input, const Document& options, const VerbContext& 
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");
-  drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, {.image = image}, options, aspect);
   return drawn;
 }
@@ -173,15 +172,10 @@ ExitCode run_clip(const Document& options, const VerbContext& context) {
     throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
   check_request(options);
   if (!is_picture(options.output.file)) return write_part(options, context);
-  const PictureMaker maker{.check = check_request,
-                           .use =
-                               [](const Document& given, const Input& input) {
-                                 (void)input.scalar_choice();
-                                 return SceneUse{.verb = "render",
-                                                 .threads = resolve_threads(given.common.threads),
-                                                 .drawing = true};
-                               },
-                           .make = make_scene};
+  const PictureMaker maker{
+      .check = check_request,
+      .check_input = [](const Document&, const Input& input) { (void)input.scalar_choice(); },
+      .make = make_scene};
   return draw_picture(maker, options, context);
 }
 

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
           {info_verb({{"grid info tooth.nhdr", "grid, values, orientation, memory"},
                       {"grid info ct.raw --raw-size 512x512x300 --raw-type int16 --raw-spacing 0.5,0.5,1",
                        "voxels without a header"},
-                      {"grid info head.nii.gz --explain", "and what each verb would load"}}),
+                      {"grid info head.nii.gz --explain", "and what that took, and what it left out"}}),
            probe_verb(modes_of(FieldKind::kScalar),
                       {{"grid probe tooth.nhdr --path path.csv --out log.csv --grid-peaks 2",
                         "along one axis of the voxels at a time, with notches where values pile up"},

@@ -26,7 +26,6 @@ Verb open_verb(std::vector<UsageExample> examples) {
              check_volume_options(options.volume);
              (void)slice_panes_of(options.panes, Box());
            },
-       .use = [](const Input&, const Document&) { return SceneUse{}; },
        .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<GridModel>(options, program); }},
       std::move(examples));

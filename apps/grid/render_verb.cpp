@@ -17,12 +17,9 @@
 namespace palpate {
 namespace {
 
-SceneUse use_of(const Document& options, const Input& input) {
+void check_input(const Document& options, const Input& input) {
   (void)input.scalar_choice();  // an unknown --field is refused before anything is read
-  return {.verb = "render",
-          .threads = resolve_threads(options.common.threads),
-          .drawing = true,
-          .secondary = secondary_names(input, options.volume)};
+  (void)secondary_names(input, options.volume);
 }
 
 /// Adds the surfaces that are felt, and what a hand on the path has felt, where they are asked for.
@@ -56,7 +53,6 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");
-  drawn.measured = measured_costs(input, nullptr);
   drawn.view = make_volume_scene(input, volume, options, aspect);
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
   if (drawn.view.volume->colored) context.console.note(kOwnColorsNote);
@@ -82,7 +78,7 @@ Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample>
                       (void)find_mode(modes, given.touch.mode);
                       (void)touch_settings(given.touch);
                     },
-                .use = use_of,
+                .check_input = check_input,
                 .make = [&modes](Input& input, const Document& given, const VerbContext& where,
                                  double aspect) { return make_scene(modes, input, given, where, aspect); }};
             return draw_picture(maker, options, context);

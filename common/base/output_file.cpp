@@ -16,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/kept_files.h"
+#include "common/base/ledger.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -174,6 +175,7 @@ void OutputFile::flush() {
 
 void OutputFile::finish() {
   flush();
+  const auto bytes = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(fd_.get(), 0, SEEK_CUR)));
   // Some file systems tell of a full disk only here.
   if (::close(fd_.release()) != 0) refuse("cannot be written");
   if (overwrite_) {
@@ -186,6 +188,7 @@ void OutputFile::finish() {
   }
   unfinished_outputs().drop(temporary_);
   temporary_.clear();
+  Ledger::enter("file " + path_.string(), "written", 1e3 * watch_.seconds(), bytes);
 }
 
 bool may_cache_beside(const std::filesystem::path& path) {

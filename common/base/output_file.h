@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/clock.h"
 #include "common/base/unique_fd.h"
 
 namespace palpate {
@@ -42,6 +43,7 @@ class OutputFile {
   bool overwrite_;
   UniqueFd fd_;
   std::vector<std::byte> buffer_;
+  Stopwatch watch_;
 };
 
 /// Removes the temporary files of all OutputFiles at work, for a program that ends without unwinding. What

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "common/base/error.h"
+#include "common/base/ledger.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 
@@ -15,13 +16,15 @@ void Console::note(const std::string& line) const {
 void Console::print(const std::string& text) {
   if (json_) return;
   std::fputs(printable(text, "\n").c_str(), stdout);
-  std::fflush(stdout);  // a plan is seen before the work that it plans
+  std::fflush(stdout);
 }
 
 void Console::print_json(const std::string& object) {
   if (!json_ || json_printed_) return;
   json_printed_ = true;
-  std::fputs((settings_.empty() ? object : with_settings(object, settings_)).c_str(), stdout);
+  std::string text = settings_.empty() ? object : with_member(object, "settings", settings_);
+  if (explain_) text = with_member(text, "explain", ledger_json(Ledger::entries()));
+  std::fputs(text.c_str(), stdout);
   std::fputc('\n', stdout);
 }
 
@@ -33,6 +36,7 @@ void Console::fail(const std::string& line, int exit_code) {
 }
 
 void Console::finish() {
+  if (explain_) print(ledger_text(Ledger::entries()));
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw work_error("stdout: cannot be written");
 }
 

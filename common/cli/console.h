@@ -9,8 +9,13 @@ namespace palpate {
 class Console {
  public:
   /// @param settings JSON object of the settings that JSON results repeat as "settings"; empty: none.
-  Console(std::string program, bool json, bool quiet, std::string settings = {})
-      : program_(std::move(program)), settings_(std::move(settings)), json_(json), quiet_(quiet) {}
+  /// @param explain whether results end with what was done (base/ledger.h), JSON results as "explain".
+  Console(std::string program, bool json, bool quiet, std::string settings = {}, bool explain = false)
+      : program_(std::move(program)),
+        settings_(std::move(settings)),
+        json_(json),
+        quiet_(quiet),
+        explain_(explain) {}
 
   [[nodiscard]] bool json() const noexcept { return json_; }
   [[nodiscard]] bool quiet() const noexcept { return quiet_; }
@@ -23,7 +28,7 @@ class Console {
   void print_json(const std::string& object);
   /// An error on stderr, and as {"error", "exit"} on stdout with --json if no object was printed yet.
   void fail(const std::string& line, int exit_code);
-  /// @throws Error (work failed) where stdout did not take everything.
+  /// Ends what was printed for people. @throws Error (work failed) where stdout did not take everything.
   void finish();
 
  private:
@@ -31,6 +36,7 @@ class Console {
   std::string settings_;
   bool json_ = false;
   bool quiet_ = false;
+  bool explain_ = false;
   bool json_printed_ = false;
 };
 

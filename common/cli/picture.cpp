@@ -169,12 +169,8 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
 
   Input input = open_input(options, context);
   RenderSummary summary{.input = input.title()};
-  const SceneUse use = maker.use(options, input);
+  maker.check_input(options, input);
   console.note(input.choice_sentence());
-  if (options.common.explain) {
-    summary.plan = plan_scene(input, use);
-    console.print(plan_text(summary.plan));
-  }
 
   DrawnScene drawn = maker.make(input, options, context, aspect);
   if (options.view.converged) refine(drawn.view);
@@ -227,13 +223,6 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     tell(summary, drawn, rendered, console);
     if (&picture != &pictures.back()) continue;
     if (console.json()) measure_error(drawn.view, rendered, summary);
-    if (options.common.explain) {
-      summary.gpu = rendered.gpu;
-      summary.measured = drawn.measured;
-      summary.measured.push_back({.what = "first picture", .milliseconds = summary.first_frame_ms});
-      console.print(gpu_text(summary.gpu) + tables_text(rendered.tables_by) +
-                    measured_text(summary.measured));
-    }
   }
   console.print_json(render_json(summary));
   return ExitCode::kDone;

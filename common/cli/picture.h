@@ -10,7 +10,6 @@
 #include "common/cli/summaries.h"
 #include "common/compose/resampled_volume.h"
 #include "common/render/scene_view.h"
-#include "common/scene/plan.h"
 
 namespace palpate {
 
@@ -23,15 +22,14 @@ struct DrawnScene {
   std::size_t points = 0;
   std::size_t voxels = 0;
   double seconds_trace = 0.0;
-  std::vector<MeasuredCost> measured;
   std::vector<TakenScalar> volumes;  ///< of a flow, what drawing them as volumes cost
 };
 
 struct PictureMaker {
   /// Refuses what can be refused before the input is opened. @throws Error.
   std::function<void(const Document&)> check;
-  /// What the scene needs. @throws Error for what the input does not have.
-  std::function<SceneUse(const Document&, const Input&)> use;
+  /// Refuses what the input does not have, before anything is read. @throws Error.
+  std::function<void(const Document&, const Input&)> check_input;
   /// @param aspect width / height. @throws Error, Cancelled.
   std::function<DrawnScene(Input&, const Document&, const VerbContext&, double aspect)> make;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/find_helper.h"
+#include "common/base/ledger.h"
 #include "common/cli/verbs.h"
 #include "common/load/helper/helper_process.h"
 #include "common/load/helper/protocol.h"
@@ -33,6 +34,7 @@ void run_study(const std::string& subject, const Document& document, const std::
   const fs::path program = find_helper(kStudyProgram);
   if (program.empty())
     throw work_error(std::string("the program of studies, ") + kStudyProgram + ", is not installed");
+  const Work work(std::string("helper ") + kStudyProgram, "measures");
   std::optional<HelperProcess> helper(std::in_place, program, kUnlimited);
   const pid_t pid = helper->pid();
   for (const fs::path& output : outputs) context.interrupt.unfinished(unfinished_output(output, pid));
@@ -59,6 +61,7 @@ void run_study(const std::string& subject, const Document& document, const std::
   try {
     const ReportAnswer answer = decode_report_answer(reply->json);
     for (const fs::path& output : outputs) context.interrupt.keep(output);
+    Ledger::add(answer.ledger);
     console.print(answer.text);
     console.print_json(answer.json);
   } catch (const ProtocolError& error) {

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <new>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/kept_files.h"
+#include "common/base/ledger.h"
 #include "common/cli/command_line.h"
 #include "common/cli/explorer.h"
 #include "common/cli/json/json_output.h"
@@ -69,6 +71,16 @@ void keep_inputs(const InputOptions& input) {
   keep_from_outputs(others);
 }
 
+/// Parts that bring time, memory or libraries along, in the Ledger's words.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kParts{{
+    {"traced lines", "nothing was traced"},
+    {"vorticity and its kin", "no measure of the velocity gradient was asked for"},
+    {"drawing", "no picture was asked for"},
+    {"window", "nothing was shown"},
+    {"drivers of devices", "no device was asked for"},
+    {"helper palpate-lab", "no report was asked for"},
+}};
+
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
 ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& context) {
   const auto interrupted = [&] {
@@ -120,8 +132,9 @@ int run_explorer(const Explorer& explorer, int argc, char** argv) {
   const CommonOptions& common = parsed.options.common;
   const Groups groups = parsed.verb->groups.with(Group::kCommon);
   Console console(explorer.name, common.json, common.quiet,
-                  common.json ? settings_json(parsed.options, groups) : std::string());
+                  common.json ? settings_json(parsed.options, groups) : std::string(), common.explain);
   for (const std::string& note : parsed.notes) console.note(note);
+  for (const auto& [what, why_not] : kParts) Ledger::offer(what, why_not);
   Progress progress;
   InterruptGuard interrupt(progress, explorer.name);
   const ProgressBar bar(progress, common.quiet);

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/base/needs.h"
 #include "common/compose/resampled_volume.h"
 #include "common/device/device.h"
 #include "common/field/grid/mesh_quality.h"
@@ -16,11 +15,9 @@
 #include "common/hand/technique/scene_pick.h"
 #include "common/haptics/constraint.h"
 #include "common/render/budget/frame_quality.h"
-#include "common/render/gl/gpu_objects.h"
 #include "common/render/volume/estimate/image_error.h"
 #include "common/render/volume/volume_view.h"
 #include "common/scene/input.h"
-#include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
 #include "common/trace/trace.h"
 #include "common/trace/tract/trace_tracts.h"
@@ -44,10 +41,8 @@ struct TraceSummary {
   int threads = 0;
   double seconds_load = 0.0;
   double seconds_write = 0.0;
-  std::vector<std::string> advice;     ///< what to change
-  std::string failure;                 ///< why there is no line; empty where there is one
-  Needs plan;                          ///< with --explain
-  std::vector<MeasuredCost> measured;  ///< with --explain
+  std::vector<std::string> advice;  ///< what to change
+  std::string failure;              ///< why there is no line; empty where there is one
 };
 
 struct TractSummary {
@@ -61,10 +56,8 @@ struct TractSummary {
   double seconds_load = 0.0;
   double seconds_prepare = 0.0;  ///< field, regions and seeds
   double seconds_write = 0.0;
-  std::vector<std::string> advice;     ///< what to change
-  std::string failure;                 ///< why there is no line; empty where there is one
-  Needs plan;                          ///< with --explain
-  std::vector<MeasuredCost> measured;  ///< with --explain
+  std::vector<std::string> advice;  ///< what to change
+  std::string failure;              ///< why there is no line; empty where there is one
 };
 
 /// Range of an array's component.
@@ -117,12 +110,6 @@ struct InfoSummary {
   std::uint64_t memory_bytes = 0;  ///< arrays as stored
   std::vector<std::string> notes;
   double seconds_load = 0.0;
-  struct VerbPlan {
-    std::string verb;
-    Needs plan;
-  };
-  std::vector<VerbPlan> plans;  ///< with --explain
-  std::vector<MeasuredCost> measured;
 };
 
 struct ProbeSummary {
@@ -152,8 +139,6 @@ struct ProbeSummary {
   double us_p50 = 0.0, us_p99 = 0.0, us_max = 0.0;  ///< [us] thread CPU time of a step
   double seconds_load = 0.0;
   double seconds_probe = 0.0;
-  Needs plan;
-  std::vector<MeasuredCost> measured;
 };
 
 /// What was marked and measured.
@@ -335,9 +320,6 @@ struct RenderSummary {
   bool picks = false;            ///< --pick
   std::optional<Picked> picked;  ///< by it
   BrickShare bricks;             ///< of a volume that is stored in bricks
-  std::vector<GpuObject> gpu;    ///< with --explain
-  Needs plan;
-  std::vector<MeasuredCost> measured;
 };
 
 }  // namespace palpate

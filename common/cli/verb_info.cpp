@@ -12,7 +12,6 @@
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_surface.h"
-#include "common/scene/plan.h"
 
 namespace palpate {
 namespace {
@@ -224,19 +223,12 @@ std::string summary_text(const InfoSummary& summary) {
   return text;
 }
 
-template <typename Field>
-const TetMesh* tet_mesh_of(const Field& field) {
-  return field.tet_mesh();
-}
-const TetMesh* tet_mesh_of(const TensorField& field) { return field.grid()->tets.get(); }
-
 /// Adds what is to be said of the field.
 template <typename Field>
-void add_field(const Input& input, const Field& field, bool explain, InfoSummary& summary) {
+void add_field(const Input& input, const Field& field, InfoSummary& summary) {
   summary.field = input.field_label();
   summary.bounds = field.bounds();
   summary.notes.insert(summary.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
-  if (explain) summary.measured = measured_costs(input, tet_mesh_of(field));
 }
 
 /// Fibres and layers of a heart. What the file holds is of use without layers, too: why there are none is a
@@ -247,7 +239,6 @@ void add_heart(Input& input, const Document& options, Progress& progress, InfoSu
   summary.bounds = heart.fibres->bounds();
   summary.no_layers = heart.no_layers;
   summary.notes.insert(summary.notes.end(), heart.notes.begin(), heart.notes.end());
-  if (options.common.explain) summary.measured = measured_costs(input, heart.fibres->grid()->tets.get());
 }
 
 ExitCode run_info(const Document& options, const VerbContext& context) {
@@ -259,26 +250,6 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
   const bool has_field = input.has_field();
   if (!options.input.field.empty() && input.not_volume().empty())
     (void)input.field_label();  // an unknown --field is refused first
-  if (options.common.explain) {
-    const bool field = has_field;
-    const int threads = resolve_threads(options.common.threads);
-    const bool has_lines = context.explorer.kind == FieldKind::kVector;
-    summary.plans = {
-        {"info",
-         plan_scene(input, {.verb = "info", .field = field, .all_arrays = true, .threads = threads})}};
-    for (const Verb& verb : context.explorer.verbs) {
-      if (verb.name == "info" || !field) continue;
-      const bool drawing = verb.groups.has(Group::kView);
-      summary.plans.push_back(
-          {verb.name, plan_scene(input, {.verb = verb.name,
-                                         .tracing = has_lines && verb.groups.has(Group::kLines),
-                                         .threads = threads,
-                                         .drawing = drawing,
-                                         .window = verb.name == "open"})});
-    }
-    for (const auto& plan : summary.plans)
-      context.console.print(plan.verb + ", " + plan_text(plan.plan) + "\n");
-  }
   if (const FileInfo* file = input.file()) {
     summary.notes = input.notes();
     for (const BlockInfo& block : file->blocks) {
@@ -289,19 +260,19 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
   }
   if (has_field && context.explorer.kind == FieldKind::kScalar) {
     const auto field = input.load_scalar(options.common.threads, &context.progress);
-    add_field(input, *field, options.common.explain, summary);
+    add_field(input, *field, summary);
     if (field->lowest() <= field->highest())
       summary.field_range = ComponentRange{field->lowest(), field->highest()};
   } else if (has_field && context.explorer.kind == FieldKind::kTensor) {
     const auto field = input.load_tensor(options.common.threads, &context.progress);
-    add_field(input, *field, options.common.explain, summary);
+    add_field(input, *field, summary);
     summary.largest_trace = field->largest_trace();
     summary.negative_tensors = field->negative_tensors();
   } else if (has_field && context.explorer.kind == FieldKind::kFibre) {
     add_heart(input, options, context.progress, summary);
   } else if (has_field) {
     const auto field = input.load_field(options.common.threads, &context.progress);
-    add_field(input, *field, options.common.explain, summary);
+    add_field(input, *field, summary);
     summary.max_speed = field->max_speed();
   }
   if (!options.heart.surfaces.empty()) {
@@ -313,7 +284,6 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
   }
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
   context.console.print(summary_text(summary));
-  if (!summary.measured.empty()) context.console.print(measured_text(summary.measured));
   context.console.print_json(info_json(summary));
   return ExitCode::kDone;
 }

@@ -45,22 +45,12 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
       workbench && !workbench->several && stereo.mode == StereoMode::kNone)
     stereo.mode = workbench->workbench.screens[workbench->screen].stereo;
   if (!available && nothing_named) return headless_tour(verb.render, options, context, verb.next);
-  if (options.common.explain) {
-    const Input input = open_input(options, context);
-    SceneUse use = verb.use(input, options);
-    use.verb = "open";
-    use.threads = resolve_threads(options.common.threads);
-    use.drawing = true;
-    use.window = true;
-    context.console.print(plan_text(plan_scene(input, use)));
-  }
   if (!available) refuse_window(options, context);
   const auto model = verb.model(options, context.explorer.name);
   request.view.stereo = stereo;
   if (!options.hand.record.empty()) context.interrupt.keep(options.hand.record);
   const WindowOutcome outcome = verb.window.open(*model, options, std::move(request));
   if (felt) tell_of_touch(outcome, context);
-  if (options.common.explain) context.console.print(outcome.measured + model->measured());
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

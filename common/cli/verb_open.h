@@ -10,7 +10,6 @@
 #include "common/compose/window_model.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/hand/window_request.h"
-#include "common/scene/plan.h"
 
 namespace palpate {
 
@@ -24,8 +23,6 @@ struct WindowVerb {
   std::string next;               ///< another command to try then, without the program's name
   /// Refuses options before anything is opened. @throws Error (usage).
   std::function<void(const Document&)> check;
-  /// For --explain: what the window does with the input, but for what every window does.
-  std::function<SceneUse(const Input&, const Document&)> use;
   /// @param program its name, for sessions.
   std::function<std::unique_ptr<WindowModel>(const Document&, const std::string& program)> model;
 };

@@ -21,7 +21,6 @@
 #include "common/haptics/widget/widget_text.h"
 #include "common/load/write/write_lines.h"
 #include "common/math/vec_text.h"
-#include "common/scene/plan.h"
 #include "common/servo/servo_loop.h"
 #include "common/servo/wall_loop.h"
 
@@ -214,10 +213,6 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
-  if (options.common.explain) {
-    summary.plan = plan_scene(input, {.verb = "probe", .tracing = true});
-    console.print(plan_text(summary.plan));
-  }
   HapticInput felt = load_haptic(input, options, context);
   for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(
@@ -338,7 +333,6 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     context.interrupt.keep(options.output.tract);
   }
   console.print(summary_text(summary));
-  if (options.common.explain) console.print(measured_text(measured_costs(input, felt.mesh)));
   console.print_json(probe_json(summary));
   return summary.replay_differs ? ExitCode::kWorkFailed : ExitCode::kDone;
 }

@@ -34,8 +34,4 @@ TraceOptions trace_options(const Document& options, const std::string& default_d
   return trace;
 }
 
-std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept {
-  return seed_count(seeds) * (trace.forward && trace.backward ? 2 : 1);
-}
-
 }  // namespace palpate

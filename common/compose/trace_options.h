@@ -15,7 +15,4 @@ namespace palpate {
 /// @throws Error (usage).
 [[nodiscard]] TraceOptions trace_options(const Document& options, const std::string& default_direction);
 
-/// How many lines these seeds make: one each way.
-[[nodiscard]] std::size_t line_count(const SeedSpec& seeds, const TraceOptions& trace) noexcept;
-
 }  // namespace palpate

@@ -117,9 +117,6 @@ class WindowModel {
   /// Saves the document as a session.
   /// @return what was written, for the message line. @throws Error.
   virtual std::string save_session(const Document& document) = 0;
-
-  /// A line on what the scene shown last took, for `--explain`; empty where nothing was or it is not known.
-  [[nodiscard]] virtual std::string measured() const { return {}; }
 };
 
 /// Which time step a document shows. @param times of the input.

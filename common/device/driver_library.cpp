@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
+#include "common/base/ledger.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -134,6 +135,7 @@ DeviceText parse_device(std::string_view text) {
 }
 
 OpenedDevice open_device(const DeviceText& device) {
+  const Work work("drivers of devices", device.name);
   const auto link_to = [](const std::string& name, const DriverOptions& options) {
     std::string error;
     std::unique_ptr<DriverLink> link = open_driver(name).make_link(options, error);

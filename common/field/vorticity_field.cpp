@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/math/lattice.h"
@@ -110,6 +111,7 @@ ScalarSample sample_measure(const VectorField& field, Measure measure, const Vec
 }
 
 VorticityField::VorticityField(std::shared_ptr<const VectorField> field) : field_(std::move(field)) {
+  const Work work("vorticity and its kin", "at the points of the grid");
   if (field_->box_grid() != nullptr) recover_on_boxes();
   if (field_->tet_mesh() != nullptr) recover_on_tetrahedra();
 }

@@ -25,10 +25,9 @@ struct WindowRequest {
 };
 
 struct WindowOutcome {
-  ServoState servo;      ///< as the window was closed
-  std::string fault;     ///< where the seconds before a fault were saved; empty: there was none
-  std::string replay;    ///< verdict on a replayed recording; empty: it was none, or did not end
-  std::string measured;  ///< for `--explain`: what the window had on the graphics processor, a row a line
+  ServoState servo;    ///< as the window was closed
+  std::string fault;   ///< where the seconds before a fault were saved; empty: there was none
+  std::string replay;  ///< verdict on a replayed recording; empty: it was none, or did not end
 };
 
 /// A kind of window.

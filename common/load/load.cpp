@@ -1,11 +1,13 @@
 #include "common/load/load.h"
 
 #include <algorithm>
+#include <map>
 #include <system_error>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
+#include "common/base/ledger.h"
 #include "common/base/memory.h"
 #include "common/load/find_format.h"
 #include "common/load/format.h"
@@ -106,6 +108,25 @@ Error error_of(const HelperFailure& failure, const std::string& file, std::strin
   return input_error({file, "", reader + " " + failure.what, "", "the file may be damaged"});
 }
 
+constexpr const char* kLedgerHelper = "helper ";
+
+/// Arrays, and the time that all took together with the mesh, by their shares of the bytes.
+void enter_arrays(const std::vector<DataSet>& blocks, double seconds) {
+  std::map<std::string, std::uint64_t> bytes;
+  std::uint64_t all = 0;
+  for (const DataSet& block : blocks) {
+    for (const DataArray& array : block.arrays) {
+      bytes[array.name] += array.stored_bytes();
+      all += array.stored_bytes();
+    }
+  }
+  if (all == 0) Ledger::enter("mesh without arrays", "read", 1e3 * seconds);
+  for (const auto& [name, size] : bytes) {
+    const double part = static_cast<double>(size) / static_cast<double>(std::max<std::uint64_t>(all, 1));
+    Ledger::enter("array " + name, "read", 1e3 * seconds * part, size);
+  }
+}
+
 }  // namespace
 
 struct Source::State {
@@ -168,6 +189,9 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
                       " is not installed; build that target or install palpate again");
   }
   state->limits = resolve(limits, input_bytes(request, row_of(format)), row_of(format), request.refine);
+  for (const FormatRow& row : format_rows())
+    Ledger::offer(kLedgerHelper + std::string(row.helper), "not for this format");
+  const Work work(kLedgerHelper + state->helper, "reads " + std::string(row_of(format).name));
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });
@@ -200,6 +224,7 @@ std::vector<DataSet> Source::read(const std::vector<std::string>& array_names, s
     throw usage_error(state_->file + ": has " + std::to_string(steps) + " time steps, not " +
                       std::to_string(time_step + 1));
   }
+  const Stopwatch watch;
   auto blocks =
       state_->ask(ReadMessage{array_names, time_step}, progress, [](const HelperProcess::Reply& reply) {
         return decode_blocks(reply.json, reply.memory->bytes(), reply.memory);
@@ -216,6 +241,7 @@ std::vector<DataSet> Source::read(const std::vector<std::string>& array_names, s
                          "leave it out or repair the file"});
     }
   }
+  enter_arrays(blocks, watch.seconds());
   return blocks;
 }
 

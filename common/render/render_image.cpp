@@ -1,5 +1,6 @@
 #include "common/render/render_image.h"
 
+#include "common/base/ledger.h"
 #include "common/render/budget/frame_budget.h"
 #include "common/render/gl/context.h"
 #include "common/render/scene_renderer.h"
@@ -38,6 +39,8 @@ void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view,
 
 RenderedImage render_image(const SceneView& view, int width, int height, int repeat, double budget,
                            bool error) {
+  Work work("drawing", std::to_string(width) + " x " + std::to_string(height) + " pixels");
+  work.takes(std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
   OffscreenContext context;
   RenderedImage result;
   result.renderer = gl_description();
@@ -69,6 +72,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
   result.bricks = renderer.bricks();
   result.timer_query = renderer.timed_by_query();
   result.gpu = gpu_objects();
+  enter_gpu_objects(result.gpu, result.tables_by);
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/ledger.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
@@ -155,6 +156,7 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
   } else {
     input.open_example();
   }
+  input.offer_parts();
   input.time_ = choose_time(input.times(), spec.time);
   if (spec.remesher && input.not_volume_.empty()) input.remesh(progress);
   if (input.spec_.kind == FieldKind::kScalar) {
@@ -184,6 +186,19 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
   }
   input.seconds_open_ = watch.seconds();
   return input;
+}
+
+/// What may be read of it, for `--explain`.
+void Input::offer_parts() const {
+  for (const ArrayInfo& array : arrays_) {
+    const std::uint64_t bytes = array.sparse_bytes > 0 ? array.sparse_bytes
+                                                       : static_cast<std::uint64_t>(array.tuples) *
+                                                             static_cast<std::uint64_t>(array.components) *
+                                                             byte_size(array.type);
+    Ledger::offer("array " + array.name, "nothing asked for it", bytes);
+  }
+  if (times().size() > 1)
+    Ledger::offer(std::to_string(times().size() - 1) + " other time steps", "one is read at a time");
 }
 
 bool Input::has_field() const noexcept { return !file() || (!fields_.empty() && not_volume_.empty()); }
@@ -226,6 +241,7 @@ void Input::open_files(Progress* progress) {
 void Input::open_example() {
   if (!spec_.tensor.bval.empty() || !spec_.tensor.bvec.empty())
     throw usage_error("--bval, --bvec: a built-in example has no volumes to which they could belong");
+  const Work work("example " + spec_.example, "made on the fly");
   if (spec_.kind == FieldKind::kVector) {
     (void)example(spec_.example);  // throws for an unknown name
     if (!spec_.field.empty() && spec_.field != kFormulaField)
@@ -376,8 +392,13 @@ std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress
 }
 
 std::vector<DataSet> Input::read_file(const std::vector<std::string>& names, Progress* progress) {
-  if (made_) return {*made_};
-  if (made_heart_) return {made_heart_->read(names, time_.step)};
+  if (made_ || made_heart_) {
+    std::vector<DataSet> blocks;
+    blocks.push_back(made_ ? *made_ : made_heart_->read(names, time_.step));
+    for (const DataArray& array : blocks.front().arrays)
+      Ledger::enter("array " + array.name, "made on the fly", 0.0, array.stored_bytes());
+    return blocks;
+  }
   return source_->read(names, time_.step, progress);
 }
 
@@ -393,17 +414,25 @@ std::shared_ptr<const VectorField> Input::load_field(int threads, Progress* prog
   Stopwatch watch;
   seconds_read_ = 0.0;
   if (!file()) {
+    const Work work("vector field", "the formula " + spec_.example + ", exact everywhere");
     auto field = make_vector_field(example(spec_.example));
     seconds_field_ = watch.seconds();
     return field;
   }
   VectorChoice chosen = choice();
   if (progress) progress->begin("reading " + title_, 0);
-  const std::vector<DataSet> blocks = read_vectors(*this, chosen, progress);
+  std::vector<std::string> notes;
+  const std::vector<DataSet> blocks = read_vectors(*this, chosen, progress, &notes);
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("preparing the field", 0);
+  const Work work("vector field", chosen.label);
   auto field = make_vector_field(blocks, chosen, file_name(), threads);
+  if (!notes.empty()) {
+    auto grid = std::make_shared<FieldGrid>(*field->grid());
+    grid->notes.lines.insert(grid->notes.lines.begin(), notes.begin(), notes.end());
+    field = make_vector_field(std::move(grid), blocks, chosen, file_name(), threads);
+  }
   seconds_field_ = watch.seconds();
   return field;
 }
@@ -417,6 +446,7 @@ std::shared_ptr<const ScalarField> Input::load_scalar(int threads, Progress* pro
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("preparing the field", 0);
+  const Work work("scalar field", chosen.array);
   auto field = make_scalar_field(blocks, chosen, file_name(), threads);
   seconds_field_ = watch.seconds();
   return field;
@@ -431,6 +461,7 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   std::vector<DataSet> blocks = read_timed(source.arrays, progress);
   const Stopwatch watch;
   if (progress) progress->begin("preparing the tensors", 0);
+  const Work work("tensor image", source.label);
   const std::string name = file_name();
   TensorImage image = make_tensor_image(
       std::move(blocks), {.source = source, .diffusion = file()->diffusion, .file = name, .measured = !made_},
@@ -457,6 +488,7 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   seconds_read_ = watch.seconds();
   watch.restart();
   if (progress) progress->begin("finding fibres and layers", 0);
+  const Work work("fibres and surfaces of the heart", chosen.fibre.array);
   LayerCache cache(file_name(), source_ ? keeping_from_name(spec_.cache) : Keeping::kOff, threads);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
   heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
@@ -474,6 +506,7 @@ std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* pro
   check_volume();
   const TensorImage made = load_tensor_image(threads, progress);
   const Stopwatch watch;
+  const Work work("tensor field", "at any place");
   auto field = make_tensor_field(made.image, made.choice, file_name(), threads, made.notes);
   seconds_field_ += watch.seconds();
   return field;

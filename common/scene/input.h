@@ -126,6 +126,7 @@ class Input {
 
  private:
   void open_example();
+  void offer_parts() const;
   void open_files(Progress* progress);
   void remesh(Progress* progress);
   [[nodiscard]] std::vector<DataSet> read_file(const std::vector<std::string>& names, Progress* progress);

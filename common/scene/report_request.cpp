@@ -90,13 +90,36 @@ ReportRequest decode_report_request(std::string_view text) {
 }
 
 std::string encode(const ReportAnswer& answer) {
-  return json{{"text", text_from_bytes(answer.text)}, {"json", text_from_bytes(answer.json)}}.dump();
+  json ledger = json::array();
+  for (const LedgerEntry& entry : answer.ledger) {
+    ledger.push_back({{"what", text_from_bytes(entry.what)},
+                      {"why", text_from_bytes(entry.why)},
+                      {"times", entry.times},
+                      {"milliseconds", entry.milliseconds},
+                      {"bytes", entry.bytes}});
+  }
+  return json{{"text", text_from_bytes(answer.text)},
+              {"json", text_from_bytes(answer.json)},
+              {"ledger", std::move(ledger)}}
+      .dump();
 }
 
 ReportAnswer decode_report_answer(std::string_view text) {
   const json message = parse(text);
   throw_failure(message);
-  return {.text = string_at(message, "text"), .json = string_at(message, "json")};
+  ReportAnswer answer{.text = string_at(message, "text"), .json = string_at(message, "json"), .ledger = {}};
+  try {
+    for (const json& row : message.at("ledger")) {
+      answer.ledger.push_back({.what = string_at(row, "what"),
+                               .why = string_at(row, "why"),
+                               .times = row.at("times"),
+                               .milliseconds = row.at("milliseconds"),
+                               .bytes = row.at("bytes")});
+    }
+  } catch (const json::exception&) {
+    malformed("no ledger");
+  }
+  return answer;
 }
 
 std::string encode(const ReportNews& news) {

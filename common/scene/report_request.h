@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <sys/types.h>
 
+#include "common/base/ledger.h"
 #include "common/scene/document/document.h"
 
 namespace palpate {
@@ -24,8 +26,9 @@ struct ReportRequest {
 
 /// What its user sees in the end.
 struct ReportAnswer {
-  std::string text;  ///< for people
-  std::string json;  ///< one object
+  std::string text;                 ///< for people
+  std::string json;                 ///< one object
+  std::vector<LedgerEntry> ledger;  ///< what the program of studies did
 };
 
 /// What its user sees before: one of the two.

@@ -8,6 +8,7 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_mesh.h"
@@ -261,6 +262,7 @@ void check(const ScalarField& layer, const FibreLineOptions& options) {
 
 FibreLineResult trace_fibres(const LayeredHeart& heart, std::span<const Vec3> seeds,
                              const FibreLineOptions& options, Progress* progress) {
+  const Work work("traced fibres", counted(seeds.size(), "seed"));
   const Stopwatch watch;
   const ScalarField& layer = *heart.heart().layer;
   check(layer, options);

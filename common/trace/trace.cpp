@@ -10,7 +10,9 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
+#include "common/base/text.h"
 #include "common/trace/exact/exact_walk.h"
 #include "common/trace/line_builder.h"
 #include "common/trace/loop_detector.h"
@@ -93,7 +95,8 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   TraceResult result;
   result.integrator = options.integrator.value_or(default_integrator(field));
   check_options(field, options, result.integrator);
-
+  const Work work("traced lines",
+                  counted(seeds.size(), "seed") + " by " + std::string(name_of(result.integrator)));
   Stopwatch watch;
   if (progress != nullptr) progress->begin("preparing", 0);
   const LocalFrame& frame = field.frame();

@@ -107,6 +107,7 @@ WindowResult ExplorerWindow::run() {
   result.quality = live_->figures().quality;
   result.tables_by = live_->tables_by();
   result.gpu = gpu_objects();
+  enter_gpu_objects(result.gpu, result.tables_by);
   return result;
 }
 

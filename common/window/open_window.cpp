@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/ledger.h"
 #include "common/base/version.h"
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
-#include "common/render/gl/gpu_objects.h"
 #include "common/window/window.h"
 
 namespace palpate {
@@ -14,6 +14,7 @@ namespace {
 
 WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& model, const Document& options,
                           WindowRequest request) {
+  const Work work("window", "to look and touch");
   const WindowResult result = run_user_window(
       model,
       {.program = request.program,
@@ -33,10 +34,7 @@ WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& mod
        .threads = options.common.threads,
        .stop_requested = std::move(request.stop_requested)},
       options, request.note);
-  return {.servo = result.probe.servo,
-          .fault = result.probe.fault,
-          .replay = result.replay,
-          .measured = gpu_text(result.gpu) + tables_text(result.tables_by)};
+  return {.servo = result.probe.servo, .fault = result.probe.fault, .replay = result.replay};
 }
 
 }  // namespace

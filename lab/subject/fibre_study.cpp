@@ -39,7 +39,7 @@ ReportAnswer study_fibres(const Study& study) {
   const Stopwatch watch;
   const int threads = study.threads();
   Progress* progress = study.progress();
-  Input input = study.open({.tracing = true});
+  Input input = study.open();
   const auto heart = std::make_shared<const LayeredHeart>(input.load_heart(threads, progress));
   const ScalarField& layer = *heart->heart().layer;
   const std::vector<Vec3> seeds = make_seeds(parse_seeds(seeds_of(effort)), *layer.tet_mesh(), heart->frame(),
@@ -63,7 +63,7 @@ ReportAnswer study_fibres(const Study& study) {
   append(heart_error_cases(meshes, known), report.stability);
   append(fibre_feel_cases(feel, friction), report.stability);
   report.seconds = watch.seconds();
-  return study.finish(report, {}, work_precision_rows(report), measured_costs(input, layer.tet_mesh()));
+  return study.finish(report, {}, work_precision_rows(report));
 }
 
 }  // namespace palpate

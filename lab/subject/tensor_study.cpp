@@ -17,7 +17,7 @@ ReportAnswer study_tensors(const Study& study) {
 
   const Stopwatch watch;
   const int threads = study.threads();
-  Input input = study.open({.tracing = true});
+  Input input = study.open();
   TensorImage image = input.load_tensor_image(threads, study.progress());
   const bool own = image.fit.has_value();
 
@@ -35,7 +35,7 @@ ReportAnswer study_tensors(const Study& study) {
   report.sections.push_back(tract_errors_section(tracts));
   append(tract_error_cases(tracts), report.stability);
   report.seconds = watch.seconds();
-  return study.finish(report, {}, work_precision_rows(report), measured_costs(input, nullptr));
+  return study.finish(report, {}, work_precision_rows(report));
 }
 
 }  // namespace palpate

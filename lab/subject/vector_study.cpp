@@ -118,7 +118,7 @@ ReportAnswer study_vectors(const Study& study) {
   check_report_folder(document.output.file, document.common.force);
 
   const Stopwatch watch;
-  Input input = study.open({.tracing = true});
+  Input input = study.open();
   Progress* progress = study.progress();
   const auto field = input.load_field(study.threads(), progress);
   const auto seeds = make_seeds(spec, *field, document.common.seed);
@@ -163,8 +163,7 @@ ReportAnswer study_vectors(const Study& study) {
   append(std::move(wall.cases), report.stability);
   for (ReportSection& section : wall_sections(wall)) report.sections.push_back(std::move(section));
   report.seconds = watch.seconds();
-  return study.finish(report, figures_text(report), report.sweep.rows.size(),
-                      measured_costs(input, field->tet_mesh()));
+  return study.finish(report, figures_text(report), report.sweep.rows.size());
 }
 
 }  // namespace palpate

@@ -162,8 +162,8 @@ TEST_F(Grid, RenderStatesItsErrorAndRefusesNonsense) {
                              "--projection", "orthographic", "--explain"});
   EXPECT_EQ(summary["voxels"], 41 * 41 * 41);
   std::uint64_t voxel_bytes = 0;
-  for (const Json& object : summary["gpu"])
-    voxel_bytes += object["what"] == "voxels" ? object["bytes"].get<std::uint64_t>() : 0U;
+  for (const Json& object : summary["explain"])
+    voxel_bytes += object["what"] == "texture voxels" ? object["bytes"].get<std::uint64_t>() : 0U;
   EXPECT_EQ(voxel_bytes, 4U * 41U * 41U * 41U);
   EXPECT_GE(summary["image_error"].get<double>(), 0.0);
   EXPECT_LT(summary["image_error"].get<double>(), 0.02);
@@ -191,8 +191,10 @@ TEST_F(Grid, StoresVoxelsInTheMemoryGiven) {
     const Json summary = json({"render", "--example", "shells", "--size", "64x48", "--out",
                                "memory" + memory + ".png", "--gpu-memory", memory, "--explain"});
     std::pair<std::string, std::uint64_t> found{"", 0U};
-    for (const Json& object : summary["gpu"]) {
-      const std::string what = object["what"].is_string() ? object["what"].get<std::string>() : "";
+    for (const Json& object : summary["explain"]) {
+      std::string what = object["what"].get<std::string>();
+      if (!what.starts_with("texture ")) continue;
+      what.erase(0, std::string_view("texture ").size());
       if (!what.starts_with("voxels") && what != "index of bricks") continue;
       if (what.starts_with("voxels")) found.first = what;
       found.second += object["bytes"].get<std::uint64_t>();

@@ -90,12 +90,6 @@ std::string info_json(const InfoSummary& summary) {
   json["memory_bytes"] = summary.memory_bytes;
   json["notes"] = summary.notes;
   json["seconds_load"] = summary.seconds_load;
-  if (!summary.plans.empty()) {
-    Json plans = Json::object();
-    for (const auto& plan : summary.plans) plans[plan.verb] = needs_json(plan.plan);
-    json["plan"] = std::move(plans);
-    json["measured"] = measured_json(summary.measured);
-  }
   return json_text(json);
 }
 

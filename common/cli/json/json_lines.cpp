@@ -25,14 +25,13 @@ Json positions_json(const std::vector<std::uint32_t>& seeds, const std::vector<V
   return json;
 }
 
-/// The text of a run's JSON, with why it failed, where it did, its plan and what that took.
+/// The text of a run's JSON, with why it failed, where it did.
 template <typename Summary>
 std::string ended(Json json, const Summary& summary) {
   if (!summary.failure.empty()) {
     json["error"] = summary.failure;
     json["exit"] = 1;
   }
-  add_plan(json, summary.plan, summary.measured);
   return json_text(json);
 }
 

@@ -42,10 +42,22 @@ std::string settings_json(const Document& document, Groups groups) {
   return json_text(settings_of);
 }
 
-std::string with_settings(const std::string& object, const std::string& settings) {
+std::string with_member(const std::string& object, const char* name, const std::string& value) {
   Json json = Json::parse(object);
-  json["settings"] = Json::parse(settings);
+  json[name] = Json::parse(value);
   return json_text(json);
+}
+
+std::string ledger_json(const std::vector<LedgerEntry>& entries) {
+  Json list = Json::array();
+  for (const LedgerEntry& entry : entries) {
+    list.push_back({{"what", entry.what},
+                    {"why", entry.why},
+                    {"times", entry.times},
+                    {"milliseconds", entry.milliseconds},
+                    {"bytes", entry.bytes}});
+  }
+  return json_text(list);
 }
 
 std::string error_json(const std::string& line, int exit_code) {

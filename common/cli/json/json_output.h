@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/ledger.h"
 #include "common/cli/summaries.h"
 #include "common/field/analytic/examples.h"
 #include "common/hand/window_request.h"
@@ -13,8 +14,9 @@ namespace palpate {
 
 /// An object of the settings that verbs with `groups` have and that were given or differ from their defaults.
 [[nodiscard]] std::string settings_json(const Document& document, Groups groups);
-/// `object` with another one in it as "settings".
-[[nodiscard]] std::string with_settings(const std::string& object, const std::string& settings);
+/// `object` with the JSON text `value` in it as `name`.
+[[nodiscard]] std::string with_member(const std::string& object, const char* name, const std::string& value);
+[[nodiscard]] std::string ledger_json(const std::vector<LedgerEntry>& entries);
 [[nodiscard]] std::string error_json(const std::string& line, int exit_code);
 [[nodiscard]] std::string examples_json(const std::vector<ExampleInfo>& examples);
 [[nodiscard]] std::string trace_json(const TraceSummary& summary);

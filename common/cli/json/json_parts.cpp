@@ -9,31 +9,6 @@ std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::
 Json vec_json(const Vec3& x) { return {x.x, x.y, x.z}; }
 Json box_json(const Box& box) { return {{"lower", vec_json(box.lower)}, {"upper", vec_json(box.upper)}}; }
 
-Json needs_json(const Needs& needs) {
-  Json list = Json::array();
-  for (const Need& need : needs) {
-    list.push_back({{"what", need.what},
-                    {"why", need.why},
-                    {"used", need.used},
-                    {"bytes", need.bytes},
-                    {"milliseconds", need.milliseconds}});
-  }
-  return list;
-}
-
-Json measured_json(const std::vector<MeasuredCost>& measured) {
-  Json costs = Json::object();
-  for (const MeasuredCost& cost : measured)
-    costs[std::string(cost.what)] = {{"milliseconds", cost.milliseconds}, {"bytes", cost.bytes}};
-  return costs;
-}
-
-void add_plan(Json& json, const Needs& plan, const std::vector<MeasuredCost>& measured) {
-  if (plan.empty()) return;
-  json["plan"] = needs_json(plan);
-  json["measured"] = measured_json(measured);
-}
-
 Json lines_json(const LinesSummary& lines) {
   return {{"lines", lines.lines},
           {"points", lines.points},

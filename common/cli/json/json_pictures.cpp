@@ -6,16 +6,7 @@
 #include "common/cli/json/json_parts.h"
 
 namespace palpate {
-namespace {
-
-Json gpu_json(const std::vector<GpuObject>& objects) {
-  Json list = Json::array();
-  for (const GpuObject& object : objects)
-    list.push_back({{"kind", name_of(object.kind)}, {"what", object.what}, {"bytes", object.bytes}});
-  return list;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::string render_json(const RenderSummary& summary) {
   Json json{{"input", summary.input},
@@ -67,8 +58,6 @@ std::string render_json(const RenderSummary& summary) {
     json["image_error_ms"] = estimate->milliseconds;
   }
   if (!summary.tables_by.empty()) json["tables_by"] = summary.tables_by;
-  if (!summary.plan.empty()) json["gpu"] = gpu_json(summary.gpu);
-  add_plan(json, summary.plan, summary.measured);
   return json_text(json);
 }
 

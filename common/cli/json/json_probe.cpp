@@ -111,7 +111,6 @@ std::string probe_json(const ProbeSummary& summary) {
     json["replay_differs"] = summary.replay_differs;
     json["changed_inputs"] = summary.changed_inputs;
   }
-  add_plan(json, summary.plan, summary.measured);
   return json_text(json);
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/field/grid/tet_shape.h"
@@ -231,6 +232,7 @@ System assemble(const TetMesh& mesh, std::span<const double> given, const std::v
 
 WallPotential solve_laplace(const TetMesh& mesh, std::span<const double> given, const std::string& file,
                             int threads) {
+  const Work work("Laplace's equation", "layers and coordinates of the wall");
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   const std::vector<bool> reached = reached_points(mesh, given);
   const System system = assemble(mesh, given, reached, threads);

@@ -8,7 +8,9 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/base/check.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
+#include "common/base/text.h"
 #include "common/field/tensor/eigenframe.h"
 #include "common/field/tensor/fit_kernel.h"
 #include "common/math/symmetric3.h"
@@ -174,6 +176,9 @@ TensorFit fit_tensors(const DataArray& signals, const GradientTable& table,
                       const Progress* progress) {
   PALPATE_CHECK(signals.components == static_cast<int>(table.weightings.size()));
   PALPATE_CHECK(mask.empty() || mask.size() == signals.tuples);
+  Work work("tensor fit",
+            counted(signals.tuples, "voxel") + ", " + counted(table.weightings.size(), "volume"));
+  work.takes(6 * signals.tuples * sizeof(float));
   constexpr std::size_t kPiece = 4096;
   const std::vector<Row> rows = design(table);
   const double largest_weighting = table.largest_weighting();

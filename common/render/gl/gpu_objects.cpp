@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cstdio>
 #include <initializer_list>
+#include <map>
+#include <set>
 
 #include <epoxy/gl.h>
 
 #include "common/base/index.h"
-#include "common/base/text.h"
+#include "common/base/ledger.h"
 #include "common/render/gl/program.h"
 
 namespace palpate {
@@ -103,36 +104,27 @@ std::string_view name_of(Kind kind) noexcept {
   return kind == Kind::kProgram ? "program" : kind == Kind::kTexture ? "texture" : "renderbuffer";
 }
 
-std::string tables_text(const std::string& tables_by) {
-  return tables_by.empty() ? std::string() : "preintegrated tables filled by the " + tables_by + "\n";
-}
-
-std::string gpu_text(const std::vector<GpuObject>& objects) {
-  std::string shaders, memory;
-  std::uint64_t sum = 0;
+void enter_gpu_objects(const std::vector<GpuObject>& objects, const std::string& tables_by) {
+  struct Same {
+    std::size_t times = 0;
+    std::uint64_t bytes = 0;
+  };
+  std::map<std::string, Same> held;
+  std::set<std::string, std::less<>> compiled;
   for (const GpuObject& object : objects) {
     const std::string what = object.what.empty() ? "of labels and panels" : object.what;
-    if (object.kind == Kind::kProgram) {
-      shaders += (shaders.empty() ? "" : ", ") + what;
-      continue;
-    }
-    std::array<char, 16> bytes{};
-    std::snprintf(bytes.data(), bytes.size(), "%10s", bytes_text(object.bytes).c_str());
-    memory +=
-        "  " + std::string(bytes.data()) + "  " + std::string(name_of(object.kind)) + ": " + what + "\n";
-    sum += object.bytes;
+    Same& same = held[std::string(name_of(object.kind)) + " " + what];
+    ++same.times;
+    same.bytes += object.bytes;
+    if (object.kind == Kind::kProgram) compiled.insert(what.substr(0, what.find_first_of(" ,")));
   }
-  const auto is_compiled = [&](std::string_view path) {
-    return std::any_of(objects.begin(), objects.end(), [&](const GpuObject& object) {
-      return object.kind == Kind::kProgram && object.what.substr(0, object.what.find_first_of(" ,")) == path;
-    });
-  };
-  const auto files = shader_files();
-  const auto left_out = std::count_if(files.begin(), files.end(), [&](const ShaderFile& file) {
-    return (file.path.ends_with(".frag") || file.path.ends_with(".comp")) && !is_compiled(file.path);
-  });
-  return "shaders compiled: " + shaders + "; " + std::to_string(left_out) + " left out\n" +
-         "textures and framebuffers, " + bytes_text(sum) + ":\n" + memory;
+  for (const auto& [what, same] : held)
+    Ledger::enter(what, same.times > 1 ? std::to_string(same.times) + " of them" : "", 0.0, same.bytes);
+  if (!tables_by.empty()) Ledger::enter("preintegrated tables", "filled by the " + tables_by, 0.0);
+  for (const ShaderFile& file : shader_files()) {
+    if ((file.path.ends_with(".frag") || file.path.ends_with(".comp")) && !compiled.contains(file.path))
+      Ledger::offer("program " + std::string(file.path), "nothing drawn needs it");
+  }
 }
 
 }  // namespace palpate

@@ -31,9 +31,8 @@ void label_object(GpuObject::Kind kind, std::uint32_t name, std::string_view wha
 
 /// "program", "texture", "renderbuffer".
 [[nodiscard]] std::string_view name_of(GpuObject::Kind kind) noexcept;
-/// A line about who filled the tables of volumes (SceneRenderer::tables_by()); empty: nothing.
-[[nodiscard]] std::string tables_text(const std::string& tables_by);
-/// Lines of text: the programs and how many are left out, then what takes memory.
-[[nodiscard]] std::string gpu_text(const std::vector<GpuObject>& objects);
+/// Enters them in the Ledger, and offers the shaders that are not among them.
+/// @param tables_by who filled the tables of volumes (SceneRenderer::tables_by()); empty: there are none.
+void enter_gpu_objects(const std::vector<GpuObject>& objects, const std::string& tables_by);
 
 }  // namespace palpate

@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/find_helper.h"
+#include "common/base/ledger.h"
 #include "common/base/memory.h"
 #include "common/load/helper/helper_process.h"
 #include "common/load/helper/protocol.h"
@@ -34,6 +35,7 @@ FinishedMesh run_mesher(const MeshJob& job, const std::string& file, Progress* p
       kBaseMemory + points * (job.mesher == Mesher::kTetgen ? kMemoryPerTetgenPoint : kMemoryPerPoint);
   const LoadLimits limits{std::min(wanted, usable_memory()),
                           kBaseSeconds + kSecondsPerPoint * static_cast<double>(points)};
+  const Work work(std::string("helper ") + kMesherProgram, "fills the wall with tetrahedra");
   HelperProcess process(program, limits);
   MemoryFile memory;
   const std::string json = encode(job, memory);

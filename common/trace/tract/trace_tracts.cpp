@@ -16,6 +16,7 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/trace/tract/quad_tracer.h"
@@ -283,6 +284,7 @@ void check_tract_options(const TractOptions& options) {
 TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, const TractOptions& options,
                          Progress* progress) {
   check_tract_options(options);
+  const Work work("traced tracts", counted(seeds.size(), "seed"));
   const Stopwatch watch;
   if (progress != nullptr) progress->begin("tracing", seeds.size());
   TractResult result;

@@ -133,7 +133,7 @@ TEST(CommandLine, TakesWordsInTheirOrder) {
   EXPECT_TRUE(wrong.starts_with("2 KIND nose: tracker, ")) << wrong;
   EXPECT_EQ(refusal_for_devices({"fit", "arm", "a.csv", "b.csv"}).front(), '2');
   EXPECT_EQ(refusal_for_devices({"nose"}).front(), '2') << "no file was meant where none is taken";
-  EXPECT_EQ(refusal_for_devices({"fit", "arm", "--explain"}).front(), '2');
+  EXPECT_EQ(refusal_for_devices({"fit", "arm", "--field"}).front(), '2');
   EXPECT_EQ(refusal_for_devices({"report", "--quick"}).front(), '2');
 }
 

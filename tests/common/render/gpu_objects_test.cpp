@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/ledger.h"
 #include "common/field/grid/sparse/sparse_builder.h"
 #include "common/render/gl/context.h"
 #include "common/render/render_image.h"
@@ -274,13 +275,21 @@ TEST(GpuObjects, OfASparseVolumeAreItsBricks) {
   EXPECT_EQ(made.textures.at("index of bricks"), 16U * 4U * 4U * 4U);
 }
 
-TEST(GpuObjects, AreNamedWithWhatTheyTake) {
-  const std::string text = gpu_text({{.kind = Kind::kProgram, .what = "volume/volume.frag"},
-                                     {.kind = Kind::kTexture, .what = "voxels", .bytes = 1000000},
-                                     {.kind = Kind::kTexture, .what = "", .bytes = 500000}});
-  EXPECT_NE(text.find("shaders compiled: volume/volume.frag; "), std::string::npos) << text;
-  EXPECT_NE(text.find("texture: voxels"), std::string::npos) << text;
-  EXPECT_NE(text.find("1.5 MB"), std::string::npos) << text;
+TEST(GpuObjects, AreEnteredWithWhatTheyTake) {
+  Ledger::clear();
+  enter_gpu_objects({{.kind = Kind::kProgram, .what = "volume/volume.frag SHADED"},
+                     {.kind = Kind::kTexture, .what = "voxels", .bytes = 1000000},
+                     {.kind = Kind::kTexture, .what = "voxels", .bytes = 500000},
+                     {.kind = Kind::kTexture, .what = "", .bytes = 7}},
+                    "processor");
+  std::map<std::string, LedgerEntry> entries;
+  for (const LedgerEntry& entry : Ledger::entries()) entries[entry.what] = entry;
+  EXPECT_EQ(entries.at("texture voxels").bytes, 1500000U);
+  EXPECT_EQ(entries.at("texture of labels and panels").bytes, 7U);
+  EXPECT_EQ(entries.at("program volume/volume.frag SHADED").times, 1U);
+  EXPECT_FALSE(entries.contains("program volume/volume.frag")) << "no offer: it was compiled";
+  EXPECT_EQ(entries.at("program line/line.frag").times, 0U);
+  Ledger::clear();
 }
 
 }  // namespace

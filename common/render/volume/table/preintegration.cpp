@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/base/parallel.h"
 
 // Wider registers where the processor has them. No fused multiply-add: the same bits everywhere.
@@ -214,6 +215,8 @@ void preintegrate(std::span<const OpticalEntry> entries, std::size_t lengths, in
   PALPATE_CHECK(changed.first <= changed.last && changed.last < entries.size());
   const std::size_t layer = 4 * entries.size() * entries.size();
   PALPATE_CHECK(rgba.size() == layer * lengths);
+  Work work("preintegrated tables", "opacity and colour of a ray's pieces");
+  work.takes(rgba.size_bytes());
   parallel_for(lengths / kLengthGroup, threads, [&](std::size_t first, std::size_t last) {
     std::vector<Cell> kept(entries.size());
     for (std::size_t group = first; group < last; ++group) {
