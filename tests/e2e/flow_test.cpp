@@ -296,7 +296,8 @@ TEST_F(Flow, ExplainsWhatItDidAndLeftOut) {
   const auto explained = [this](std::vector<std::string> command) {
     command.push_back("--explain");
     std::map<std::string, Json> entries;
-    for (const Json& entry : json(command)["explain"]) entries[entry["what"].get<std::string>()] = entry;
+    const Json result = json(command);
+    for (const Json& entry : result["explain"]) entries[entry["what"].get<std::string>()] = entry;
     return entries;
   };
   const auto done = [](const std::map<std::string, Json>& entries, const std::string& what) {
