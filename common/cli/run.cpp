@@ -73,12 +73,12 @@ void keep_inputs(const InputOptions& input) {
 
 /// Parts that bring time, memory or libraries along, in the Ledger's words.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kParts{{
-    {"traced lines", "nothing was traced"},
-    {"vorticity and its kin", "no measure of the velocity gradient was asked for"},
-    {"drawing", "no picture was asked for"},
-    {"window", "nothing was shown"},
-    {"drivers of devices", "no device was asked for"},
-    {"helper palpate-lab", "no report was asked for"},
+    {"traced lines", "none was traced"},
+    {"measures of the velocity gradient", "none was computed"},
+    {"OpenGL off screen", "nothing was drawn by it"},
+    {"window", "none was opened"},
+    {"drivers of devices", "none was loaded"},
+    {"helper palpate-lab", "no study was run"},
 }};
 
 /// Runs `verb` and turns whatever it throws into a line and an exit code.

@@ -82,7 +82,7 @@ LineStyle line_style(const LineColor& color, Input& input, const std::shared_ptr
                      const std::vector<Line>& lines, int threads, Progress* progress) {
   LineStyle style{.color_by = color.by};
   if (color.measure) {
-    const Work work("vorticity and its kin", color.name + " at the points of the lines");
+    const Work work("measures of the velocity gradient", color.name + " at the points of the lines");
     style.array =
         sampled(color.name, lines, threads, [field, measure = *color.measure](const Vec3& x, CellHint& hint) {
           return sample_measure(*field, measure, x, hint);

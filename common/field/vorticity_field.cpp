@@ -111,7 +111,7 @@ ScalarSample sample_measure(const VectorField& field, Measure measure, const Vec
 }
 
 VorticityField::VorticityField(std::shared_ptr<const VectorField> field) : field_(std::move(field)) {
-  const Work work("vorticity and its kin", "at the points of the grid");
+  const Work work("measures of the velocity gradient", "at the points of the grid");
   if (field_->box_grid() != nullptr) recover_on_boxes();
   if (field_->tet_mesh() != nullptr) recover_on_tetrahedra();
 }

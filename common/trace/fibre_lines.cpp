@@ -262,7 +262,7 @@ void check(const ScalarField& layer, const FibreLineOptions& options) {
 
 FibreLineResult trace_fibres(const LayeredHeart& heart, std::span<const Vec3> seeds,
                              const FibreLineOptions& options, Progress* progress) {
-  const Work work("traced fibres", counted(seeds.size(), "seed"));
+  const Work work("traced lines", "fibres from " + counted(seeds.size(), "seed"));
   const Stopwatch watch;
   const ScalarField& layer = *heart.heart().layer;
   check(layer, options);

@@ -310,7 +310,7 @@ TEST_F(Flow, ExplainsWhatItDidAndLeftOut) {
       "SCALARS p double\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n");
   auto of = explained({"info", "--example", "abc"});
   EXPECT_FALSE(done(of, "traced lines"));
-  EXPECT_EQ(of.at("traced lines")["why"], "nothing was traced");
+  EXPECT_EQ(of.at("traced lines")["why"], "none was traced");
   EXPECT_TRUE(done(of, "vector field"));
 
   of = explained({"trace", grid.string(), "--seeds", "grid:2,2,2", "--out", "l.vtp"});
@@ -323,11 +323,13 @@ TEST_F(Flow, ExplainsWhatItDidAndLeftOut) {
   EXPECT_TRUE(done(of, "traced lines"));
   EXPECT_TRUE(done(of, "file l.vtp"));
   EXPECT_EQ(of.at("file l.vtp")["bytes"], std::filesystem::file_size(folder_.path("l.vtp")));
-  for (const char* what : {"drawing", "window", "vorticity and its kin", "drivers of devices", "tetrahedra"})
+  for (const char* what : {"OpenGL off screen", "window", "measures of the velocity gradient",
+                           "drivers of devices", "tetrahedra"})
     EXPECT_FALSE(done(of, what)) << what;
 
   of = explained({"render", grid.string(), "--color", "vorticity", "--size", "64x48", "--out", "v.png"});
-  for (const char* what : {"drawing", "vorticity and its kin", "traced lines", "file v.png"})
+  for (const char* what :
+       {"OpenGL off screen", "drawing", "measures of the velocity gradient", "traced lines", "file v.png"})
     EXPECT_TRUE(done(of, what)) << what;
   EXPECT_FALSE(done(of, "window"));
   // For people it comes last.

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 
 namespace palpate {
 
@@ -50,6 +51,7 @@ std::string text_of_driver(GLenum name) {
 }  // namespace
 
 OffscreenContext::OffscreenContext() : state_(std::make_unique<State>()) {
+  const Work work("OpenGL off screen", "a context to draw in");
   state_->display = open_display();
   constexpr std::array<EGLint, 5> kConfig{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   constexpr std::array<EGLint, 7> kContext{EGL_CONTEXT_MAJOR_VERSION,

@@ -284,7 +284,7 @@ void check_tract_options(const TractOptions& options) {
 TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, const TractOptions& options,
                          Progress* progress) {
   check_tract_options(options);
-  const Work work("traced tracts", counted(seeds.size(), "seed"));
+  const Work work("traced lines", "tracts from " + counted(seeds.size(), "seed"));
   const Stopwatch watch;
   if (progress != nullptr) progress->begin("tracing", seeds.size());
   TractResult result;
