@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <optional>
 
 #include "common/base/error.h"
@@ -40,6 +41,7 @@ int read_files(const std::filesystem::path& file, const Make& make, const Mine& 
       }
     }
   } catch (const Error&) {
+  } catch (const std::bad_alloc&) {  // which a helper answers with a line
   }
   return 0;
 }
