@@ -102,14 +102,15 @@ Found found_on(const DataSet& mesh, int layers) {
   for (const std::string& note : notes_of(surfaces)) found.notes += note + "\n";
   const auto points = grid->tets->points();
   for (std::size_t t = 0; t < surfaces.triangles.size(); ++t) {
-    const auto& [a, b, c] = surfaces.triangles[t];
+    const auto& corners = surfaces.triangles[t];
     const auto all = [&](std::size_t of) {
-      return input[a] / layer == of && input[b] / layer == of && input[c] / layer == of;
+      return std::ranges::all_of(corners, [&](auto corner) { return input[corner] / layer == of; });
     };
     const BorderRole role = all(0)                                  ? BorderRole::kInner
                             : all(static_cast<std::size_t>(layers)) ? BorderRole::kOuter
                                                                     : BorderRole::kBase;
-    const double area = glm::length(glm::cross(points[b] - points[a], points[c] - points[a]));
+    const glm::dvec3 origin = points[corners[0]];
+    const double area = glm::length(glm::cross(points[corners[1]] - origin, points[corners[2]] - origin));
     found.all += area;
     if (surfaces.roles[t] != role) found.wrong += area;
   }
