@@ -18,6 +18,7 @@
 #include "common/cli/verbs.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/heart/heart.h"
+#include "common/field/heart/tissue.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/math/symmetric3.h"
@@ -102,16 +103,13 @@ class WrittenCells {
   std::size_t others_ = 0;
 };
 
-bool is_region(const ArrayInfo& array) {
-  return array.name == "region" && array.association == Association::kCell;
-}
-
 /// The input's steps in the order of time, and what of it is written.
 struct Task {
   Input& input;
   std::vector<std::size_t> steps;
   std::vector<double> times;
   std::optional<HeartChoice> heart;
+  std::string regions;             ///< the array that numbers them, of cells; empty: there is none
   std::vector<ArrayInfo> results;  ///< all arrays but fibres, sheets and regions
 
   [[nodiscard]] DataSet read(std::size_t step, const std::vector<std::string>& names) const {
@@ -123,8 +121,7 @@ struct Task {
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> all;
-    for (const ArrayInfo& array : input.arrays())
-      if (is_region(array)) all.push_back(array.name);
+    if (!regions.empty()) all.push_back(regions);
     if (heart) all.push_back(heart->fibre.array);
     if (heart && !heart->sheet.array.empty()) all.push_back(heart->sheet.array);
     for (const ArrayInfo& result : results) all.push_back(result.name);
@@ -137,7 +134,12 @@ bool is_named(const ArrayInfo& array, const DirectionChoice& choice) {
 }
 
 Task task_of(Input& input) {
-  Task task{.input = input, .steps = steps_in_order(input.times()), .times = {}, .heart = {}, .results = {}};
+  Task task{.input = input,
+            .steps = steps_in_order(input.times()),
+            .times = {},
+            .heart = {},
+            .regions = region_array(input.arrays()),
+            .results = {}};
   if (!input.spec().time.empty()) task.steps = {input.time().step};
   if (!input.times().empty())
     for (const std::size_t step : task.steps) task.times.push_back(input.times()[step]);
@@ -145,7 +147,8 @@ Task task_of(Input& input) {
   for (const ArrayInfo& array : input.arrays()) {
     const bool direction =
         task.heart && (is_named(array, task.heart->fibre) || is_named(array, task.heart->sheet));
-    if (!is_region(array) && !direction) task.results.push_back(array);
+    const bool region = array.name == task.regions && array.association == Association::kCell;
+    if (!region && !direction) task.results.push_back(array);
   }
   return task;
 }
@@ -186,21 +189,30 @@ bool means_fibres(const std::string& name) {
   return low.find("fib") != std::string::npos || low == "f" || low == "f0";
 }
 
-void write_directions(const Task& task, const DataSet& first, const WrittenCells& cells, CarpOutput& out) {
-  std::vector<Vec3> fibres(cells.topology().types.size(), Vec3{0.0}), sheets;
-  if (task.heart) {
-    fibres = cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
-    if (!task.heart->sheet.array.empty())
-      sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
-  }
+/// @pre task.heart. @return what is to be said.
+std::string write_directions(const Task& task, const DataSet& first, const WrittenCells& cells,
+                             CarpOutput& out) {
+  const std::vector<Vec3> fibres =
+      cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
+  std::vector<Vec3> sheets;
+  if (!task.heart->sheet.array.empty())
+    sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
   out.write_directions(fibres, sheets);
+  const auto without = as_size(std::count_if(fibres.begin(), fibres.end(), [](const Vec3& fibre) {
+    return !(glm::length(fibre) > 0.0) || !is_finite(fibre);
+  }));
+  return without == 0 ? std::string() : counted(without, "element") + " without a fibre: zeros in .lon";
 }
 
 std::vector<std::filesystem::path> write_carp(Task task, const Document& options,
                                               const VerbContext& context) {
   const IgbTimes times = igb_times(task.times, task.input.title());
   keep_carp_inputs(options.input.files);
-  CarpOutput out(options.output.file, options.common.force);
+  CarpOutput out(options.output.file, options.common.force, task.heart.has_value());
+  if (!task.heart)
+    context.console.note(
+        "there are no fibres, and no .lon is written: openCARP takes one; 'cardiac fibers --rule bayer' "
+        "makes fibres");
   if (task.heart && !means_fibres(task.heart->fibre.array)) {
     const std::string& array = task.heart->fibre.array;
     context.console.note("directions of .lon are those of the array " + array +
@@ -221,11 +233,14 @@ std::vector<std::filesystem::path> write_carp(Task task, const Document& options
   const DataSet first = task.read(0, task.names());
   const WrittenCells cells(first, task.input.title(), true);
   if (!cells.note().empty()) context.console.note(cells.note());
-  std::vector<int> regions;
-  if (const DataArray* region = first.find("region", Association::kCell))
-    for (const double value : cells.values(*region)) regions.push_back(static_cast<int>(value));
-  out.write_mesh(cells.topology(), kMicrometres, regions);
-  write_directions(task, first, cells, out);
+  CarpRegions regions;
+  if (const DataArray* region = first.find(task.regions, Association::kCell))
+    regions = carp_regions(cells.values(*region), task.regions);
+  if (!regions.note.empty()) context.console.note(regions.note);
+  out.write_mesh(cells.topology(), kMicrometres, regions.numbers);
+  if (task.heart)
+    if (const std::string note = write_directions(task, first, cells, out); !note.empty())
+      context.console.note(note);
   const std::vector<bool> changes = changing(task, cells, first, context.progress);
   std::vector<std::pair<std::size_t, std::size_t>> series;  // of a result, of the output
   for (std::size_t r = 0; r < task.results.size(); ++r) {

@@ -16,6 +16,7 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/field/heart/fibre_rule.h"
+#include "common/field/heart/tissue.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/math/symmetric3.h"
@@ -101,24 +102,32 @@ const UnstructuredTopology* own_cells(const OpenWall& wall) {
   return cells != nullptr && all_in_carp(*cells) ? cells : nullptr;
 }
 
+/// @param regions the array that numbers them; empty: there is none. @param notes gets what became of them.
 std::vector<std::filesystem::path> write_carp_mesh(const OpenWall& wall, const RuleFibres& made,
-                                                   const Document& options) {
+                                                   const Document& options, const std::string& regions,
+                                                   std::vector<std::string>& notes) {
   keep_carp_inputs(options.input.files);
   CarpOutput out(options.output.file, options.common.force);
-  std::vector<int> regions;
+  const auto numbers_of = [&](const std::vector<double>& values) {
+    CarpRegions made_of = carp_regions(values, regions);
+    if (!made_of.note.empty()) notes.push_back(made_of.note);
+    return std::move(made_of.numbers);
+  };
+  std::vector<int> numbers;
   if (const UnstructuredTopology* const cells = own_cells(wall)) {
-    if (const DataArray* const array = wall.mesh.find("region", Association::kCell))
-      for (std::size_t c = 0; c < array->tuples; ++c)
-        regions.push_back(static_cast<int>(std::lround(array->at(c))));
-    out.write_mesh(*cells, kMicrometre, regions);
+    if (const DataArray* const array = wall.mesh.find(regions, Association::kCell)) {
+      std::vector<double> values;
+      for (std::size_t c = 0; c < array->tuples; ++c) values.push_back(array->at(c));
+      numbers = numbers_of(values);
+    }
+    out.write_mesh(*cells, kMicrometre, numbers);
     const std::vector<Vec3> fibres = means_in_cells(wall, made.fibres, {});
     out.write_directions(fibres, means_in_cells(wall, made.sheets, fibres));
   } else {
     const RuledMesh mesh = ruled_mesh(wall, made);
     for (const MeshColumn& scalar : mesh.scalars)
-      if (scalar.name == "region" && scalar.of_cells)
-        for (const double value : scalar.values) regions.push_back(static_cast<int>(std::lround(value)));
-    out.write_mesh(cells_of(mesh.points, mesh.cells), kMicrometre, regions);
+      if (scalar.name == regions && scalar.of_cells) numbers = numbers_of(scalar.values);
+    out.write_mesh(cells_of(mesh.points, mesh.cells), kMicrometre, numbers);
     out.write_directions(mesh.fibres, mesh.sheets);
   }
   out.finish();
@@ -232,8 +241,9 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
     summary.notes.emplace_back("the file states no unit: its coordinates are written as millimetres");
   if (const std::string note = note_on_cells(wall, ending == ".pts"); !note.empty())
     summary.notes.push_back(note);
+  const std::string regions = region_array(input.arrays());
   for (const auto& file : ending == ".pts"
-                              ? write_carp_mesh(wall, made, options)
+                              ? write_carp_mesh(wall, made, options, regions, summary.notes)
                               : write_vtu_mesh(ruled_mesh(wall, made), options, input.file()->long_axis)) {
     summary.files.push_back(file.string());
     context.interrupt.keep(file);

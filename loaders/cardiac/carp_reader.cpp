@@ -9,6 +9,7 @@
 #include <future>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,8 @@
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
 #include "common/math/vec.h"
+#include "loaders/cardiac/carp_binary.h"
+#include "loaders/cardiac/carp_elements.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
 
@@ -26,19 +29,6 @@ namespace {
 
 constexpr double kMillimetres = 1e-3;      // openCARP's unit is the micrometre
 constexpr std::size_t kMostLabels = 1000;  // that differ
-
-struct CellKind {
-  std::string_view word;
-  std::uint8_t vtk;
-  std::size_t corners;
-};
-constexpr std::array<CellKind, 7> kKinds{{{"Ln", kVtkLine, 2},
-                                          {"Tr", kVtkTriangle, 3},
-                                          {"Qd", kVtkQuad, 4},
-                                          {"Tt", kVtkTetrahedron, 4},
-                                          {"Py", kVtkPyramid, 5},
-                                          {"Pr", kVtkWedge, 6},
-                                          {"Hx", kVtkHexahedron, 8}}};
 
 /// @throws Error (bad input) where text follows the `count` rows that the first line promises.
 void refuse_more(TextLines& lines, std::size_t count, const std::string& what) {
@@ -58,7 +48,7 @@ std::vector<double> read_points(const std::string& file) {
       const auto value = number(word);
       if (!value || !std::isfinite(*value))
         lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a coordinate");
-      if (words < 3) positions.push_back(*value * kMillimetres);
+      if (words < 3) positions.push_back(*value);
     }
     if (words == 0) lines.refuse("ends after " + counted(p, "point"), std::to_string(count));
     if (words != 3) lines.refuse("has " + counted(words, "number"), "x y z of a point");
@@ -91,25 +81,18 @@ void order_second_face(const std::vector<double>& positions, std::size_t corners
   if (squared_edges(positions, turned, half) < squared_edges(positions, cell, half)) cell = turned;
 }
 
-/// What stands in the rows of an .elem file.
-struct Elements {
-  UnstructuredTopology topology;  ///< prisms and hexahedra as the file has them
-  std::vector<double> regions;
-  std::map<std::string, std::size_t, std::less<>> labels;  ///< words behind the region, and in how many rows
-  std::int64_t lowest = std::numeric_limits<std::int64_t>::max(), highest = -1;  ///< points that are named
-};
-
 /// @param lines behind the count. @param points of the mesh; one more may be named, where they count from 1.
-Elements read_elements(TextLines& lines, std::size_t count, std::size_t points) {
-  Elements elements;
+CarpElements read_elements(TextLines& lines, std::size_t count, std::size_t points) {
+  CarpElements elements;
   UnstructuredTopology& topology = elements.topology;
   topology.offsets.push_back(0);
   const auto last = static_cast<std::int64_t>(points) - 1;
   for (std::size_t e = 0; e < count; ++e) {
     const std::string_view word = lines.word();
-    const auto* const kind =
-        std::find_if(kKinds.begin(), kKinds.end(), [&](const CellKind& k) { return k.word == word; });
-    if (kind == kKinds.end()) {
+    const auto* const kind = std::find_if(kCarpCells.begin(), kCarpCells.end(), [&](const CarpCell& cell) {
+      return cell.vtk != 0 && cell.word == word;
+    });
+    if (kind == kCarpCells.end()) {
       if (word.empty()) lines.refuse("ends after " + std::to_string(e) + " elements", std::to_string(count));
       lines.refuse("has an element of type \"" + std::string(word.substr(0, 20)) + "\"",
                    "Tt, Hx, Pr, Py, Qd, Tr or Ln");
@@ -164,7 +147,7 @@ double squared_steps(const UnstructuredTopology& topology, const std::vector<dou
 
 /// Whether the elements count points from 1: they name the point behind the last, or, where no element names
 /// point 0, their edges are much shorter so.
-void count_from_zero(const std::string& file, const std::vector<double>& positions, Elements& elements,
+void count_from_zero(const std::string& file, const std::vector<double>& positions, CarpElements& elements,
                      std::vector<std::string>& notes) {
   constexpr double kMuchShorter = 0.8;  // of the squares; a mesh whose points are off by one has long edges
   if (elements.lowest < 1 || elements.topology.types.empty()) return;
@@ -200,7 +183,7 @@ void order_second_faces(const std::vector<double>& positions, UnstructuredTopolo
   }
 }
 
-void note_labels(const std::string& file, const Elements& elements, std::vector<std::string>& notes) {
+void note_labels(const std::string& file, const CarpElements& elements, std::vector<std::string>& notes) {
   if (elements.labels.empty()) return;
   std::string names;
   std::size_t rows = 0, named = 0;
@@ -221,6 +204,11 @@ struct Fibres {
 };
 
 Fibres read_fibres(const std::string& file, std::size_t elements) {
+  Fibres fibres;
+  if (is_binary_carp(file)) {
+    fibres.directions = read_binary_directions(file, elements);
+    return fibres;
+  }
   TextLines lines(file, '#');
   do {
     if (!lines.next()) lines.refuse("holds no direction", "1 or 2 directions an element");
@@ -229,13 +217,9 @@ Fibres read_fibres(const std::string& file, std::size_t elements) {
   while (!lines.word_here().empty()) ++words;
   lines.give_back();
   (void)lines.next();
-  Fibres fibres;
-  if (words == 3 || words == 6 || words == 9) {
-    fibres.headed = false;
-    fibres.vectors = words / 3;
-  } else {
-    fibres.vectors = static_cast<int>(lines.integer("1 or 2 directions an element,", 1, 2));
-  }
+  fibres.headed = words != 3 && words != 6 && words != 9;
+  fibres.vectors =
+      fibres.headed ? static_cast<int>(lines.integer("1 or 2 directions an element,", 1, 2)) : words / 3;
   fibres.directions = read_directions(lines, elements, {.numbers = 3 * fibres.vectors});
   if (!lines.word().empty())
     lines.refuse("goes on after " + std::to_string(elements) + " directions", "one an element");
@@ -252,14 +236,22 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
       files.results.push_back(file);
       continue;
     }
-    std::string* part = ending == ".pts" ? &files.pts : ending == ".elem" ? &files.elem : &files.lon;
+    std::string* part = ending.ends_with("pts")    ? &files.pts
+                        : ending.ends_with("elem") ? &files.elem
+                                                   : &files.lon;
     if (!part->empty()) throw input_error({file, "", "plays the same part as " + *part, "one of them"});
     *part = file;
   }
   const std::string& any = named.front();
-  if (files.pts.empty()) files.pts = sibling(any, ".pts");
-  if (files.elem.empty()) files.elem = sibling(any, ".elem");
-  if (files.lon.empty()) files.lon = sibling(any, ".lon");
+  // A mesh may lie there in text and in numbers: parts of one kind belong together.
+  const bool binary = std::any_of(named.begin(), named.end(), is_binary_carp);
+  const auto find = [&](std::string& part, const std::string& ending) {
+    if (part.empty()) part = sibling(any, (binary ? ".b" : ".") + ending);
+    if (part.empty()) part = sibling(any, (binary ? "." : ".b") + ending);
+  };
+  find(files.pts, "pts");
+  find(files.elem, "elem");
+  find(files.lon, "lon");
   for (const char* ending : {".igb", ".dat"}) {
     const std::string beside = sibling(any, ending);
     if (!beside.empty() &&
@@ -275,13 +267,20 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
 
 DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   constexpr std::size_t kLeastBytes = 7;  // "Ln 0 1\n"
-  TextLines lines(files.elem, '#');
-  const std::size_t elements = believed_count(lines, "the number of elements", kLeastBytes);
+  const bool binary = is_binary_carp(files.elem);
+  std::optional<TextLines> lines;
+  if (!binary) lines.emplace(files.elem, '#');
+  const std::size_t count = binary ? count_binary_elements(files.elem)
+                                   : believed_count(*lines, "the number of elements", kLeastBytes);
   // The longest of the files is read beside the others.
   std::future<Fibres> fibres;
-  if (!files.lon.empty()) fibres = std::async(std::launch::async, read_fibres, files.lon, elements);
-  const std::vector<double> positions = read_points(files.pts);
-  Elements read = read_elements(lines, elements, positions.size() / 3);
+  if (!files.lon.empty()) fibres = std::async(std::launch::async, read_fibres, files.lon, count);
+  std::vector<double> positions =
+      is_binary_carp(files.pts) ? read_binary_points(files.pts) : read_points(files.pts);
+  for (double& x : positions) x *= kMillimetres;
+  const std::size_t points = positions.size() / 3;
+  CarpElements read =
+      binary ? read_binary_elements(files.elem, points) : read_elements(*lines, count, points);
   count_from_zero(files.elem, positions, read, notes);
   order_second_faces(positions, read.topology);
   note_labels(files.elem, read, notes);
@@ -291,10 +290,14 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   mesh.topology = std::move(read.topology);
   if (!files.lon.empty()) {
     const auto [directions, vectors, headed] = fibres.get();
-    add_directions(directions, mesh);
-    if (directions.missing > 0)
-      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
-    notes.push_back("fibres from " + files.lon);
+    if (directions.missing == count) {
+      notes.push_back(files.lon + " holds no direction but zeros: taken as a mesh without fibres");
+    } else {
+      add_directions(directions, mesh);
+      if (directions.missing > 0)
+        notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
+      notes.push_back("fibres from " + files.lon);
+    }
     if (!headed)
       notes.push_back(files.lon + " has no header: " + std::to_string(3 * vectors) + " numbers a row are " +
                       counted(static_cast<std::uint64_t>(vectors), "direction") + " an element");

@@ -1,4 +1,4 @@
-/// Meshes of openCARP: .pts, .elem and .lon; which results go with them.
+/// Meshes of openCARP: .pts, .elem and .lon, as text or as numbers (carp_binary.h); which results go with them.
 #pragma once
 
 #include <string>
@@ -15,12 +15,13 @@ struct CarpFiles {
   std::vector<std::string> results;  ///< .igb and .dat (carp_results.h)
 };
 
-/// The set that `named` belongs to: files with the same stem beside it, unless they are named themselves.
+/// The set that `named` belongs to: files with the same stem beside it, unless they are named themselves; text beside
+/// text and numbers beside numbers, where both are there.
 /// @throws Error (bad input) where points or elements are missing, or two files play one part.
 [[nodiscard]] CarpFiles find_carp_files(const std::vector<std::string>& named);
 
 /// Elements of any of openCARP's types; the region becomes the cell array "region", directions the cell
-/// arrays "fibre" and, of orthotropic meshes, "sheet" and "normal". Coordinates are turned from micrometres
+/// arrays "fibre" and, of orthotropic meshes, "sheet" and "normal", unless all are zero. Coordinates are turned from micrometres
 /// into mm.
 /// @param notes gets what is to be said.
 /// @throws Error (bad input) naming file and line.

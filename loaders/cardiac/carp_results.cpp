@@ -6,18 +6,16 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <span>
 #include <sstream>
 #include <utility>
 
-#include <zlib.h>
-
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "loaders/cardiac/mesh_text.h"
+#include "loaders/cardiac/packed_file.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate {
@@ -47,56 +45,6 @@ constexpr std::array<IgbType, 16> kTypes{{{"byte", ScalarType::kUint8, 1},
                                           {"vec3d", ScalarType::kFloat64, 3},
                                           {"vec4f", ScalarType::kFloat32, 4},
                                           {"vec4d", ScalarType::kFloat64, 4}}};
-
-/// A file that is read as it is, or unpacked where it is packed with gzip.
-class PackedFile {
- public:
-  explicit PackedFile(const std::string& path) : file_(gzopen(path.c_str(), "rb")) {}
-  ~PackedFile() {
-    if (file_ != nullptr) gzclose(file_);
-  }
-  PackedFile(const PackedFile&) = delete;
-  PackedFile& operator=(const PackedFile&) = delete;
-
-  /// How many bytes came.
-  std::size_t read(void* to, std::size_t bytes) {
-    if (file_ == nullptr) return 0;
-    std::size_t got = 0;
-    while (got < bytes) {
-      constexpr std::size_t kAtOnce = std::size_t{1} << 24U;
-      const int now =
-          gzread(file_, static_cast<char*>(to) + got, static_cast<unsigned>(std::min(kAtOnce, bytes - got)));
-      if (now <= 0) break;
-      got += static_cast<std::size_t>(now);
-    }
-    return got;
-  }
-  bool go_to(std::uint64_t place) {
-    return file_ != nullptr && gzseek(file_, static_cast<z_off_t>(place), SEEK_SET) >= 0;
-  }
-
- private:
-  gzFile file_;
-};
-
-/// Whether a file is packed, by its first bytes: not every packed one is called so.
-bool is_packed(const std::string& path) {
-  std::array<char, 2> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  return head == std::array<char, 2>{'\x1f', '\x8b'};
-}
-
-/// Of the file as it is unpacked: what can be read of one that is damaged.
-std::uint64_t unpacked_bytes(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t stored = std::filesystem::file_size(path, error);
-  if (!is_packed(path)) return error ? 0 : stored;
-  PackedFile file(path);
-  std::vector<char> piece(std::size_t{1} << 20U);
-  std::uint64_t bytes = 0;
-  while (const std::size_t got = file.read(piece.data(), piece.size())) bytes += got;
-  return bytes;
-}
 
 std::string array_name(const std::string& file) {
   return std::filesystem::path(stem_of(file)).filename().string();

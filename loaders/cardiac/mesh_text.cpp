@@ -37,6 +37,16 @@ std::size_t believed_count(TextLines& lines, const char* what, std::size_t least
   return static_cast<std::size_t>(lines.integer(what, 0, static_cast<std::int64_t>(most)));
 }
 
+void append_directions(std::span<const Vec3> vectors, Directions& directions) {
+  const Vec3 fibre = unit_or_nan(vectors[0]);
+  if (std::isnan(fibre[0])) ++directions.missing;
+  append(directions.fibre, fibre);
+  if (vectors.size() == 1) return;
+  const Vec3 sheet = unit_or_nan(vectors[1]);
+  append(directions.sheet, sheet);
+  append(directions.normal, unit_or_nan(vectors.size() == 3 ? vectors[2] : glm::cross(fibre, sheet)));
+}
+
 Directions read_directions(TextLines& lines, std::size_t count, const DirectionRows& rows) {
   Directions directions;
   const int per_row = rows.numbers;
@@ -57,13 +67,7 @@ Directions read_directions(TextLines& lines, std::size_t count, const DirectionR
         lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a component of a direction");
       if (n < per_row) vectors[n / 3][n % 3] = *value;
     }
-    const Vec3 fibre = unit_or_nan(vectors[0]);
-    if (std::isnan(fibre[0])) ++directions.missing;
-    append(directions.fibre, fibre);
-    if (per_row == 3) continue;
-    const Vec3 sheet = unit_or_nan(vectors[1]);
-    append(directions.sheet, sheet);
-    append(directions.normal, unit_or_nan(per_row == 9 ? vectors[2] : glm::cross(fibre, sheet)));
+    append_directions(std::span<const Vec3>(vectors, static_cast<std::size_t>(per_row / 3)), directions);
   }
   return directions;
 }

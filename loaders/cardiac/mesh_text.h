@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/math/vec.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate {
@@ -32,6 +34,9 @@ struct Directions {
   std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
   std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
 };
+/// Adds those of an element: its fibre, or fibre and sheet, or all three.
+void append_directions(std::span<const Vec3> vectors, Directions& directions);
+
 /// What a row of directions holds.
 struct DirectionRows {
   int numbers = 9;        ///< 3, 6 or 9 of them; with 6 the normal is the cross product of both

@@ -237,8 +237,56 @@ TEST_F(CardiacWave, WhatCannotBeWrittenIsNamedAndNothingIsLeft) {
   EXPECT_EQ(uneven.exit_code, 3);
   EXPECT_NE(uneven.err.find("evenly"), std::string::npos) << uneven.err;
   EXPECT_FALSE(std::filesystem::exists(folder_.path("u.pts")));
-  // A mesh of one element without fibres.
-  EXPECT_EQ(json({"convert", "a.vtu", "--out", "one.pts"})["files"].size(), 4U);
+}
+
+// A .lon of zeros would be opened as a heart whose fibres are all missing.
+TEST_F(CardiacConvert, MeshesWithoutFibresGetNoLon) {
+  std::filesystem::remove(folder_.path("m.lon"));
+  const ProgramResult result = run({"convert", "m.pts", "--out", "bare.pts"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("no .lon is written"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_.path("bare.lon")));
+  EXPECT_EQ(text("bare.elem"), kElements);
+  EXPECT_EQ(json({"info", "bare.pts"})["field"], nullptr);
+  // Another mesh's would be taken for this one's.
+  folder_.write("other.lon", kFibres);
+  const ProgramResult refused = run({"convert", "m.pts", "--out", "other.pts", "--force"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("other.lon is there"), std::string::npos) << refused.err;
+  EXPECT_EQ(text("other.lon"), kFibres);
+  // Some of its elements have none.
+  folder_.write("m.lon", "1\n1 0 0\n0 0 0\n0 0 1\n");
+  EXPECT_NE(run({"convert", "m.pts", "--out", "some.pts"}).err.find("1 element without a fibre: zeros"),
+            std::string::npos);
+}
+
+// Regions of any name and number: .elem takes whole numbers of 32 bits.
+TEST_F(CardiacConvert, RegionsOfAnyNameAndNumberAreKeptOrNumberedAnew) {
+  const auto mesh = [&](const std::string& name, const std::string& regions) {
+    const std::string cells = "4 0 1 2 3\n4 1 2 3 4\n4 0 2 3 4\n";
+    folder_.write(
+        "r.vtk",
+        "# vtk DataFile Version 3.0\nr\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0 1 0 0 0 "
+        "1 0 0 0 1 1 1 1\nCELLS 3 15\n" +
+            cells + "CELL_TYPES 3\n10 10 10\nCELL_DATA 3\nSCALARS " + name +
+            " double 1\nLOOKUP_TABLE default\n" + regions + "\n");
+    const ProgramResult result = run({"convert", "r.vtk", "--out", "r.pts", "--force"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return std::pair(text("r.elem"), result.err);
+  };
+  const auto rows = [](const std::string& a, const std::string& b, const std::string& c) {
+    return "3\nTt 0 1 2 3 " + a + "\nTt 1 2 3 4 " + b + "\nTt 0 2 3 4 " + c + "\n";
+  };
+  for (const char* name : {"region", "elemTag", "Material"}) {
+    EXPECT_EQ(mesh(name, "-3 2147483647 -2147483648").first, rows("-3", "2147483647", "-2147483648")) << name;
+    const auto [large, said] = mesh(name, "1e10 -1e300 7");
+    EXPECT_EQ(large, rows("3", "1", "2")) << name;
+    EXPECT_NE(said.find("numbered 1 for -1e+300, 2 for 7, 3 for 1e+10"), std::string::npos) << said;
+    EXPECT_EQ(mesh(name, "1.25 1.5 1.25").first, rows("1", "2", "1")) << name;
+    const auto [undefined, why] = mesh(name, "4 nan 4");
+    EXPECT_EQ(undefined, rows("4", "0", "4")) << name;
+    EXPECT_NE(why.find("1 element of no region: 0"), std::string::npos) << why;
+  }
 }
 
 }  // namespace

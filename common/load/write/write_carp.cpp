@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "common/base/error.h"
@@ -107,15 +110,68 @@ void keep_carp_inputs(std::span<const std::filesystem::path> files) {
   std::vector<std::filesystem::path> parts;
   for (std::filesystem::path file : files) {
     if (file.extension() == ".gz") file.replace_extension();
-    for (const char* ending : kMeshEndings) parts.push_back(file.replace_extension(ending));
+    const std::string own = file.extension().string();
+    const bool binary = own.starts_with(".b");
+    static constexpr std::array<const char*, 8> kOwn{".pts",   ".elem", ".lon", ".bpts",
+                                                     ".belem", ".blon", ".igb", ".dat"};
+    if (std::find(kOwn.begin(), kOwn.end(), own) == kOwn.end()) continue;
+    for (const std::string ending : kMeshEndings) {
+      // A text file beside its binary twin is not what is read.
+      std::error_code ignored;
+      std::filesystem::path twin = file;
+      if (binary && std::filesystem::exists(twin.replace_extension(".b" + ending.substr(1)), ignored))
+        continue;
+      parts.push_back(file.replace_extension(ending));
+    }
   }
   keep_from_outputs(parts);
 }
 
-CarpOutput::CarpOutput(std::filesystem::path pts, bool overwrite)
+CarpRegions carp_regions(std::span<const double> values, const std::string& name) {
+  CarpRegions regions;
+  const auto whole = [](double value) {
+    return value == std::floor(value) && value >= std::numeric_limits<int>::min() &&
+           value <= std::numeric_limits<int>::max();
+  };
+  std::map<double, int> number_of;  // by rising value, where they cannot stay
+  std::size_t undefined = 0;
+  for (const double value : values) {
+    if (std::isfinite(value))
+      number_of.emplace(value, 0);
+    else
+      ++undefined;
+  }
+  const bool stay =
+      std::all_of(number_of.begin(), number_of.end(), [&](const auto& each) { return whole(each.first); });
+  int next = 0;
+  std::string list;
+  for (auto& [value, number] : number_of) {
+    number = stay ? static_cast<int>(value) : ++next;
+    constexpr int kListed = 8;
+    if (!stay && next <= kListed)
+      list += (list.empty() ? "" : ", ") + std::to_string(number) + " for " + exact_number(value);
+    if (!stay && next == kListed + 1) list += ", …";
+  }
+  for (const double value : values) regions.numbers.push_back(std::isfinite(value) ? number_of.at(value) : 0);
+  if (!stay) regions.note = "regions of '" + name + "' are no whole numbers of .elem: numbered " + list;
+  if (undefined > 0)
+    regions.note += (regions.note.empty() ? "" : "; ") + counted(undefined, "element") + " of no region: 0";
+  return regions;
+}
+
+CarpOutput::CarpOutput(std::filesystem::path pts, bool overwrite, bool directions)
     : pts_(std::move(pts)), files_(std::make_unique<Files>(overwrite)) {
   for (const char* ending : kMeshEndings) {
-    names_.push_back(std::filesystem::path(pts_).replace_extension(ending));
+    const std::filesystem::path path = std::filesystem::path(pts_).replace_extension(ending);
+    if (!directions && path.extension() == ".lon") {
+      std::error_code ignored;
+      if (std::filesystem::exists(path, ignored))
+        throw usage_error(path.string() +
+                          " is there, and would be taken for the fibres of a mesh without any: "
+                          "remove it, or write under another name");
+      continue;
+    }
+    names_.push_back(path);
     (void)files_->open(names_.back());
   }
 }

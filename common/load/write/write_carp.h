@@ -1,4 +1,4 @@
-/// Writing meshes and results for openCARP: STEM.pts (micrometres), STEM.elem and STEM.lon, results as
+/// Writing meshes and results for openCARP: STEM.pts (micrometres), STEM.elem and, of meshes with fibres, STEM.lon, results as
 /// STEM.NAME.dat and STEM.NAME.igb. Formats: openCARP user's manual, "Mesh files" and "IGB files".
 #pragma once
 
@@ -31,14 +31,25 @@ struct IgbTimes {
 /// Tetrahedra as cells.
 [[nodiscard]] UnstructuredTopology cells_of(std::span<const Vec3> points, std::span<const TetMesh::Tet> tets);
 
+/// Regions of cells as .elem takes them.
+struct CarpRegions {
+  std::vector<int> numbers;
+  std::string note;  ///< what became of them; empty: they stay as they are
+};
+/// Whole numbers of 32 bits stay. Where others are among them, all are numbered from 1 by rising value; what is not
+/// finite is 0. @param name of the array, for the note.
+[[nodiscard]] CarpRegions carp_regions(std::span<const double> values, const std::string& name);
+
 /// What belongs to inputs of openCARP, beside those that are named: keep_from_outputs().
 void keep_carp_inputs(std::span<const std::filesystem::path> files);
 
 /// A set of files; none of them is there under its name before finish().
 class CarpOutput {
  public:
-  /// @param pts STEM.pts. @throws Error as OutputFile does.
-  CarpOutput(std::filesystem::path pts, bool overwrite);
+  /// @param pts STEM.pts. @param directions whether write_directions() follows: there is no .lon otherwise.
+  /// @throws Error as OutputFile does; (usage) where there are no directions and a STEM.lon of another mesh, which
+  /// would be taken for this one's.
+  CarpOutput(std::filesystem::path pts, bool overwrite, bool directions = true);
   ~CarpOutput();
 
   /// @param micrometres of a unit of its positions. @param regions one a cell, or none: 1 for all.
