@@ -1,8 +1,6 @@
 #include "loaders/vtk/file_index.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -14,6 +12,8 @@
 #include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
+#include "common/load/step_times.h"
+#include "loaders/vtk/file_names.h"
 #include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/xml_scan.h"
 
@@ -113,49 +113,75 @@ std::vector<Entry> read_series(const std::filesystem::path& file, std::string_vi
   return entries;
 }
 
-/// The last run of digits of a file's name, and what stands around it.
-struct NumberedName {
-  std::string before;
-  std::string digits;
-  std::string after;
+/// What an index says of an entry's place beside others of its time.
+std::string place_of(const Entry& entry) { return entry.part + "|" + entry.name; }
+
+/// The runs of an index: which entries stand for one part of the data.
+class Runs {
+ public:
+  Runs(const std::vector<Entry>& entries, const std::filesystem::path& folder, const SameGrid& same_grid)
+      : folder_(folder), same_grid_(same_grid) {
+    std::map<std::string, const Entry*> last;
+    std::map<std::pair<std::string, double>, std::vector<const Entry*>> beside;
+    for (const Entry& entry : entries) {
+      // A run that begins anew may have another name.
+      const Entry*& before = last[place_of(entry)];
+      if (before != nullptr && entry.time < before->time) join(*before, entry);
+      before = &entry;
+      std::vector<const Entry*>& others = beside[{place_of(entry), entry.time}];
+      if (others.size() >= kMostBeside) continue;
+      for (const Entry* other : others) join(*other, entry);
+      others.push_back(&entry);
+    }
+  }
+
+  /// Entries that belong to the same part: their places and the words of their files are alike, or their grids.
+  [[nodiscard]] std::string part_of(const Entry& entry) const {
+    const std::string base = split_name(entry.file).before;
+    const auto other = first_names_.find({place_of(entry), base});
+    return place_of(entry) + "|" + (other == first_names_.end() ? base : other->second);
+  }
+
+  /// Whether two files of one place and time are one thing twice.
+  [[nodiscard]] bool replaces(const Entry& later, const Entry& earlier) {
+    return later.time == earlier.time && place_of(later) == place_of(earlier) && alike(earlier, later);
+  }
+
+ private:
+  static constexpr std::size_t kMostBeside = 8;  ///< more files of one time are blocks
+
+  void join(const Entry& earlier, const Entry& later) {
+    const std::string first = split_name(earlier.file).before;
+    const std::string second = split_name(later.file).before;
+    const std::string place = place_of(later);
+    if (first == second || first_names_.count({place, second}) > 0 || !alike(earlier, later)) return;
+    const auto known = first_names_.find({place, first});
+    first_names_[{place, second}] = known == first_names_.end() ? first : known->second;
+  }
+
+  /// The first pair of files decides for all of their names.
+  bool alike(const Entry& earlier, const Entry& later) {
+    if (earlier.file == later.file) return true;
+    const auto [at, fresh] =
+        alike_.try_emplace({split_name(earlier.file).before, split_name(later.file).before}, false);
+    if (fresh && same_grid_) at->second = same_grid_(folder_ / earlier.file, folder_ / later.file);
+    return at->second;
+  }
+
+  std::filesystem::path folder_;
+  const SameGrid& same_grid_;
+  std::map<std::pair<std::string, std::string>, std::string> first_names_;  ///< by place and name of a run
+  std::map<std::pair<std::string, std::string>, bool> alike_;
 };
-
-NumberedName split_name(const std::filesystem::path& file) {
-  const std::string stem = file.stem().string();
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  std::size_t end = stem.size();
-  while (end > 0 && !is_digit(stem[end - 1])) --end;
-  std::size_t start = end;
-  while (start > 0 && is_digit(stem[start - 1])) --start;
-  const std::string folder = file.parent_path().string() + "/";
-  return {folder + stem.substr(0, start), stem.substr(start, end - start),
-          stem.substr(end) + file.extension().string()};
-}
-
-bool counts_parts(const std::string& before) {
-  std::string word = std::filesystem::path(before).filename().string();
-  while (!word.empty() && std::isalpha(static_cast<unsigned char>(word.back())) == 0) word.pop_back();
-  word = lowered(word);
-  static constexpr std::array<std::string_view, 7> kWords{"block", "part", "piece", "domain",
-                                                          "zone",  "proc", "grid"};
-  return std::any_of(kWords.begin(), kWords.end(), [&word](std::string_view end) {
-    return word.size() >= end.size() && std::string_view(word).substr(word.size() - end.size()) == end;
-  });
-}
-
-/// Entries that belong to the same part of the data: their names and the words of their files are alike.
-std::string part_of(const Entry& entry) {
-  return entry.part + "|" + entry.name + "|" + split_name(entry.file).before;
-}
 
 /// Whether the index was appended to, rather than being in no order: a part repeats a time, or few entries
 /// lie before the one that precedes them.
-bool goes_on_after_restart(const std::vector<Entry>& entries) {
+bool goes_on_after_restart(const std::vector<Entry>& entries, const Runs& runs) {
   std::map<std::string, std::pair<double, std::set<double>>> parts;
   std::size_t falls = 0;
   bool repeats = false;
   for (const Entry& entry : entries) {
-    const auto [at, fresh] = parts.try_emplace(part_of(entry), entry.time, std::set<double>());
+    const auto [at, fresh] = parts.try_emplace(runs.part_of(entry), entry.time, std::set<double>());
     auto& [last, times] = at->second;
     if (!fresh && entry.time < last) {
       ++falls;
@@ -167,16 +193,47 @@ bool goes_on_after_restart(const std::vector<Entry>& entries) {
   return falls > 0 && (repeats || 4 * falls <= entries.size());
 }
 
+/// Of two files that are one part at one time, leaves the later.
+void leave_last_files(std::vector<Entry>& entries, Runs& runs, std::vector<std::string>& notes) {
+  constexpr std::size_t kNamed = 3;
+  std::map<double, std::vector<std::size_t>> by_time;
+  std::set<std::size_t> gone;
+  std::string named;
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    std::vector<std::size_t>& others = by_time[entries[e].time];
+    for (const std::size_t other : others) {
+      if (gone.count(other) > 0 || !runs.replaces(entries[e], entries[other])) continue;
+      gone.insert(other);
+      if (gone.size() > kNamed) continue;
+      named += (named.empty() ? "" : ", ") + entries[other].file + " by " + entries[e].file + " at time " +
+               short_number(entries[e].time);
+    }
+    constexpr std::size_t kMostBeside = 8;
+    if (others.size() < kMostBeside) others.push_back(e);
+  }
+  if (gone.empty()) return;
+  std::vector<Entry> kept;
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    if (gone.count(e) == 0) kept.push_back(std::move(entries[e]));
+  }
+  entries.swap(kept);
+  notes.push_back("the index has one part more than once at a time: " + counted(gone.size(), "file") +
+                  " replaced by the later one: " + named + (gone.size() > kNamed ? ", …" : ""));
+}
+
 /// Leaves the later run of a restarted one: where a part begins again at an earlier time, what the file had
 /// from that time on goes. A file that stands twice at one time counts once.
-void leave_later_runs(std::vector<Entry>& entries, std::vector<std::string>& notes) {
-  const bool restarted = goes_on_after_restart(entries);
+void leave_later_runs(std::vector<Entry>& entries, const std::filesystem::path& folder,
+                      const SameGrid& same_grid, std::vector<std::string>& notes) {
+  Runs runs(entries, folder, same_grid);
+  const bool restarted = goes_on_after_restart(entries, runs);
   std::map<std::string, double> last;  // time of each part
   std::vector<Entry> kept;
   std::set<double> replaced;
   std::set<std::pair<double, std::string>> seen;
   for (Entry& entry : entries) {
-    const auto at = last.find(part_of(entry));
+    const std::string part = runs.part_of(entry);
+    const auto at = last.find(part);
     const bool again = !seen.emplace(entry.time, entry.file).second;
     if (restarted && at != last.end() && entry.time < at->second) {
       std::erase_if(kept, [&](const Entry& other) {
@@ -188,10 +245,11 @@ void leave_later_runs(std::vector<Entry>& entries, std::vector<std::string>& not
     } else if (again) {
       continue;
     }
-    last[part_of(entry)] = entry.time;
+    last[part] = entry.time;
     kept.push_back(std::move(entry));
   }
   entries.swap(kept);
+  leave_last_files(entries, runs, notes);
   if (replaced.empty()) return;
   notes.push_back("the index goes on after a restart: " + counted(replaced.size(), "time") + " from " +
                   short_number(*replaced.begin()) + " to " + short_number(*replaced.rbegin()) +
@@ -201,7 +259,7 @@ void leave_later_runs(std::vector<Entry>& entries, std::vector<std::string>& not
 }  // namespace
 
 std::vector<FileStep> read_index(const std::filesystem::path& file, Format format,
-                                 std::vector<std::string>& notes) {
+                                 std::vector<std::string>& notes, const SameGrid& same_grid) {
   if (format == Format::kVtkMultiBlock) {
     FileStep step;
     add_blocks(file, 0, step.pieces);
@@ -218,9 +276,13 @@ std::vector<FileStep> read_index(const std::filesystem::path& file, Format forma
   const MappedFile mapped(file.string());
   const bool json = mapped.text().find_first_not_of(" \t\r\n") != std::string_view::npos &&
                     mapped.text()[mapped.text().find_first_not_of(" \t\r\n")] == '{';
-  std::map<double, FileStep> steps;
   std::vector<Entry> entries = json ? read_series(file, mapped.text()) : read_pvd(file, mapped.text());
-  if (!json) leave_later_runs(entries, notes);
+  std::vector<double> times;
+  for (const Entry& entry : entries) times.push_back(entry.time);
+  times = joined_times(std::move(times));
+  for (std::size_t e = 0; e < entries.size(); ++e) entries[e].time = times[e];
+  leave_later_runs(entries, file.parent_path(), same_grid, notes);
+  std::map<double, FileStep> steps;
   for (const Entry& entry : entries) {
     if (entry.file.empty()) throw input_error({file.string(), "", "has an entry without a file"});
     FileStep& step = steps[entry.time];
@@ -257,33 +319,6 @@ void leave_out_missing(std::vector<FileStep>& steps, std::vector<std::string>& n
                        missing.empty() ? "no file is left" : "is missing, and so is every other file"});
   }
   if (emptied > 0) notes.push_back(counted(emptied, "time step") + " without a file left out");
-}
-
-std::vector<FileStep> arrange_files(const std::vector<std::filesystem::path>& files, std::string& note) {
-  std::vector<std::pair<double, std::filesystem::path>> numbered;
-  const NumberedName first = split_name(files.front());
-  std::set<double> numbers;
-  bool series = !first.digits.empty() && !counts_parts(first.before);
-  for (const auto& file : files) {
-    const NumberedName name = split_name(file);
-    series = series && name.before == first.before && name.after == first.after;
-    const double number = number_of(name.digits).value_or(0.0);
-    series = series && numbers.insert(number).second;
-    numbered.emplace_back(number, file);
-  }
-  const std::string count = std::to_string(files.size()) + " files";
-  if (series) {
-    note = count + " taken as a time series: their names differ in one number only";
-    std::sort(numbered.begin(), numbered.end());
-    std::vector<FileStep> steps;
-    steps.reserve(numbered.size());
-    for (const auto& [number, file] : numbered) steps.push_back({number, {{file, ""}}});
-    return steps;
-  }
-  note = count + " taken as blocks of one state";
-  FileStep step;
-  for (const auto& file : files) step.pieces.push_back({file, file.stem().string()});
-  return {step};
 }
 
 }  // namespace palpate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -68,6 +69,9 @@ class Walk {
 
   [[nodiscard]] bool ambiguous() const noexcept { return ambiguous_; }
 
+  /// What the field data states, as far as the walk came.
+  [[nodiscard]] std::optional<double> time() const noexcept { return time_; }
+
   void run() {
     for (int i = 0; i < 2; ++i) (void)line();  // version and title
     const std::string encoding = upper(word());
@@ -124,6 +128,7 @@ class Walk {
       values(count(), "int");
     } else if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
       tuples_ = count();
+      mesh_data_ = false;
     } else if (keyword == "SCALARS") {
       (void)word();
       const std::string type(word());
@@ -167,7 +172,13 @@ class Walk {
         section_place_ = place();
         const std::uint64_t components = count();
         const std::uint64_t tuples = count();
-        values(times(components, tuples), word());
+        const std::string type(word());
+        const std::size_t start = at_;
+        values(times(components, tuples), type);
+        if (mesh_data_ && components == 1 && tuples == 1 &&
+            (upper(name) == "TIME" || upper(name) == "TIMEVALUE"))
+          time_ = binary_ ? big_endian_number(upper(type))
+                          : palpate::number(trimmed(text_.substr(start, at_ - start)));
       }
     } else if (keyword == "METADATA") {
       skip_metadata();
@@ -217,6 +228,17 @@ class Walk {
     }
     at_ = end;
     lines_ = end_line;
+  }
+
+  /// The number that ends here.
+  [[nodiscard]] std::optional<double> big_endian_number(const std::string& type) const {
+    const std::size_t size = bits_of(type).value_or(0) / 8;
+    std::uint64_t bits = 0;
+    for (std::size_t i = at_ - size; i < at_; ++i) bits = bits << 8U | static_cast<unsigned char>(text_[i]);
+    if (type == "DOUBLE") return std::bit_cast<double>(bits);
+    if (type == "FLOAT") return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+    if (type == "INT") return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    return std::nullopt;
   }
 
   std::uint64_t big_endian_integer() {
@@ -370,10 +392,23 @@ class Walk {
   std::string keyword_;
   std::string section_place_;  ///< where the keyword stands
   std::vector<LegacyWord> not_finite_;
+  bool mesh_data_ = true;  ///< neither of points nor of cells
+  std::optional<double> time_;
   bool ambiguous_ = false;  ///< a stand-in is a value of the file
 };
 
 }  // namespace
+
+std::optional<double> legacy_time(std::string_view text) {
+  Walk walk(text);
+  try {
+    walk.run();
+  } catch (const Impossible&) {
+  } catch (const Stop&) {
+  }
+  const std::optional<double> time = walk.time();
+  return time && std::isfinite(*time) ? time : std::nullopt;
+}
 
 LegacyScan scan_legacy(std::string_view text) {
   LegacyScan scan;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,10 @@ struct LegacyScan {
 /// Walks through the legacy file `text`. Sections that the walk knows of but does not understand end it
 /// without complaint: VTK judges them.
 [[nodiscard]] LegacyScan scan_legacy(std::string_view text);
+
+/// The time that the field data of a legacy file states: TIME, as VisIt writes it, or TimeValue. `text` may be its
+/// beginning alone.
+[[nodiscard]] std::optional<double> legacy_time(std::string_view text);
 
 /// `text` with the stand-ins of `words`.
 [[nodiscard]] std::string with_stand_ins(std::string_view text, const std::vector<LegacyWord>& words);

@@ -16,11 +16,15 @@
 #include <vtkVariant.h>
 
 #include "common/base/error.h"
+#include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/vtk/file_index.h"
+#include "loaders/vtk/file_names.h"
+#include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/legacy_file.h"
+#include "loaders/vtk/parallel_index.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/xml_file.h"
 
@@ -164,11 +168,12 @@ class VtkFiles : public Loader {
     const bool index = format == Format::kVtkMultiBlock || format == Format::kVtkParallel ||
                        format == Format::kParaviewSeries;
     if (request.files.size() > 1) {
-      std::string note;
-      steps_ = arrange_files(request.files, note);
-      notes.push_back(note);
+      std::vector<std::optional<double>> stated;
+      for (const auto& file : request.files) stated.push_back(stated_time(file, format));
+      steps_ = arrange_files(request.files, stated, notes);
     } else if (index) {
-      steps_ = read_index(request.files.front(), format, notes);
+      steps_ = read_index(request.files.front(), format, notes,
+                          [this](const auto& a, const auto& b) { return same_grid(a, b); });
     } else {
       steps_ = {{0.0, {{request.files.front(), ""}}}};
     }
@@ -196,12 +201,57 @@ class VtkFiles : public Loader {
       const Format inner = find_format(piece.file);
       if (inner == Format::kVtkXml || inner == Format::kLegacyVtk) return {piece};
       if (inner == Format::kVtkMultiBlock || inner == Format::kVtkParallel)
-        return read_index(piece.file, inner, notes).front().pieces;
+        return read_index(piece.file, inner, notes, {}).front().pieces;
       throw input_error({piece.file.string(), "", "is " + std::string(row_of(inner).name), "a VTK file"});
     } catch (const Error& error) {
       if (!tolerant) throw;
       notes.push_back(std::string(error.what()) + ": left out");
       return {};
+    }
+  }
+
+  /// The time in the file's own field data; of an index without one, that of its first piece.
+  std::optional<double> stated_time(const std::filesystem::path& file, Format format) {
+    constexpr std::size_t kLook = std::size_t{4} << 20U;
+    if (format == Format::kLegacyVtk) return legacy_time(MappedFile(file.string()).text().substr(0, kLook));
+    if (const auto time = xml_time(file.string(), errors_)) return time;
+    if (format != Format::kVtkMultiBlock && format != Format::kVtkParallel) return std::nullopt;
+    try {
+      std::vector<std::string> notes;
+      if (format == Format::kVtkParallel && read_parallel_index(file.string()).structured())
+        return std::nullopt;
+      const auto pieces = read_index(file, format, notes, {}).front().pieces;
+      return pieces.empty() ? std::nullopt
+                            : stated_time(pieces.front().file, find_format(pieces.front().file));
+    } catch (const Error&) {
+      return std::nullopt;  // what is wrong shows when it is read
+    }
+  }
+
+  /// Boxes are alike up to this part of their diagonal.
+  static constexpr double kSameBox = 1e-6;
+
+  bool same_grid(const std::filesystem::path& first, const std::filesystem::path& second) {
+    const auto blocks_of = [this](const std::filesystem::path& file) {
+      FileInfo info;
+      std::string why;
+      for (const FilePiece& piece : parts_of({file, ""}, false, info.notes)) describe(piece, info, why);
+      return info.blocks;
+    };
+    try {
+      const std::vector<BlockInfo> a = blocks_of(first), b = blocks_of(second);
+      return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const BlockInfo& p, const BlockInfo& q) {
+        const double near = kSameBox * glm::length(p.bounds.upper - p.bounds.lower);
+        return p.point_count == q.point_count && p.cell_count == q.cell_count &&
+               glm::length(p.bounds.lower - q.bounds.lower) <= near &&
+               glm::length(p.bounds.upper - q.bounds.upper) <= near &&
+               std::equal(p.arrays.begin(), p.arrays.end(), q.arrays.begin(), q.arrays.end(),
+                          [](const ArrayInfo& x, const ArrayInfo& y) {
+                            return x.name == y.name && x.association == y.association;
+                          });
+      });
+    } catch (const Error&) {
+      return false;
     }
   }
 

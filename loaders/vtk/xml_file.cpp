@@ -1,8 +1,13 @@
 #include "loaders/vtk/xml_file.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
+#include <vtkInformation.h>
 #include <vtkSmartPointer.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPImageDataReader.h>
 #include <vtkXMLPRectilinearGridReader.h>
@@ -15,6 +20,7 @@
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"
 
@@ -61,14 +67,19 @@ XmlFile::XmlFile(const std::string& file, VtkErrors& errors)
   reader_->vtk = make_reader(scan_.data_type);
   if (reader_->vtk == nullptr)
     throw input_error({file_, "", "is of type '" + scan_.data_type.substr(0, 40) + "', which is not read"});
-  if (scan_.empty_pieces.empty()) {
+  // Each is replaced by a blank.
+  std::vector<std::pair<std::size_t, std::size_t>> cuts = scan_.empty_pieces;
+  for (const std::size_t at : scan_.ends_in_letter) cuts.emplace_back(at, at);
+  if (cuts.empty()) {
     reader_->vtk->SetFileName(file_.c_str());
   } else {
     const MappedFile mapped(file_);
     std::string rest;
     std::size_t from = 0;
-    for (const auto& [first, last] : scan_.empty_pieces) {
-      rest += mapped.text().substr(from, first - from);
+    std::sort(cuts.begin(), cuts.end());
+    for (const auto& [first, last] : cuts) {
+      if (first < from) continue;
+      rest.append(mapped.text().substr(from, first - from)).append(" ");
       from = last;
     }
     rest += mapped.text().substr(from);
@@ -90,6 +101,39 @@ vtkDataSet* XmlFile::read(const std::set<std::string>& arrays) {
   if (data == nullptr)
     throw input_error({file_, "", "VTK's reader returned nothing", "", "the file may be damaged"});
   return data;
+}
+
+std::optional<double> XmlFile::time() const {
+  vtkInformation* const about = reader_->vtk->GetOutputInformation(0);
+  auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
+  if (about->Has(steps) == 0 || about->Length(steps) != 1) return std::nullopt;
+  const double time = about->Get(steps, 0);
+  return std::isfinite(time) ? std::optional(time) : std::nullopt;
+}
+
+std::optional<double> xml_time(const std::string& file, VtkErrors& errors) {
+  constexpr std::size_t kLook = std::size_t{4} << 20U;
+  const MappedFile mapped(file);
+  const std::string_view text = mapped.text().substr(0, kLook);
+  XmlTags tags(text);
+  XmlTag tag;
+  std::string type;
+  while (tags.next(tag) && tag.name != "AppendedData") {
+    if (tag.name == "VTKFile" && tag.opens) type = tag.at("type");
+    if (tag.name != "DataArray" || !tag.opens || tag.at("Name") != "TimeValue") continue;
+    if (tag.at("format") == "ascii") {
+      const std::string_view behind = text.substr(tags.position());
+      const auto time = number(behind.substr(0, behind.find('<')));
+      return time && std::isfinite(*time) ? time : std::nullopt;
+    }
+    if (make_reader(type) == nullptr) return std::nullopt;
+    try {
+      return XmlFile(file, errors).time();
+    } catch (const Error&) {
+      return std::nullopt;  // what is wrong shows when it is read
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace palpate

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -25,6 +26,9 @@ class XmlFile {
   /// @throws Error (bad input).
   vtkDataSet* read(const std::set<std::string>& arrays);
 
+  /// The time that its field data TimeValue states.
+  [[nodiscard]] std::optional<double> time() const;
+
   [[nodiscard]] const XmlScan& scan() const noexcept { return scan_; }
 
  private:
@@ -34,5 +38,9 @@ class XmlFile {
   XmlScan scan_;
   std::unique_ptr<Reader> reader_;
 };
+
+/// The time that the field data TimeValue of the XML file states, an index of pieces included, if that stands in
+/// the first 4 MB; none also where the file cannot be read.
+[[nodiscard]] std::optional<double> xml_time(const std::string& file, VtkErrors& errors);
 
 }  // namespace palpate

@@ -363,6 +363,11 @@ void scan(std::string_view text, XmlScan& result) {
       context.faces = {};
       if (!tag.closes) context.section = tag.name;
     } else if (tag.name == "DataArray") {
+      if (const std::size_t end = text.find('<', tags.position());
+          !tag.closes && tag.at("format") == "ascii" && is_xml_number(tag.at("type")) &&
+          end != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text[end - 1])) != 0) {
+        result.ends_in_letter.push_back(end);
+      }
       check_array(tag, tag.closes ? std::string_view() : text.substr(tags.position()), context);
       const bool on_points = context.section == "PointData";
       if (context.pieces > 0 && (on_points || context.section == "CellData")) {
