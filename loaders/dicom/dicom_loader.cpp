@@ -135,14 +135,31 @@ bool is_copy(const DicomFrame& a, const DicomFrame& b) {
   return pixels_of(first, a) == pixels_of(second, b);
 }
 
-/// Of all files, those that are copies of others left out.
-std::vector<DicomFrame> frames_of(const std::vector<std::string>& files, std::vector<std::string>& notes) {
+/// Adds a sentence of what is not there.
+void add_lost(const std::string& sentence, std::vector<std::string>& notes, std::string& lost) {
+  notes.push_back(sentence);
+  lost += (lost.empty() ? "" : "; ") + sentence;
+}
+
+/// Of all files, those left out that are copies of others, or cannot be read: these cost themselves and a word in
+/// `lost`, but for the one that is `named`, and where most are of that kind.
+std::vector<DicomFrame> frames_of(const std::vector<std::string>& files, const std::string& named,
+                                  std::vector<std::string>& notes, std::string& lost) {
   std::vector<DicomFrame> frames;
+  std::string refused;
+  std::size_t refused_count = 0;
   std::multimap<std::string, std::size_t> known;  // the first frame of each file by its name
   std::size_t copies = 0;
   std::string copy;
   for (const std::string& file : files) {
-    const std::vector<DicomFrame> of_file = read_dicom_frames(file);
+    std::vector<DicomFrame> of_file;
+    try {
+      of_file = read_dicom_frames(file);
+    } catch (const Error& error) {
+      if (file == named) throw;
+      if (refused_count++ == 0) refused = error.what();
+      continue;
+    }
     const DicomFrame& first = of_file.front();
     const auto [from, to] = known.equal_range(first.image);
     const auto original = first.image.empty() ? to : std::find_if(from, to, [&](const auto& one) {
@@ -155,10 +172,51 @@ std::vector<DicomFrame> frames_of(const std::vector<std::string>& files, std::ve
     known.emplace(first.image, frames.size());
     frames.insert(frames.end(), of_file.begin(), of_file.end());
   }
+  if (refused_count > 0 && refused_count >= known.size()) throw Error(ExitCode::kBadInput, refused);
+  if (refused_count > 0)
+    add_lost(counted(refused_count, "file") + " of the series left out: " + refused +
+                 (refused_count > 1 ? ", …" : ""),
+             notes, lost);
   if (copies > 0)
     notes.push_back(counted(copies, "file") + " of images that are there twice left out: " + copy +
                     (copies > 1 ? ", …" : ""));
   return frames;
+}
+
+/// The volume of all frames. Where images of one frame and files of several make none together, that of the kind
+/// with the most frames, or of the one that is `named`.
+DicomSeries sort_frames(std::vector<DicomFrame> frames, const std::string& named, bool allow_gaps,
+                        std::vector<std::string>& notes, std::string& lost) {
+  std::map<std::string, std::vector<DicomFrame>> kinds;  // by the file of several frames, "" for all others
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const bool several = frames[i].number > 0 || (i + 1 < frames.size() && frames[i + 1].number > 0 &&
+                                                  frames[i + 1].file == frames[i].file);
+    kinds[several ? frames[i].file : std::string()].push_back(frames[i]);
+  }
+  std::string problem;
+  try {
+    return sort_dicom_series(std::move(frames), allow_gaps);
+  } catch (const Error& error) {
+    if (kinds.size() < 2) throw;
+    problem = error.what();
+  }
+  auto kept = std::max_element(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  });
+  if (!named.empty()) kept = kinds.contains(named) ? kinds.find(named) : kinds.find("");
+  if (kept == kinds.end()) throw Error(ExitCode::kBadInput, problem);
+  std::string names;
+  std::size_t left_out = 0;
+  for (const auto& [file, of_file] : kinds) {
+    if (file == kept->first) continue;
+    left_out += file.empty() ? of_file.size() : 1;
+    names += (names.empty() ? "" : ", ") + (file.empty() ? of_file.front().file : file);
+  }
+  DicomSeries series = sort_dicom_series(kept->second, allow_gaps);
+  add_lost(counted(left_out, "file") + " that " + (left_out == 1 ? "makes" : "make") +
+               " no volume with the others left out (" + names + "): " + problem,
+           notes, lost);
+  return series;
 }
 
 class DicomLoader : public Loader {
@@ -176,8 +234,13 @@ class DicomLoader : public Loader {
     FileInfo info;
     std::string title, lost;
     const std::vector<std::string> files = choose_files(request, title, info.notes, lost);
+    std::error_code ignored;
+    const bool one =
+        request.files.size() == 1 && !std::filesystem::is_directory(request.files.front(), ignored);
+    const std::string named = one ? request.files.front().string() : std::string();
     try {
-      series_ = sort_dicom_series(frames_of(files, info.notes), request.allow_gaps);
+      series_ =
+          sort_frames(frames_of(files, named, info.notes, lost), named, request.allow_gaps, info.notes, lost);
     } catch (const Error& error) {
       // What is missing may be what is damaged.
       if (lost.empty()) throw;

@@ -293,6 +293,59 @@ TEST_F(DicomTest, ALocalizerInASeriesIsLeftOutAndNamed) {
   EXPECT_NE(notes.find("scout (of another orientation)"), std::string::npos) << notes;
 }
 
+// Files of several frames beside images of one each, of the same series: without places, of another size, and of
+// the same one, at two of its four places.
+TEST_F(DicomTest, AFileOfSeveralFramesCostsThatFileAndAWord) {
+  DicomImage placeless = slice(0);
+  placeless.more_of_28 = dicom_element(0x0028, 0x0008, "IS", "5");
+  placeless.instance = 50;
+  const std::vector<std::uint16_t> once = placeless.pixels;
+  for (int f = 1; f < 5; ++f) placeless.pixels.insert(placeless.pixels.end(), once.begin(), once.end());
+  std::vector<DicomImage> others, same;
+  for (int k = 0; k < 9; ++k) {
+    others.push_back(slice(k));
+    others.back().along_row = {1, 0, 0};
+    others.back().along_column = {0, 1, 0};
+    if (k < 2) same.push_back(slice(k));
+  }
+  const std::vector<int> times(9, 1);
+  for (const std::string& sibling :
+       {placeless.bytes(), enhanced_dicom(others, times), enhanced_dicom(same, times)}) {
+    const TempFolder folder;
+    for (int k = 0; k < 4; ++k) {
+      DicomImage image = slice(k);
+      image.instance = 10 + k;
+      folder.write("im" + std::to_string(k), image.bytes());
+    }
+    const bool readable = sibling != placeless.bytes();
+    const auto named = folder.write("several", sibling);
+    if (sibling == enhanced_dicom(others, times)) {
+      // It has the most frames, and is what the series is; an image that is named is of the others.
+      EXPECT_EQ(open(folder.path()).info().blocks.front().points.z, 9);
+      expect_truth(open(folder.path("im1")).read({"scalars"}).front());
+      continue;
+    }
+    for (const auto& path : {folder.path(), folder.path("im1")}) {
+      Source source = open(path);
+      EXPECT_EQ(source.info().blocks.front().points, Index3(4, 3, 4));
+      expect_truth(source.read({"scalars"}).front());
+      std::string notes;
+      for (const std::string& note : source.info().notes) notes += note + "\n";
+      EXPECT_NE(notes.find("1 file"), std::string::npos) << notes;
+      EXPECT_NE(notes.find("several"), std::string::npos) << notes;
+    }
+    if (readable) {
+      EXPECT_EQ(open(named).info().blocks.front().points, Index3(4, 3, 2));
+    } else {
+      EXPECT_NE(refusal(named).find("5 frames"), std::string::npos);
+    }
+  }
+  // Where nothing else is there the reason is the answer.
+  const TempFolder alone;
+  alone.write("a", placeless.bytes());
+  EXPECT_NE(refusal(alone.path()).find("5 frames"), std::string::npos);
+}
+
 TEST_F(DicomTest, ADamagedSliceInTheMiddleIsNamedWhereItIsMissed) {
   for (int k = 0; k < 5; ++k) {
     const std::string bytes = slice(k).bytes();
