@@ -32,7 +32,7 @@ std::optional<Vec3> ras_signs(int space) {
 bool has_direction(const NrrdAxisInfo& axis) { return !std::isnan(axis.spaceDirection[0]); }
 
 bool has_directions(const Nrrd& nrrd) {
-  return nrrd.spaceDim >= 3 && std::any_of(nrrd.axis, nrrd.axis + nrrd.dim, has_direction);
+  return nrrd.spaceDim >= 2 && std::any_of(nrrd.axis, nrrd.axis + nrrd.dim, has_direction);
 }
 
 /// Whether an axis runs along the fourth direction of space alone.
@@ -120,16 +120,21 @@ NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string&
     }
     spatial = space;
   }
+  if (spatial.size() == 2) {
+    spatial.push_back(kNoNrrdAxis);
+    axes.notes.emplace_back("two axes of space: a single slice");
+  }
   if (spatial.size() != 3 || others.size() > 1) {
     throw input_error(
         {file, "",
          "has " + std::to_string(nrrd.dim) + " axes, " + std::to_string(spatial.size()) + " of them spatial",
-         "three spatial axes, and one more at most for components and one for time"});
+         "three spatial axes, two of a single slice, and one more at most for components and one for time"});
   }
   if (!others.empty()) axes.components = others.front();
   if (as_components && axes.time && !axes.components) std::swap(axes.time, axes.components);
   std::copy(spatial.begin(), spatial.end(), axes.space.begin());
   for (const unsigned a : axes.space) {
+    if (a == kNoNrrdAxis) continue;
     const NrrdAxisInfo& axis = nrrd.axis[a];
     if (axis.size > (std::size_t{1} << 30))
       throw input_error({file, "", "has too many samples along axis " + std::to_string(a)});
@@ -148,22 +153,31 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
   const std::optional<Vec3> signs = ras_signs(nrrd.space);
   place.signs = signs.value_or(Vec3{1.0});
   const bool directed = has_directions(nrrd);
-  const bool placed = nrrd.spaceDim >= 3 && !std::isnan(nrrd.spaceOrigin[0]);
+  const bool placed = nrrd.spaceDim >= 2 && !std::isnan(nrrd.spaceOrigin[0]);
+  const int known = nrrd.spaceDim == 2 ? 2 : 3;  // coordinates
   Vec3 origin{0.0};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<int>(i);
+    if (placed && a < known) origin[a] = nrrd.spaceOrigin[i];
+    if (axes.space[i] == kNoNrrdAxis) {
+      // Across the slice, as thick as its pixels are wide.
+      const double area = glm::length(glm::cross(topology.axes[0], topology.axes[1]));
+      topology.points[a] = 1;
+      topology.axes[a] = glm::cross(topology.axes[0], topology.axes[1]) / std::sqrt(area);
+      continue;
+    }
     const NrrdAxisInfo& axis = nrrd.axis[axes.space[i]];
     topology.points[a] = static_cast<int>(axis.size);
     topology.axes[a] = Vec3{0.0};
     if (directed) {
-      for (int row = 0; row < 3; ++row) topology.axes[a][row] = place.signs[row] * axis.spaceDirection[row];
+      for (int row = 0; row < known; ++row)
+        topology.axes[a][row] = place.signs[row] * axis.spaceDirection[row];
     } else {
       const double spacing = spacing_of(axis);
       topology.axes[a][a] = place.signs[a] * (std::isnan(spacing) ? 1.0 : spacing);
       const double first = first_of(axis, std::isnan(spacing) ? 1.0 : spacing);
-      if (!std::isnan(first)) origin[a] = first;
+      if (!placed && !std::isnan(first)) origin[a] = first;
     }
-    if (placed) origin[a] = nrrd.spaceOrigin[i];
   }
   topology.origin = place.signs * origin;
   const double volume = std::abs(glm::determinant(topology.axes));

@@ -12,7 +12,10 @@
 
 namespace palpate {
 
-/// How the axes are used: three for space, one for the components of a tuple, or none, and one for time, or none.
+/// In place of the third axis of space of a single slice.
+inline constexpr unsigned kNoNrrdAxis = ~0U;
+
+/// How the axes are used: three for space (two of a single slice), one for the components of a tuple, or none, and one for time, or none.
 struct NrrdAxes {
   std::optional<unsigned> components, time;
   std::array<unsigned, 3> space{};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +13,9 @@
 #include <utility>
 
 #include <zlib.h>
+#ifdef PALPATE_WITH_BZIP2
+#include <bzlib.h>
+#endif
 
 #include "common/base/error.h"
 #include "common/base/mapped_file.h"
@@ -262,6 +266,51 @@ std::string raw_rest(const std::string& name, std::uint64_t first, const NrrdCla
          (claims.skips ? "" : ": if they belong before them, state a byte skip");
 }
 
+std::string behind_voxels(std::uint64_t bytes) {
+  return counted(bytes, "byte") + " behind the voxels left unread";
+}
+
+/// The same of data whose bytes are two digits each; what is no digit counts for nothing.
+std::string hex_rest(const std::string& name, std::uint64_t first, const NrrdClaims& claims,
+                     std::uint64_t wanted) {
+  const MappedFile mapped(name);
+  const std::string_view data =
+      after_skips(mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first)), claims);
+  const auto digits = static_cast<std::uint64_t>(
+      std::ranges::count_if(data, [](unsigned char c) { return std::isxdigit(c) != 0; }));
+  return digits / 2 > wanted ? behind_voxels(digits / 2 - wanted) : std::string();
+}
+
+/// The same of bzip2 data, of which a little more than `wanted` is unpacked at most.
+std::string bzip2_rest(const std::string& name, std::uint64_t first, std::uint64_t wanted) {
+#ifdef PALPATE_WITH_BZIP2
+  const MappedFile mapped(name);
+  std::string_view data = mapped.text().substr(std::min<std::uint64_t>(mapped.text().size(), first));
+  bz_stream stream{};
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return {};
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  std::vector<char> out(kPiece);
+  std::uint64_t unpacked = 0;
+  int state = BZ_OK;
+  while (state == BZ_OK && unpacked <= wanted && !(data.empty() && stream.avail_in == 0)) {
+    if (stream.avail_in == 0) {
+      stream.next_in = const_cast<char*>(data.data());
+      stream.avail_in = static_cast<unsigned>(std::min(data.size(), kPiece));
+      data.remove_prefix(stream.avail_in);
+    }
+    stream.next_out = out.data();
+    stream.avail_out = static_cast<unsigned>(kPiece);
+    state = BZ2_bzDecompress(&stream);
+    unpacked += kPiece - stream.avail_out;
+  }
+  BZ2_bzDecompressEnd(&stream);
+  return unpacked > wanted ? "the bzip2 data hold more than the voxels, which is left unread" : std::string();
+#else
+  (void)name, (void)first, (void)wanted;
+  return "what stands behind the voxels in bzip2 data was not looked at";
+#endif
+}
+
 /// Text in one file or several. @throws Error (bad input) where Teem would take its words for other numbers.
 void check_text(const std::string& file, const NrrdClaims& claims, const std::vector<std::string>& names,
                 std::uint64_t wanted) {
@@ -330,6 +379,15 @@ std::string check_nrrd(const std::string& file) {
                         : std::filesystem::path(file);
     return raw_rest(data.string(), claims.detached ? 0 : claims.header_bytes, claims, wanted);
   }
+  const std::string only =
+      !claims.detached ? file
+      : claims.data_files.size() == 1
+          ? (std::filesystem::path(file).parent_path() / claims.data_files.front()).string()
+          : std::string();
+  const std::uint64_t first = claims.detached ? 0 : claims.header_bytes;
+  if (encoding == "hex" && !only.empty() && !claims.from_end) return hex_rest(only, first, claims, wanted);
+  if ((encoding == "bz2" || encoding == "bzip2") && !only.empty() && !claims.skips)
+    return bzip2_rest(only, first, wanted);
   const bool gzip = claims.encoding == "gz" || claims.encoding == "gzip";
   if (!gzip || claims.skips || claims.data_files.size() > 1) return {};
   if (!claims.detached) return gzip_rest(file, claims.header_bytes, wanted);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -129,7 +130,9 @@ std::string units_of(const Nrrd& nrrd, const NrrdAxes& axes) {
   const auto text = [](const char* units) { return std::string(units != nullptr ? units : ""); };
   std::array<std::string, 3> lengths;
   for (std::size_t i = 0; i < 3; ++i)
-    lengths[i] = nrrd.spaceDim >= 3 ? text(nrrd.spaceUnits[i]) : text(nrrd.axis[axes.space[i]].units);
+    lengths[i] = axes.space[i] == kNoNrrdAxis ? lengths[0]
+                 : nrrd.spaceDim >= 2         ? text(nrrd.spaceUnits[i])
+                                              : text(nrrd.axis[axes.space[i]].units);
   std::string units;
   if (lengths[0] == lengths[1] && lengths[1] == lengths[2]) {
     if (!lengths[0].empty()) units = "coordinates in " + lengths[0];
@@ -206,7 +209,7 @@ class NrrdLoader : public Loader {
     stored_components_ = array_.components = 1;
     array_.name = "scalars";
     array_.tuples = 1;
-    for (const unsigned axis : axes_.space) array_.tuples *= nrrd.axis[axis].size;
+    for (const unsigned axis : axes_.space) array_.tuples *= axis == kNoNrrdAxis ? 1 : nrrd.axis[axis].size;
     turn_ = Mat3{1.0};
     turned_ = false;
     kind_ = TupleKind::kNumbers;
@@ -313,7 +316,8 @@ class NrrdLoader : public Loader {
     NrrdPtr nrrd = load_values(file_, shape_);
     std::vector<unsigned> order;
     if (axes_.components) order.push_back(*axes_.components);
-    order.insert(order.end(), axes_.space.begin(), axes_.space.end());
+    std::ranges::copy_if(axes_.space, std::back_inserter(order),
+                         [](unsigned axis) { return axis != kNoNrrdAxis; });
     if (axes_.time) order.push_back(*axes_.time);
     if (!std::is_sorted(order.begin(), order.end())) {
       NrrdPtr permuted(nrrdNew(), nrrdNuke);

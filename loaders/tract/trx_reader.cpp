@@ -48,7 +48,11 @@ struct NumberType {
   std::size_t size;
   double (*read)(std::string_view bytes, std::size_t at);
 };
-constexpr std::array<NumberType, 11> kTypes{{{"int8", 1, plain<std::int8_t>},
+/// Truth is a byte each, as NumPy has it.
+double truth(std::string_view bytes, std::size_t at) { return bytes[at] != '\0' ? 1.0 : 0.0; }
+
+constexpr std::array<NumberType, 12> kTypes{{{"bit", 1, truth},
+                                             {"int8", 1, plain<std::int8_t>},
                                              {"uint8", 1, plain<std::uint8_t>},
                                              {"int16", 2, plain<std::int16_t>},
                                              {"uint16", 2, plain<std::uint16_t>},

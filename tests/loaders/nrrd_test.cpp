@@ -120,6 +120,70 @@ TEST(Nrrd, SaysWhatItsGzipDataHoldsBeyondTheHeader) {
   }
 }
 
+// Eight bytes where the header says eight, and ten.
+TEST(Nrrd, SaysWhatHexAndBzip2DataHoldBeyondTheHeader) {
+  const test::TempFolder folder;
+  const std::string head = "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 2 2 2\n";
+  const std::string whole(
+      "\102\132\150\071\061\101\131\046\123\131\353\364\162\047\000\000\000\100\000\077\300\040\000\061\014\010\031\032\151\223\065\163\371\105\334\221\116\024\044\072\375\034\211\300",
+      44);
+  const std::string more(
+      "\102\132\150\071\061\101\131\046\123\131\173\302\332\174\000\000\000\100\000\077\360\040\000\042\001\246\230\100\014\025\136\150\343\351\213\271\042\234\050\110\075\341\155\076\000",
+      45);
+  const auto notes_of = [&](const std::string& name, const std::string& content) {
+    const auto file = folder.write(name, content);
+    const auto values = read_all(file).front().arrays.front();
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(values.at(i), static_cast<double>(i + 1)) << name;
+    std::string notes;
+    const Source source = Source::open({{file}, {}});
+    for (const std::string& note : source.info().notes) notes += note + "\n";
+    return notes;
+  };
+  EXPECT_EQ(notes_of("a.nrrd", head + "encoding: hex\n\n0102 0304\n05060708\n").find("behind"),
+            std::string::npos);
+  EXPECT_NE(notes_of("b.nrrd", head + "encoding: hex\n\n0102 0304\n05060708 090a\n")
+                .find("2 bytes behind the voxels"),
+            std::string::npos);
+  // Without bzip2's library it is said that nobody looked.
+  EXPECT_EQ(notes_of("a.bz2.nrrd", head + "encoding: bzip2\n\n" + whole).find("more than"),
+            std::string::npos);
+  EXPECT_NE(notes_of("b.bz2.nrrd", head + "encoding: bzip2\n\n" + more).find("bzip2 data"),
+            std::string::npos);
+  folder.write("more.bz2", more);
+  EXPECT_NE(notes_of("c.nhdr", head + "encoding: bz2\ndata file: more.bz2\n").find("bzip2 data"),
+            std::string::npos);
+}
+
+// Two axes of space with components before or behind them, along any directions.
+TEST(Nrrd, ASliceOfTwoAxesIsASlice) {
+  const test::TempFolder folder;
+  const std::string values = raw(counting(24));
+  const auto check = [&](const std::string& head, int components) {
+    const auto file = folder.write(
+        "a.nrrd", "NRRD0004\ntype: float\n" + head + "endian: little\nencoding: raw\n\n" + values);
+    const DataSet block = read_all(file).front();
+    const auto topology = std::get<UniformTopology>(block.topology);
+    EXPECT_EQ(topology.points, Index3(components == 1 ? 4 : 2, components == 1 ? 6 : 3, 1)) << head;
+    EXPECT_EQ(block.arrays.front().components, components);
+    EXPECT_LT(std::abs(glm::dot(topology.axes[2], topology.axes[0])), 1e-12);
+    EXPECT_GT(glm::determinant(topology.axes), 0.0);
+    return topology;
+  };
+  const UniformTopology plain = check("dimension: 2\nsizes: 4 6\nspacings: 2 3\n", 1);
+  EXPECT_EQ(plain.axes[1], Vec3(0, 3, 0));
+  (void)check("dimension: 3\nsizes: 4 2 3\nkinds: list domain domain\n", 4);
+  const UniformTopology placed = check(
+      "dimension: 3\nspace: left-posterior-superior\nsizes: 4 2 3\nkinds: list space space\n"
+      "space directions: none (0,2,0) (0,0,3)\nspace origin: (7,8,9)\n",
+      4);
+  EXPECT_EQ(placed.origin, Vec3(-7, -8, 9));
+  EXPECT_EQ(placed.axes[0], Vec3(0, -2, 0));
+  const UniformTopology flat = check(
+      "dimension: 2\nspace dimension: 2\nsizes: 4 6\nspace directions: (2,0) (0,3)\nspace origin: (5,6)\n",
+      1);
+  EXPECT_EQ(flat.origin, Vec3(5, 6, 0));
+}
+
 TEST(Nrrd, SpacingsAndAxisMinimaPlaceTheSamples) {
   const test::TempFolder folder;
   const auto file = folder.write(

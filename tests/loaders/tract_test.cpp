@@ -349,6 +349,27 @@ TEST(ReadTractogram, TurnsVtkTractsThatStateLps) {
   first("plain.vtp", vtp(""), false);
 }
 
+// Truth of points, of lines and of groups: a byte each.
+TEST(ReadTractogram, ReadsTruthOfTrx) {
+  const TempFolder folder;
+  const Tractogram lines = sample_tracts();
+  auto members = trx_members(lines, true);
+  std::string inside, kept;
+  for (std::size_t p = 0; p < lines.points.size(); ++p) inside += static_cast<char>(p % 3 == 0 ? 1 : 0);
+  for (std::size_t l = 0; l < lines.line_count(); ++l) kept += static_cast<char>(l % 2);
+  members.emplace_back("dpv/inside.bit", inside);
+  members.emplace_back("dps/kept.bit", kept);
+  folder.write("bit.trx", zip(members, false));
+  const TractogramFile read = read_tractogram(folder.path("bit.trx"));
+  for (const std::string& note : read.info.notes) EXPECT_EQ(note.find("left out"), std::string::npos) << note;
+  const auto of_points = column(read.lines.of_points, "inside"),
+             of_lines = column(read.lines.of_lines, "kept");
+  ASSERT_EQ(of_points.size(), lines.points.size());
+  for (std::size_t p = 0; p < of_points.size(); ++p) EXPECT_EQ(of_points[p], p % 3 == 0 ? 1.0F : 0.0F);
+  ASSERT_EQ(of_lines.size(), lines.line_count());
+  for (std::size_t l = 0; l < of_lines.size(); ++l) EXPECT_EQ(of_lines[l], l % 2 == 1 ? 1.0F : 0.0F);
+}
+
 TEST(ReadTractogram, LeavesOutAndNamesWhatTrxDoesNotDescribe) {
   const TempFolder folder;
   const Tractogram lines = sample_tracts();
