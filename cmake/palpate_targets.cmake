@@ -29,15 +29,19 @@ function(palpate_join target)
   endforeach()
 endfunction()
 
-# palpate_helper(name SOURCES … USES …): a helper program, in lib/palpate beside bin/.
+# palpate_helper(name SOURCES … USES … COMPONENT palpate-mesh): a helper program, in lib/palpate beside bin/, and the
+# package that it is in: palpate-common, where nothing else is said.
 function(palpate_helper name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(arg "" "COMPONENT" "SOURCES;USES" ${ARGN})
+  if(NOT arg_COMPONENT)
+    set(arg_COMPONENT palpate-common)
+  endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE palpate_options ${arg_USES})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/palpate)
   # Not LIBDIR: helpers are found at ../lib/palpate from bin, installed or not.
-  install(TARGETS ${name} RUNTIME DESTINATION lib/palpate)
+  install(TARGETS ${name} RUNTIME DESTINATION lib/palpate COMPONENT ${arg_COMPONENT})
 endfunction()
 
 # palpate_app(name SOURCES main.cpp … USES … READS vectors … HELPERS …): an explorer. Building it builds what it starts
@@ -64,7 +68,22 @@ function(palpate_app name)
     endforeach()
   endif()
   # Installed as palpate-<name>: `flow` alone is too common a word for /usr/bin.
-  install(PROGRAMS $<TARGET_FILE:${name}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME palpate-${name})
+  install(PROGRAMS $<TARGET_FILE:${name}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME palpate-${name}
+          COMPONENT palpate-${name})
+  # CMake strips targets only, and these cannot be renamed.
+  install(CODE "if(CMAKE_INSTALL_DO_STRIP)
+  execute_process(COMMAND ${CMAKE_STRIP} \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}/palpate-${name})
+endif()" COMPONENT palpate-${name})
+  palpate_pages(palpate-${name} palpate-${name} $<TARGET_FILE:${name}>)
+endfunction()
+
+# palpate_pages(palpate-flow COMPONENT [program]): installs manual page and completions, which the program prints; without
+# one they lie in the folder `pages` of the build.
+function(palpate_pages name component)
+  install(CODE "set(PALPATE_NAME ${name})
+set(PALPATE_PROGRAM \"${ARGV2}\")
+set(PALPATE_PAGES \"${PROJECT_BINARY_DIR}/pages\")
+include(\"${PROJECT_SOURCE_DIR}/cmake/install_pages.cmake\")" COMPONENT ${component})
 endfunction()
 
 # palpate_test(common/ode/root_test LABELS … USES … SOURCES … DEPENDS …): tests/common/ode/root_test.cpp as one test of

@@ -12,6 +12,8 @@
 
 #include "common/base/error.h"
 #include "common/base/version.h"
+#include "common/cli/pages/option_view.h"
+#include "common/cli/pages/pages.h"
 #include "common/scene/document/setting.h"
 #include "common/scene/session.h"
 #include "common/scene/session_of.h"
@@ -20,18 +22,8 @@ namespace palpate {
 namespace {
 
 /// Options that may stand before the verb and take a value.
-constexpr std::array<std::string_view, 5> kValuedBeforeVerb{"--threads", "--seed", "--field", "--example",
-                                                            "--time"};
-
-const Verb* find_verb(const Explorer& explorer, std::string_view name) {
-  for (const Verb& verb : explorer.verbs) {
-    if (verb.name == name) return &verb;
-  }
-  return nullptr;
-}
-
-/// What `verb` takes, with what all take.
-Groups groups_of(const Verb& verb) { return verb.groups.with(Group::kCommon); }
+constexpr std::array<std::string_view, 6> kValuedBeforeVerb{
+    "--threads", "--seed", "--field", "--example", "--time", kCompletionOption.spelling};
 
 /// Whether the verb that needs no name takes files.
 bool opens_files(const Explorer& explorer) {
@@ -70,7 +62,10 @@ std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<s
   }
   const bool only_asks =
       i >= arguments.size() && std::any_of(arguments.begin(), arguments.end(), [](const auto& a) {
-        return a == "--help" || a == "-h" || a == "--version";
+        return std::ranges::any_of(kProgramOptions, [&](const ProgramOption& option) {
+          return a == option.spelling || (!option.alias.empty() && a == option.alias) ||
+                 a.starts_with(std::string(option.spelling) + "=");
+        });
       });
   if (!only_asks) arguments.insert(arguments.begin(), explorer.default_verb);
   return arguments;
@@ -84,20 +79,11 @@ class HelpText : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override {
     const Verb* verb = find_verb(explorer_, app->get_name());
     const Verb* meant = verb ? verb : find_verb(explorer_, explorer_.default_verb);
-    return "Usage: " + name + (verb ? "" : " [VERB]") + (meant ? operands(*meant) : "") + " [options]\n";
+    return "Usage: " + name + (verb ? "" : " [VERB]") + (meant ? operands_text(explorer_, *meant) : "") +
+           " [options]\n";
   }
 
  private:
-  /// " FILE... | --example NAME"
-  std::string operands(const Verb& verb) const {
-    std::string text;
-    for (const Setting& row : settings()) {
-      if (row.spelling == Spelling::kPositional && row.belongs(explorer_.kind, groups_of(verb)))
-        text += " " + row.option() + (row.several() ? "..." : "");
-    }
-    return text + (verb.groups.has(Group::kInput) ? " | --example NAME" : "");
-  }
-
   const Explorer& explorer_;
 };
 
@@ -170,6 +156,14 @@ std::string typed_text(const Bound& bound) {
   return text;
 }
 
+/// What every verb answers, too.
+void add_asking_options(CLI::App& app, const Explorer& explorer) {
+  app.set_help_flag(std::string(kHelpOption.spelling) + "," + std::string(kHelpOption.alias),
+                    std::string(kHelpOption.help));
+  app.set_version_flag(std::string(kVersionOption.spelling), version_text(explorer.name),
+                       std::string(kVersionOption.help));
+}
+
 /// Takes what a session has for the verb, but for what was typed.
 void take_session(const Verb& verb, FieldKind kind, const std::vector<const Setting*>& typed,
                   ParsedCommand& parsed) {
@@ -204,8 +198,12 @@ ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std
   std::vector<std::string> arguments = with_verb_first(explorer, typed_arguments);
   ParsedCommand parsed;
   CLI::App app(explorer.summary, explorer.name);
-  app.set_help_flag("--help,-h", "print this help");
-  app.set_version_flag("--version", version_text(explorer.name));
+  add_asking_options(app, explorer);
+  bool manual = false;
+  std::string shell;
+  app.add_flag(std::string(kManualOption.spelling), manual, std::string(kManualOption.help));
+  app.add_option(std::string(kCompletionOption.spelling), shell, std::string(kCompletionOption.help))
+      ->type_name(std::string(kCompletionOption.value));
   app.require_subcommand(0, 1);
   app.formatter(std::make_shared<HelpText>(explorer));
   const std::string file = opens_files(explorer) ? " FILE'" : "'";
@@ -217,8 +215,7 @@ ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std
   std::map<const CLI::App*, std::vector<Bound>> options;
   for (const Verb& verb : explorer.verbs) {
     CLI::App* sub = app.add_subcommand(verb.name, verb.summary)->group("Verbs");
-    sub->set_help_flag("--help,-h", "print this help");
-    sub->set_version_flag("--version", version_text(explorer.name));
+    add_asking_options(*sub, explorer);
     sub->footer(examples_text(verb.details, verb.examples));
     for (const Setting& row : settings()) {
       if (row.belongs(explorer.kind, groups_of(verb))) bind(*sub, row, options[sub]);
@@ -239,6 +236,10 @@ ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std
     const auto chosen = app.get_subcommands();
     const std::string verb = chosen.empty() ? std::string() : " " + chosen.front()->get_name();
     throw usage_error(std::string(error.what()) + "; see " + explorer.name + verb + " --help");
+  }
+  if (app.get_subcommands().empty()) {
+    parsed.text = manual ? manual_page(explorer) : completion(explorer, shell);
+    return parsed;
   }
   const CLI::App* chosen = app.get_subcommands().front();
   parsed.verb = find_verb(explorer, chosen->get_name());
