@@ -97,6 +97,22 @@ TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
   refused({"study", "replay", "s"}, 2, "no such trial");
 }
 
+class GridStudy : public ExplorerTest {
+ protected:
+  GridStudy() : ExplorerTest("grid") {}
+};
+
+/// A point that was marked lets go of the hand: nobody is held until the time is up, and all are in the analysis.
+TEST_F(GridStudy, PointsLetGoOfTheHand) {
+  (void)json(
+      {"study", "make", "s", "--participants", "4", "--practice", "0", "--recorded", "4", "--seed", "1"});
+  EXPECT_EQ(json({"study", "simulate", "s"})["timed_out"], 0);
+  const Json found = json({"study", "analyse", "s"})["tasks"]["plane"];
+  EXPECT_EQ(found["left_out"], 0) << found.dump();
+  EXPECT_TRUE(found["t"].is_number()) << "null where it is not finite";
+  EXPECT_TRUE(found["p"].is_number());
+}
+
 class OtherStudy : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(OtherStudy, RunsTheTaskOfItsProgram) {

@@ -31,8 +31,10 @@ class PlaneTrial final : public StudyTrial {
 
   [[nodiscard]] Vec3 start() const override { return stimulus_.start; }
   [[nodiscard]] std::unique_ptr<ProxyChain> chain(bool guided, double guidance) const override {
-    constexpr double kCatch = 0.015, kLetGo = 0.020, kPoint = 1e-6;  // [m]
-    ChainSettings settings = trial_settings(guided ? kGuideStiffness : kDragStiffness, guidance);
+    // A point that was marked is to let go of those who move on slowly, too: at 1.8 N.
+    constexpr double kCatch = 0.010, kLetGo = 0.012, kPoint = 1e-6;  // [m]
+    constexpr double kHold = 150.0;                                  // [N/m]
+    ChainSettings settings = trial_settings(guided ? kHold : kDragStiffness, guidance);
     settings.shape.snap_distance = kCatch;
     settings.shape.release_distance = kLetGo;
     std::vector<std::unique_ptr<Constraint>> links;
