@@ -43,6 +43,28 @@ class StartedStreamline final : public Constraint {
   bool caught_ = false;
 };
 
+/// The drag of ISO, of its own stiffness in a chain that may be stiffer: a ground plane behind it is as stiff as
+/// behind a streamline.
+class SlightDrag final : public Constraint {
+ public:
+  /// @param stiffness of the drag [N/m]; less where the chain has less.
+  explicit SlightDrag(double stiffness) : stiffness_(stiffness) {}
+
+  void apply(const ChainSettings& settings) noexcept override {
+    drag_.apply(settings);
+    part_ = settings.stiffness > stiffness_ ? stiffness_ / settings.stiffness : 1.0;
+  }
+  void reset() noexcept override { drag_.reset(); }
+  void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override {
+    drag_.update(probe, budget, link);
+    link.kappa = Vec3{part_};
+  }
+
+ private:
+  IsotropicDrag drag_;
+  double stiffness_, part_ = 1.0;
+};
+
 /// A short streamline from `x` on, of the direction alone.
 std::vector<Vec3> indicator_from(const VectorField& field, Vec3 x, double length) {
   constexpr int kSteps = 16;
@@ -100,16 +122,17 @@ PathFoot foot_on(const std::vector<Vec3>& path, const Vec3& x) noexcept {
 std::unique_ptr<ProxyChain> PathTrial::chain(bool guided, double guidance) const {
   std::vector<std::unique_ptr<Constraint>> links;
   if (!guided) {
-    links.push_back(std::make_unique<IsotropicDrag>());
+    links.push_back(std::make_unique<SlightDrag>(kDragStiffness * guidance));
   } else if (stimulus_->field) {
     links.push_back(std::make_unique<StartedStreamline>(stimulus_->field, start()));
   } else {
     links.push_back(std::make_unique<PolylineConstraint>(stimulus_->path));
   }
-  // The plane is felt where the line, or the hand, meets it.
-  if (stimulus_->goal == PathGoal::kPlane)
+  // The plane is felt where the line, or the hand, meets it, and is equally stiff with both.
+  const bool plane = stimulus_->goal == PathGoal::kPlane;
+  if (plane)
     links.push_back(std::make_unique<HalfSpaceConstraint>(stimulus_->path.back(), Vec3{0.0, 0.0, 1.0}));
-  const ChainSettings settings = trial_settings(guided ? kGuideStiffness : kDragStiffness, guidance);
+  const ChainSettings settings = trial_settings(guided || plane ? kGuideStiffness : kDragStiffness, guidance);
   return std::make_unique<ProxyChain>(std::move(links), settings);
 }
 

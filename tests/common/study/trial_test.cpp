@@ -116,6 +116,34 @@ TEST(PathTrial, GuidesAlongTheLineThroughTheStart) {
   EXPECT_EQ(trial.chain(true, 0.0)->step(trial.start() + Vec3{0.006, 0.0, 0.0}).force, Vec3{0.0});
 }
 
+/// A fall straight down onto the ground plane: its stiffness is the slope of the force below the plane, where the drag
+/// is as good as constant and a vertical streamline gives none.
+TEST(PathTrial, TheGroundPlaneIsEquallyStiffInBothConditions) {
+  auto stimulus = std::make_shared<PathStimulus>();
+  const Box box{Vec3{0.0}, Vec3{0.25}};
+  stimulus->field = grid_field({3, 3, 3}, box, std::vector<Vec3>(27, Vec3{0.0, 0.0, -1.0}));
+  for (int i = 0; i <= 100; ++i) stimulus->path.emplace_back(0.125, 0.125, 0.2 - 0.001 * i);
+  stimulus->goal = PathGoal::kPlane;
+  stimulus->shown = false;
+  stimulus->bounds = box;
+  PathTrial trial(stimulus);
+  for (const double guidance : {0.5, 1.0}) {
+    for (const double most : {40.0, 250.0, HUGE_VAL}) {
+      for (const bool guided : {false, true}) {
+        const auto chain = chain_of(trial, chain_text({"made", 0, guided, guidance, most}));
+        const auto push = [&](double depth) { return chain->step(Vec3{0.125, 0.125, 0.1 - depth}).force.z; };
+        for (double depth = -0.1; depth < 0.0; depth += 0.001) {
+          const double drag = guided ? 0.0 : std::min(60.0 * guidance, most) * 0.004;
+          EXPECT_LE(push(depth), drag + 1e-9) << "above the plane nothing but the drag is felt";
+        }
+        const double upper = push(0.008), lower = push(0.012);
+        EXPECT_NEAR((lower - upper) / 0.004, std::min(400.0 * guidance, most), 0.5)
+            << condition_name(guided) << " " << guidance << " " << most;
+      }
+    }
+  }
+}
+
 TEST(SimulatedTrial, IsPlayedBackToTheLastBit) {
   for (const bool guided : {false, true}) {
     PathTrial trial(circle_stimulus(PathGoal::kEnd, true));
