@@ -177,22 +177,6 @@ TEST_F(Installed, ThumbnailersDraw) {
   EXPECT_EQ(drawn, 2);
 }
 
-TEST_F(Installed, DevicesWithADriverMayBeOpened) {
-  const std::string rules = read_file(prefix("palpate-drivers") / "lib/udev/rules.d/70-palpate.rules");
-  const std::string known = read_file(source_folder() / "common/device/driver/transport/usb_search.cpp");
-  static const std::regex kRow(
-      R"re(KnownDevice\{\{0x([0-9a-f]{4}), 0x([0-9a-f]{4})\}, "[^"]*", (k\w+|""))re");
-  int with_driver = 0;
-  for (auto it = std::sregex_iterator(known.begin(), known.end(), kRow); it != std::sregex_iterator(); ++it) {
-    const std::string rule = "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"" + (*it)[1].str() +
-                             "\", ATTR{idProduct}==\"" + (*it)[2].str() + "\", TAG+=\"uaccess\"\n";
-    const bool has_driver = (*it)[3] != "\"\"";
-    EXPECT_EQ(rules.find(rule) != std::string::npos, has_driver) << rule;
-    with_driver += has_driver ? 1 : 0;
-  }
-  EXPECT_GT(with_driver, 30);
-}
-
 TEST_F(Installed, MesherIsApartFromItsProgram) {
   EXPECT_FALSE(fs::exists(prefix("palpate-cardiac") / "lib/palpate/palpate-mesh"));
   if (!fs::exists(build_folder() / "lib/palpate/palpate-mesh")) GTEST_SKIP() << "it is not built here";
