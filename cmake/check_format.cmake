@@ -1,6 +1,6 @@
 # Fails, naming the files, where clang-format would change something.
 file(GLOB_RECURSE files ${ROOT}/common/*.h ${ROOT}/common/*.cpp ${ROOT}/lab/*.h ${ROOT}/lab/*.cpp ${ROOT}/loaders/*.h ${ROOT}/loaders/*.cpp
-     ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/tests/*.h ${ROOT}/tests/*.cpp)
+     ${ROOT}/apps/*.h ${ROOT}/apps/*.cpp ${ROOT}/library/*.h ${ROOT}/library/*.cpp ${ROOT}/tests/*.h ${ROOT}/tests/*.cpp)
 execute_process(COMMAND ${CLANG_FORMAT} --dry-run -Werror ${files}
                 WORKING_DIRECTORY ${ROOT} RESULT_VARIABLE result ERROR_VARIABLE output)
 if(NOT result EQUAL 0)

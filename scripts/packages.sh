@@ -12,9 +12,11 @@ packages_grid="libvtk9-dev libteem-dev libopenvdb-dev libnifti2-dev libgdcm-dev"
 packages_dtmri="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libzip-dev"
 packages_cardiac="libvtk9-dev libcgal-dev libtet1.5-dev"
 packages_workbench="libceres-dev"
+# The Python module.
+packages_python="pybind11-dev python3-dev python3-numpy"
 # The tests: framework, benchmarks, virtual display, style, the compiler of the sanitizers.
 packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev
-  libumockdev-dev umockdev"
+  libumockdev-dev umockdev mypy"
 
 apps="cardiac dtmri flow grid workbench"
 

@@ -81,6 +81,11 @@ bool allowed(const std::string& from, const std::string& to) {
     return to.starts_with("lab/") ||
            (to_common && to != "common/window" && to != "common/cli" && to != "common/experiment");
   }
+  if (from.starts_with("library/")) {
+    std::set<std::string> may = closure("scene");
+    may.merge(closure("trace"));
+    return to == "library/palpate" || (to_common && may.count(to.substr(7)) > 0);
+  }
   return from.starts_with("apps/") && to_common;
 }
 
@@ -109,7 +114,7 @@ const std::vector<Foreign> kForeign{
 
 std::vector<fs::path> sources() {
   std::vector<fs::path> files;
-  for (const char* top : {"common", "lab", "loaders", "apps"}) {
+  for (const char* top : {"common", "lab", "loaders", "apps", "library"}) {
     for (const auto& entry : fs::recursive_directory_iterator(source_folder() / top)) {
       const std::string ending = entry.path().extension().string();
       if (ending == ".h" || ending == ".cpp") files.push_back(entry.path());
@@ -132,7 +137,8 @@ TEST(IncludeArrows, PointOnlyWhereTheTableAllows) {
       ++read;
       const std::string target = match[2];
       const bool ours = target.starts_with("common/") || target.starts_with("lab/") ||
-                        target.starts_with("loaders/") || target.starts_with("apps/");
+                        target.starts_with("loaders/") || target.starts_with("apps/") ||
+                        target.starts_with("library/");
       if (match[1] == "\"" && !ours && target.find('/') != std::string::npos &&
           !target.starts_with("imgui")) {
         ADD_FAILURE() << name << ":" << number << ": includes start at the repository root: " << target;
@@ -199,6 +205,8 @@ TEST(IncludeArrows, RefuseAWrongArrow) {
   EXPECT_FALSE(allowed("apps/flow", "lab/page"));
   EXPECT_FALSE(allowed("apps/workbench", "lab/bench"));
   EXPECT_FALSE(allowed("lab/hand", "common/cli"));
+  EXPECT_FALSE(allowed("library/palpate.cpp", "common/render"));
+  EXPECT_FALSE(allowed("library/python", "loaders/vtk"));
   EXPECT_TRUE(allowed("apps/flow", "common/window"));
   EXPECT_TRUE(allowed("common/haptics", "common/ode"));
 }
