@@ -90,6 +90,7 @@ endfunction()
 # ctest. The tests of a CMakeLists.txt share a program, <folder>_tests, since linking a program for each costs as much
 # as compiling it; tests that are slow, count allocations or locks, or need VTK or OpenVDB have programs apart. A test
 # that compiles sources of the product has a program for itself.
+# A folder that sets PALPATE_PLAIN_TESTS has its tests compiled without the optimiser.
 # Every test has the label `fast` (run under the sanitizers too) unless LABELS says `slow` (not built there).
 function(palpate_test path)
   cmake_parse_arguments(arg "" "TIMEOUT" "LABELS;USES;DEPENDS;SOURCES" ${ARGN})
@@ -128,9 +129,14 @@ function(palpate_test path)
   if(NOT TARGET ${program})
     add_executable(${program})
     target_link_libraries(${program} PRIVATE palpate_test_support)
-    target_precompile_headers(${program} REUSE_FROM palpate_test_headers)
+    if(PALPATE_PLAIN_TESTS)
+      target_precompile_headers(${program} REUSE_FROM palpate_plain_test_headers)
+    else()
+      target_precompile_headers(${program} REUSE_FROM palpate_test_headers)
+    endif()
     set_target_properties(${program} PROPERTIES
-      RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests PALPATE_IS_TEST ON)
+      RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests PALPATE_IS_TEST ON
+      PALPATE_IS_PLAIN_TEST "${PALPATE_PLAIN_TESTS}")
   endif()
   get_target_property(known ${program} SOURCES)
   set(sources ${tests}/${path}.cpp ${arg_SOURCES})
