@@ -19,7 +19,7 @@
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/ensight_check.h"
-#include "loaders/vtk/foam_case.h"
+#include "loaders/vtk/foam/foam_case.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"

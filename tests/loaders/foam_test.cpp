@@ -19,7 +19,7 @@
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
 #include "common/trace/trace.h"
-#include "loaders/vtk/foam_boundary.h"
+#include "loaders/vtk/foam/foam_boundary.h"
 #include "tests/loaders/foam_box.h"
 #include "tests/support/temp_folder.h"
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/math/vec.h"
-#include "loaders/vtk/foam_scope.h"
+#include "loaders/vtk/foam/foam_scope.h"
 
 namespace palpate {
 

@@ -1,4 +1,4 @@
-#include "loaders/vtk/foam_scope.h"
+#include "loaders/vtk/foam/foam_scope.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "loaders/vtk/foam_baffles.h"
+#include "loaders/vtk/foam/foam_baffles.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "loaders/vtk/foam_case.h"
+#include "loaders/vtk/foam/foam_case.h"
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/boundary_values.h"
-#include "loaders/vtk/foam_text.h"
+#include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {
 namespace {

@@ -1,4 +1,4 @@
-#include "loaders/vtk/foam_boundary.h"
+#include "loaders/vtk/foam/foam_boundary.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "loaders/vtk/foam_text.h"
+#include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {
 namespace {

@@ -1,4 +1,4 @@
-#include "loaders/vtk/foam_text.h"
+#include "loaders/vtk/foam/foam_text.h"
 
 #include <algorithm>
 #include <array>

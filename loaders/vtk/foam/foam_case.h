@@ -11,8 +11,8 @@
 
 #include "common/field/data_set.h"
 #include "common/load/helper/serve.h"
-#include "loaders/vtk/foam_baffles.h"
-#include "loaders/vtk/foam_boundary.h"
+#include "loaders/vtk/foam/foam_baffles.h"
+#include "loaders/vtk/foam/foam_boundary.h"
 
 namespace palpate {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
-#include "loaders/vtk/foam_boundary.h"
+#include "loaders/vtk/foam/foam_boundary.h"
 
 namespace palpate {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "loaders/vtk/foam_text.h"
+#include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {
 
