@@ -195,6 +195,13 @@ Source Source::open(const LoadRequest& request, const LoadLimits& limits, Progre
   state->process = std::make_unique<HelperProcess>(program, state->limits);
   state->info = state->ask(OpenMessage{format, request}, progress,
                            [](const HelperProcess::Reply& reply) { return decode_info(reply.json); });
+  std::vector<std::filesystem::path> named = request.files;
+  if (request.solution) named.push_back(*request.solution);
+  for (const std::filesystem::path& file : named) {
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);  // none of a folder
+    Ledger::enter("file " + file.string(), "read by " + state->helper, 0.0, unknown ? 0 : size);
+  }
   if (request.diffusion && request.diffusion->names_gradients() && !state->info.diffusion.gradients) {
     throw usage_error("--bval, --bvec: " + state->file + " (" + std::string(row_of(format).name) +
                       ") holds no diffusion-weighted volumes to which they could belong");

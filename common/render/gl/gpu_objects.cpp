@@ -90,9 +90,11 @@ void label_object(Kind kind, std::uint32_t name, std::string_view what) {
 }
 
 std::vector<GpuObject> gpu_objects() {
+  // Those of Dear ImGui have no labels, and its program is made after ours.
+  constexpr GLuint kBeyond = 32;
   std::vector<GpuObject> objects;
   for (const Kind kind : {Kind::kProgram, Kind::kTexture, Kind::kRenderbuffer}) {
-    for (GLuint name = 1; name <= largest_name.load(); ++name) {
+    for (GLuint name = 1; name <= largest_name.load() + kBeyond; ++name) {
       if (exists(kind, name))
         objects.push_back({.kind = kind, .what = label_of(kind, name), .bytes = bytes_of(kind, name)});
     }

@@ -1,0 +1,148 @@
+// What `--explain` says, against what the system saw: files opened and libraries mapped (by a library that is preloaded),
+// programs started, shaders compiled (by Mesa, which writes each that it links).
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/e2e/program.h"
+#include "tests/support/project_folders.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Seen {
+  std::map<std::string, std::set<std::string>> opened;  ///< by program: files that are not the system's
+  std::map<std::string, std::set<std::string>> mapped;  ///< by program: names of libraries
+  std::size_t shaders = 0;                              ///< programs linked, those of one number once
+  nlohmann::json explain;
+};
+
+bool of_the_system(const std::string& path) {
+  static constexpr std::array kFolders{"/usr/", "/lib", "/etc/", "/proc", "/sys/", "/dev/", "/var/", "/run/"};
+  return std::any_of(kFolders.begin(), kFolders.end(),
+                     [&](const char* folder) { return path.starts_with(folder); });
+}
+
+/// Runs a command with --explain under watch. Relative names of opened files are those of `folder`.
+Seen watch(const TempFolder& folder, std::vector<std::string> command) {
+  const fs::path program = build_folder() / "bin" / command[0];
+  command[0] = program;
+  for (const char* option : {"--json", "--explain", "--quiet"}) command.emplace_back(option);
+  const fs::path logs = folder.path("watch");
+  const fs::path shaders = folder.path("shaders");
+  fs::create_directory(logs);
+  fs::create_directory(shaders);
+  Program watched(
+      command, folder.path(),
+      {"LD_PRELOAD=" + (build_folder() / "tests/libpalpate_open_watch.so").string(),
+       "PALPATE_OPEN_WATCH=" + (logs / "log").string(), "MESA_SHADER_CAPTURE_PATH=" + shaders.string(),
+       "MESA_SHADER_CACHE_DISABLE=true", "DISPLAY=", "WAYLAND_DISPLAY="});
+  const ProgramResult result = watched.finish();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  Seen seen;
+  if (result.exit_code != 0) return seen;
+  seen.explain = nlohmann::json::parse(result.out).at("explain");
+  for (const auto& entry : fs::directory_iterator(shaders)) seen.shaders += entry.is_regular_file() ? 1 : 0;
+  for (const auto& entry : fs::directory_iterator(logs)) {
+    std::ifstream in(entry.path());
+    std::set<std::string> opened;
+    std::set<std::string> mapped;
+    std::string self;
+    for (std::string word, path; in >> word && std::getline(in >> std::ws, path);) {
+      if (word == "opens" && !of_the_system(fs::absolute(folder.path() / path).lexically_normal().string()))
+        opened.insert(fs::path(path).filename());
+      if (word == "self") self = fs::path(path).filename();
+      if (word == "maps" && path.find(".so") != std::string::npos) mapped.insert(fs::path(path).filename());
+    }
+    seen.opened[self].merge(opened);
+    seen.mapped[self].merge(mapped);
+  }
+  return seen;
+}
+
+/// The rest of `what` of the rows that begin with `kind`, done or left out.
+std::set<std::string> rows(const Seen& seen, const std::string& kind, bool done) {
+  std::set<std::string> names;
+  for (const auto& row : seen.explain) {
+    const std::string what = row.at("what");
+    if (what.starts_with(kind) && (row.at("times").get<int>() > 0) == done)
+      names.insert(what.substr(kind.size()));
+  }
+  return names;
+}
+
+void expect_true(const Seen& seen, const std::string& program) {
+  std::set<std::string> files;
+  for (const std::string& file : rows(seen, "file ", true)) files.insert(fs::path(file).filename());
+  std::set<std::string> started;
+  for (const auto& [name, opened] : seen.opened) {
+    if (name != program && !name.empty()) started.insert(name);
+    for (const std::string& file : opened) {
+      const bool told = std::any_of(files.begin(), files.end(), [&](const std::string& known) {
+        return file.find(known) != std::string::npos;  // an output has a temporary name, until it is whole
+      });
+      EXPECT_TRUE(told) << name << " opened " << file << ", of which nothing is said:\n"
+                        << seen.explain.dump(1);
+    }
+  }
+  EXPECT_EQ(rows(seen, "helper ", true), started);
+  for (const std::string& helper : rows(seen, "helper ", false))
+    EXPECT_FALSE(started.contains(helper)) << helper;
+  EXPECT_EQ(rows(seen, "program ", true).size(), seen.shaders) << seen.explain.dump(1);
+  for (const std::string& library : seen.mapped.at(program)) {
+    for (const char* foreign : {"libvtk", "libteem", "libopenvdb", "libniftiio", "libgdcm", "libCGAL",
+                                "libtet", "liblapack", "libblas", "libceres", "libX11", "libglfw", "libusb"})
+      EXPECT_FALSE(library.starts_with(foreign)) << program << " maps " << library;
+  }
+}
+
+/// A volume of bytes, 9 x 8 x 7.
+void write_volume(const fs::path& path) {
+  std::ofstream out(path, std::ios::binary);
+  out << "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 9 8 7\nencoding: raw\n\n";
+  for (int i = 0; i < 9 * 8 * 7; ++i) out.put(static_cast<char>(i % 251));
+}
+
+TEST(Explain, OfALoadedFieldIsWhatTheSystemSaw) {
+  TempFolder folder;
+  std::ofstream(folder.path("flow.vtk"))
+      << "# vtk DataFile Version 3.0\nmade\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+         "SPACING 1 1 1\nPOINT_DATA 8\nSCALARS unused float 1\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8\n"
+         "VECTORS velocity float\n1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0\n";
+  const Seen seen =
+      watch(folder, {"flow", "trace", "flow.vtk", "--seeds", "grid:2,2,2", "--out", "lines.vtp"});
+  expect_true(seen, "flow");
+  EXPECT_EQ(seen.shaders, 0U);
+  EXPECT_TRUE(rows(seen, "array ", true).contains("velocity"));
+  EXPECT_TRUE(rows(seen, "array ", false).contains("unused"));
+  EXPECT_TRUE(rows(seen, "file ", true).contains("flow.vtk"));
+}
+
+TEST(Explain, OfPicturesIsWhatWasCompiled) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"flow", "render", "--example", "abc", "--size", "96x64", "--out", "a.png"},
+        {"grid", "render", "volume.nrrd", "--size", "96x64", "--out", "a.png"},
+        {"grid", "render", "volume.nrrd", "--size", "96x64", "--layout", "4", "--out", "a.png"},
+        {"dtmri", "render", "--example", "helix", "--size", "96x64", "--out", "a.png"}}) {
+    TempFolder folder;
+    write_volume(folder.path("volume.nrrd"));
+    const Seen seen = watch(folder, command);
+    SCOPED_TRACE(command[0] + " " + command[1]);
+    if (seen.shaders == 0) GTEST_SKIP() << "OpenGL is not Mesa's, which tells what it compiles";
+    expect_true(seen, command[0]);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test
