@@ -1,6 +1,7 @@
 #include "common/field/cell_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -45,8 +46,25 @@ Vec3 solve_lower(const Mat3& l, const Vec3& b) {
   return x;
 }
 
+/// x with l^T x = b.
+Vec3 solve_upper(const Mat3& l, const Vec3& b) {
+  Vec3 x{0.0};
+  for (int i = 2; i >= 0; --i) {
+    double sum = b[i];
+    for (int k = i + 1; k < 3; ++k) sum -= l[i][k] * x[k];
+    x[i] = sum / l[i][i];
+  }
+  return x;
+}
+
+/// Axes along which centres do not spread.
+struct FlatAxes {
+  std::array<Vec3, 3> axis{};
+  std::size_t count = 0;
+};
+
 /// The inverse where the matrix has one, zero along the others of its axes.
-Mat3 inverse_of(const Mat3& moments, bool& flat) {
+Mat3 inverse_of(const Mat3& moments, FlatAxes& flat) {
   const double trace = moments[0][0] + moments[1][1] + moments[2][2];
   // The least eigenvalue is at least 4 det / trace^2.
   if (4.0 * glm::determinant(moments) > kFlat * trace * trace) return glm::inverse(moments);
@@ -57,12 +75,27 @@ Mat3 inverse_of(const Mat3& moments, bool& flat) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(m);
   Mat3 out(0.0);
   for (int a = 0; a < 3; ++a) {
-    if (!(axes.eigenvalues()(a) > kFlat)) {
-      flat = true;
-      continue;
-    }
     const Vec3 axis{axes.eigenvectors()(0, a), axes.eigenvectors()(1, a), axes.eigenvectors()(2, a)};
-    out += glm::outerProduct(axis, axis) / axes.eigenvalues()(a);
+    if (axes.eigenvalues()(a) > kFlat) {
+      out += glm::outerProduct(axis, axis) / axes.eigenvalues()(a);
+    } else {
+      flat.axis[flat.count++] = axis;
+    }
+  }
+  return out;
+}
+
+/// Takes gradients in units of the spread to those without a part across the layer in space, which is another
+/// direction: the spread of tetrahedra leans along the diagonals by which cells were split.
+Mat3 within_layer(const Mat3& units, const FlatAxes& flat) {
+  Mat3 out(1.0);
+  std::array<Vec3, 3> normals{};
+  for (std::size_t a = 0; a < flat.count; ++a) {
+    Vec3 normal = glm::normalize(solve_upper(units, flat.axis[a]));
+    for (std::size_t b = 0; b < a; ++b) normal -= glm::dot(normal, normals[b]) * normals[b];
+    normals[a] = glm::normalize(normal);
+    // g_y = L^T g_x, so that what is taken away is L^T n (n . L^-T g_y).
+    out -= glm::outerProduct(glm::transpose(units) * normals[a], solve_lower(units, normals[a]));
   }
   return out;
 }
@@ -93,7 +126,10 @@ void CellFit::set(std::span<const Vec3> centres, std::size_t near, const Mat3& s
   Mat3 moments(0.0);
   for (std::size_t i = 0; i < y_.size(); ++i)
     moments += weight_[i] * glm::outerProduct(y_[i] - mean_, y_[i] - mean_);
-  inverse_ = inverse_of(moments, flat_);
+  FlatAxes flat;
+  inverse_ = inverse_of(moments, flat);
+  flat_ = flat.count > 0;
+  if (flat_) inverse_ = within_layer(units, flat) * inverse_;
 }
 
 double CellFit::value(std::span<const double> values, std::size_t stride) const {

@@ -26,7 +26,7 @@ class CellFit {
   /// @param spread mean outer product of the vectors from the point to the corners of what touches it.
   void set(std::span<const Vec3> centres, std::size_t near, const Mat3& spread);
 
-  /// Centres lie in a plane, or on a line, by what they are apart: no change across it.
+  /// Centres lie in a plane, or on a line, by what they are apart: no change along the normals to it.
   [[nodiscard]] bool flat() const noexcept { return flat_; }
 
   /// The value at the point from those of the cells, values[i * stride]. Not finite where one that touches is not.

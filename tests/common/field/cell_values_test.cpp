@@ -228,6 +228,100 @@ TEST(CellValues, OneLayerIsSaid) {
   EXPECT_LT(glm::distance(single->sample({0.2, 0.9, 0.4}, hint).value, linear(Vec3(0.5))), 1e-12);
 }
 
+/// Turned about an oblique axis: a layer of cells lies in no plane of coordinates.
+const Mat3 kTurn = [] {
+  const Vec3 a = glm::normalize(Vec3(1.0, 0.4, -0.3)), b = glm::normalize(glm::cross(a, Vec3(0.2, 1.0, 0.5)));
+  return Mat3(a, b, glm::cross(a, b));
+}();
+
+Vec3 turning_in_layer(const Vec3& x) {
+  const Vec3 at = glm::transpose(kTurn) * x;  // its third component does not matter
+  return kTurn * Vec3(0.2 - at.y, at.x + 0.5 * at.y, 1.0 + 2.0 * at.x);
+}
+
+Vec3 along_strip(const Vec3& x) {
+  return kTurn * Vec3(2.0 - glm::dot(kTurn[0], x), 0.5, glm::dot(kTurn[0], x));
+}
+
+/// `n` hexahedra (12), or twice as many wedges (13), on
+/// [0, 1]^2 with the thickness given, turned; sheared within the layer, if it is more than a strip.
+Mesh layer_of(std::uint8_t type, const Index3& n, double thickness) {
+  Mesh out;
+  std::vector<double> position;
+  std::vector<Vec3> points;
+  for (int k = 0; k <= n.z; ++k) {
+    for (int j = 0; j <= n.y; ++j) {
+      for (int i = 0; i <= n.x; ++i) {
+        const Vec3 x = Vec3(i, j, k) / Vec3(n);
+        points.push_back(kTurn * Vec3(x.x + (n.y > 1 ? 0.3 * x.y : 0.0), x.y, thickness * x.z));
+        position.insert(position.end(), {points.back().x, points.back().y, points.back().z});
+      }
+    }
+  }
+  UnstructuredTopology mesh{
+      .positions = make_array("points", Association::kPoint, 3, std::span<const double>(position)),
+      .types = {},
+      .offsets = {0},
+      .connectivity = {}};
+  const std::vector<std::vector<int>> parts =
+      type == 12 ? std::vector<std::vector<int>>{{0, 1, 3, 2, 4, 5, 7, 6}}
+                 : std::vector<std::vector<int>>{{0, 1, 3, 4, 5, 7}, {0, 3, 2, 4, 7, 6}};
+  for (int k = 0; k < n.z; ++k) {
+    for (int j = 0; j < n.y; ++j) {
+      for (int i = 0; i < n.x; ++i) {
+        for (const std::vector<int>& part : parts) {
+          Vec3 sum{0.0};
+          for (const int c : part) {
+            mesh.connectivity.push_back(i + (c & 1) +
+                                        (n.x + 1) * (j + (c >> 1 & 1) + (n.y + 1) * (k + (c >> 2))));
+            sum += points[static_cast<std::size_t>(mesh.connectivity.back())];
+          }
+          mesh.types.push_back(type);
+          mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
+          out.centres.push_back(sum / static_cast<double>(part.size()));
+        }
+      }
+    }
+  }
+  out.block.topology = std::move(mesh);
+  return out;
+}
+
+TEST(CellValues, FieldsWithoutAChangeAcrossOneLayerAreExact) {
+  struct Case {
+    Index3 n;
+    Value value;
+  };
+  for (const std::uint8_t type : {std::uint8_t{12}, std::uint8_t{13}}) {
+    for (const double thickness : {1e-3, 0.05, 0.5, 2.0}) {
+      for (const Case& c : {Case{{8, 7, 1}, turning_in_layer}, Case{{8, 1, 1}, along_strip},
+                            Case{{8, 7, 2}, turning_in_layer}}) {
+        if (type == 13 && c.n.y == 1) continue;  // centres of wedges are in two rows
+        const Mesh mesh = layer_of(type, c.n, thickness);
+        const Field field = field_of(mesh.block, values_at(mesh.centres, c.value));
+        double worst = 0.0;
+        int found = 0;
+        CellHint hint;
+        for (const double x : {0.0, 0.03, 0.31, 0.5, 0.98, 1.0}) {
+          for (const double y : {0.0, 0.02, 0.44, 1.0}) {
+            for (const double z : {0.0, 0.2, 0.5, 1.0}) {
+              const Vec3 within = 1e-9 + (1.0 - 2e-9) * Vec3(x, y, z);
+              const Vec3 at =
+                  kTurn * Vec3(within.x + (c.n.y > 1 ? 0.3 * within.y : 0.0), within.y, thickness * within.z);
+              const VectorSample sample = field->sample(at, hint);
+              ASSERT_EQ(sample.status, SampleStatus::kOk);
+              worst = std::max(worst, glm::distance(sample.value, c.value(at)));
+              ++found;
+            }
+          }
+        }
+        EXPECT_EQ(found, 96);
+        EXPECT_LT(worst, 1e-11) << static_cast<int>(type) << " " << thickness << " " << c.n.y << " " << c.n.z;
+      }
+    }
+  }
+}
+
 TEST(CellValues, TheDifferenceIsThatOfTheMeansOverCells) {
   // u = x^2 by its means over ten cells of width 0.1: at inner points x^2 + h^2 / 3, at the ends, by the line through
   // two means, h^2 / 3 - h^2 / 2 ... ; over a cell the field is linear.
