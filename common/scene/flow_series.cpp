@@ -10,6 +10,7 @@
 
 #include "common/base/text.h"
 #include "common/field/field_on_grid.h"
+#include "common/math/same_time.h"
 #include "common/scene/read_vectors.h"
 
 namespace palpate {
@@ -105,7 +106,7 @@ FlowSeries::FlowSeries(Input& input, int threads) : input_(input), threads_(thre
   std::size_t repeated = 0;
   for (const std::size_t step : steps_in_order(times)) {
     if (!std::isfinite(times[step])) continue;
-    if (!times_.empty() && times_.back() == times[step]) {
+    if (!times_.empty() && same_time(times_.back(), times[step])) {
       steps_.back() = step;
       ++repeated;
       continue;

@@ -15,6 +15,11 @@ constexpr double kEmbeddedOrder = 4.0;
 constexpr double kCellsAStep = 2.0;  // at most: farther, the stages might see nothing of what lies between
 constexpr double kStretch = 1.5;     // by what the fastest stage may go beyond that
 constexpr int kMaxAttempts = 64;
+// Across a jump of the velocity the error of a step falls no faster than the step, and none is ever short enough. After so
+// many rejections one after the other the jump is looked for, to this part of the tolerance for the whole domain.
+constexpr int kRejectionsAtJump = 8;
+constexpr double kJumpPart = 1e-3;
+constexpr int kJumpHalvings = 60;
 
 using Step = ExplicitStep<Dp54, Vec3>;
 
@@ -143,8 +148,19 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       const double way = glm::length(step.end - step.start);
       return 0.5 * settings_.tolerance * (way + settings_.diagonal * (length / settings_.duration));
     };
-    bool taken = false, leaves = false;
+    bool taken = false, leaves = false, jumps = false;
     SampleStatus left_by = SampleStatus::kOk;
+    const bool at_jump = to_jump_ > 0.0;
+    if (at_jump) {
+      const double least = 4.0 * kUlp * std::max(age, speed > 0.0 ? settings_.diagonal / speed : 0.0);
+      h = std::min(std::max(to_jump_, least), age - now_.time);
+      taken = jumps = attempt(h);
+      to_jump_ = 0.0;
+      // What was before the jump says nothing of what comes.
+      control_ = StepControl(kEmbeddedOrder);
+      step_ = std::max(step_, 0.25 * reach / std::max(fastest, speed));
+      if (!taken) h = std::min(step_, age - now_.time);
+    }
     for (int n = 0; n < kMaxAttempts && !taken; ++n) {
       if (!(now_.time + h > now_.time)) break;
       leaves = false;
@@ -175,7 +191,26 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       const double proposed = verdict.factor * h;
       // A step that was cut by the end of an interval says nothing against longer ones.
       step_ = taken && verdict.factor >= 1.0 ? std::max(step_, proposed) : proposed;
-      if (!taken) h = proposed;
+      if (taken) break;
+      if (n < kRejectionsAtJump) {
+        h = proposed;
+        continue;
+      }
+      // The longest step that is good enough ends before the jump.
+      double inside = 0.0, outside = h;
+      const double close = kJumpPart * settings_.tolerance * settings_.diagonal / std::max(fastest, speed);
+      for (int i = 0; i < kJumpHalvings && outside - inside > close; ++i) {
+        const double middle = 0.5 * (inside + outside);
+        (attempt(middle) && local_error() <= allowed(middle) ? inside : outside) = middle;
+      }
+      to_jump_ = 2.0 * (outside - inside);
+      h = inside;
+      if (!(now_.time + h > now_.time) || !attempt(h)) break;
+      taken = true;
+    }
+    if (!taken && !at_jump) {  // it is right here
+      to_jump_ = std::max(to_jump_, std::numeric_limits<double>::min());
+      continue;
     }
     if (!taken) {
       end(End::kMaxSteps);  // no step is short enough: the flow there is none that can be followed
@@ -190,6 +225,14 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     gradient *= sign;
     error_.advance([&](const Vec3& d) { return gradient * d; }, [&] { return gradient; }, h);
     error_.add(local + kUlp * settings_.diagonal);
+    if (jumps) {
+      // Where within the step the jump lies is not known; and a particle that is off meets it at another time, and has
+      // the other velocity for so much longer.
+      const double slowest = std::min(speed, glm::length(last));
+      const double change = glm::distance(first, last);
+      error_.add(h * change);
+      if (change > 0.0) error_.add(glm::length(error_.vector()) * change / std::max(slowest, kUlp * change));
+    }
     const double error = std::min(glm::length(error_.vector()), settings_.limits.max_error);
     const CarriedPiece piece(step, now_, error);
     const LinePoint next{.position = step.end,

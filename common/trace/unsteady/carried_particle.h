@@ -57,7 +57,8 @@ class CarriedParticle {
   FlowInTime::Place place_;
   ErrorTransport error_;
   StepControl control_;
-  double step_ = 0.0;  ///< the next one, in time; 0: to be found
+  double step_ = 0.0;     ///< the next one, in time; 0: to be found
+  double to_jump_ = 0.0;  ///< a jump of the velocity lies so near, in time; 0: none is known
   std::int64_t steps_ = 0;
 };
 

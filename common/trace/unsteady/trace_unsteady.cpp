@@ -12,6 +12,7 @@
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/math/same_time.h"
 #include "common/trace/unsteady/carried_particle.h"
 
 namespace palpate {
@@ -123,7 +124,10 @@ Run plan_run(std::span<const double> times, const UnsteadyOptions& options) {
   run.sign = trace.forward ? 1.0 : -1.0;
   run.from = options.from;
   run.until = options.until.value_or(trace.forward ? times.back() : times.front());
-  const auto check = [&](const char* what, double time) {
+  const auto check = [&](const char* what, double& time) {
+    for (const double end : {times.front(), times.back()}) {
+      if (same_time(time, end)) time = end;
+    }
     if (time >= times.front() && time <= times.back()) return;
     throw usage_error(std::string(what) + " " + exact_number(time) + ": the data has times from " +
                       exact_number(times.front()) + " to " + exact_number(times.back()));

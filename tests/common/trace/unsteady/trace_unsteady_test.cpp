@@ -63,6 +63,68 @@ TEST(Pathlines, FollowAClosedFormOnEveryGridWithinTheirError) {
   }
 }
 
+/// Slabs of one velocity each, a quarter wide: cells with values of their own.
+Vec3 in_slab(double x) {
+  const bool odd = std::fmod(std::floor(4.0 * (x + 1.0)), 2.0) != 0.0;
+  return odd ? Vec3(1.5, -0.4, 0.1) : Vec3(0.5, 0.7, -0.3);
+}
+
+class Slabs final : public AnalyticField {
+ public:
+  [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept override { return in_slab(x.x); }
+  [[nodiscard]] Mat3 jacobian(const Vec3&) const noexcept override { return Mat3{0.0}; }
+  [[nodiscard]] Box bounds() const noexcept override { return {Vec3{-1.0}, Vec3{1.0}}; }
+  [[nodiscard]] std::string name() const override { return "slabs"; }
+  [[nodiscard]] std::string description() const override { return "slabs"; }
+};
+
+/// Where a particle is after t, slab by slab.
+Vec3 through_slabs(Vec3 x, double t) {
+  while (t > 0.0) {
+    const double border = 0.25 * (std::floor(4.0 * (x.x + 1.0)) + 1.0) - 1.0;
+    const Vec3 v = in_slab(x.x);
+    const double step = std::min(t, (border - x.x) / v.x);
+    x += step * v;
+    t -= step;
+    if (t > 0.0) x.x = border;
+  }
+  return x;
+}
+
+TEST(Pathlines, CrossJumpsOfTheVelocity) {
+  const std::vector<double> times = test::steps_until(4.0, 4);
+  const StepReader read = [](std::size_t) { return make_vector_field(std::make_shared<Slabs>()); };
+  const std::vector<Vec3> seeds{{-0.9, -0.5, 0.1}, {-0.75, -0.3, 0.2}, {-0.01, 0.0, 0.0}};
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    UnsteadyOptions options;
+    options.trace.tolerance = tolerance;
+    const UnsteadyResult result = trace_unsteady(times, read, seeds, options);
+    ASSERT_EQ(result.trace.lines.size(), seeds.size());
+    EXPECT_EQ(result.trace.ends[as_size(End::kLeftDomain)], seeds.size()) << tolerance;
+    for (const Line& line : result.trace.lines) {
+      EXPECT_LT(line.points.size(), 2000U);
+      for (const LinePoint& point : line.points) {
+        const double off = glm::distance(point.position, through_slabs(seeds[line.seed], point.time));
+        EXPECT_LE(off, 2.0 * point.error + 1e-13) << tolerance << " at " << point.time;
+      }
+      EXPECT_NEAR(line.points.back().position.x, 1.0, 4.0 * tolerance);
+      EXPECT_LT(line.points.back().error, 10.0 * tolerance);
+    }
+  }
+}
+
+TEST(UnsteadyLines, TakeTimesThatDifferByRoundingForOne) {
+  std::vector<double> times{0.0};
+  for (int i = 0; i < 10; ++i) times.push_back(times.back() + 0.1);
+  ASSERT_LT(times.back(), 1.0);
+  const UnsteadyResult result =
+      trace_unsteady(times, test::swinging(Grid::kFormula, times), kSeeds, {.until = 1.0, .trace = {}});
+  EXPECT_EQ(result.trace.ends[as_size(End::kEndOfTime)], kSeeds.size());
+  EXPECT_THROW((void)trace_unsteady(times, test::swinging(Grid::kFormula, times), kSeeds,
+                                    {.until = 1.0 + 1e-9, .trace = {}}),
+               Error);
+}
+
 // From rest: v = 20 t (-y, x, 0) between two steps turns a particle by 10 t^2.
 TEST(Pathlines, StartAtRestAndFollowAFlowThatSetsIn) {
   const std::vector<double> times{0.0, 1.0};
