@@ -223,7 +223,8 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     place_ = place;
     (void)flow.jacobian(release_ + sign * (now_.time + h), step.end, place_, gradient);
     gradient *= sign;
-    error_.advance([&](const Vec3& d) { return gradient * d; }, [&] { return gradient; }, h);
+    error_.advance([&](const Vec3& d) { return gradient * d; }, [&] { return gradient; },
+                   [&](const Mat3& j, const Vec3& e) { return stability_step<Dp54>(j, e, h); }, h);
     error_.add(local + kUlp * settings_.diagonal);
     if (jumps) {
       // Where within the step the jump lies is not known; and a particle that is off meets it at another time, and has

@@ -27,10 +27,10 @@ class ErrorEllipse {
   }
 
   /// As carry_error() of error_transport.h.
-  template <class Apply, class Matrix>
-  void advance(const Apply& apply, const Matrix& matrix, double h) {
-    carry_error(a_, apply, matrix, h);
-    carry_error(b_, apply, matrix, h);
+  template <class Apply, class Matrix, class Stepped>
+  void advance(const Apply& apply, const Matrix& matrix, const Stepped& stepped, double h) {
+    carry_error(a_, apply, matrix, stepped, h);
+    carry_error(b_, apply, matrix, stepped, h);
   }
 
   /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.

@@ -162,11 +162,7 @@ class FaceWalk final : public LineWalk {
     }
     method_.restart();
     stepped_ = false;
-    if constexpr (Method::kEstimatesKept) {
-      error_.add(domain_.seam_error(), direction_);
-    } else {
-      error_.add(domain_.seam_error());
-    }
+    error_.add(domain_.seam_error(), direction_);
     end_.position = y_.xyz();
     end_.error += domain_.seam_error();
   }
@@ -443,13 +439,10 @@ class FaceWalk final : public LineWalk {
       return inverse_speed * (moved - glm::dot(n, moved) * n);
     };
     const auto matrix = [&] { return Mat3{apply({1, 0, 0}), apply({0, 1, 0}), apply({0, 0, 1})}; };
-    error_.advance(apply, matrix, length);
+    const auto stepped = [&](const Mat3& j, const Vec3& e) { return method_.stepped(j, e, length); };
+    error_.advance(apply, matrix, stepped, length);
     local_ = local;
-    if constexpr (Method::kEstimatesKept) {
-      error_.add(local + kUlp * domain_.size(), n);
-    } else {
-      error_.add(local + kUlp * domain_.size());
-    }
+    error_.add(local + kUlp * domain_.size(), n);
     y_ = y_end;
     k_ = k_end;
     pending_face_ = face;
@@ -476,7 +469,7 @@ class FaceWalk final : public LineWalk {
   StepControl control_;
   /// An estimate of the error of the very solution that is kept has nothing in reserve: no direction that
   /// the error may take can be left out then. That of a lower order exceeds the error of the solution kept.
-  std::conditional_t<Method::kEstimatesKept, ErrorEllipse, ErrorTransport> error_;
+  std::conditional_t<Method::kEstimatesKept, ErrorEllipse, ErrorAcross> error_;
   double near_ = 0.05;
   Pack4 y_, k_, bend_, piece_start_;
   mutable decltype(std::declval<const Method&>().dense()) dense_;  ///< of the last piece, once asked for

@@ -22,6 +22,7 @@
 #include "common/ode/explicit_step.h"
 #include "common/ode/rosenbrock.h"
 #include "common/ode/tableau.h"
+#include "common/trace/walk/error_transport.h"
 
 namespace palpate {
 
@@ -72,6 +73,10 @@ class ExplicitMethod {
     } else {
       return (step_.step * Tableau::b[Tableau::kStages - 1]) * (last_ - step_.k[Tableau::kStages - 1]);
     }
+  }
+  /// R(h j) e.
+  [[nodiscard]] static Vec3 stepped(const Mat3& j, const Vec3& e, double h) {
+    return stability_step<Tableau>(j, e, h);
   }
   [[nodiscard]] auto dense() const { return step_.dense(); }
   /// h times the fastest rate of the direction, as far as the stages of the last step tell.
@@ -140,6 +145,19 @@ class RodasMethod {
     return theta * sum;
   }
   [[nodiscard]] Pack4 error() const { return {step_.error[0], step_.error[1], step_.error[2], 0.0}; }
+  /// R(h j) e: a step of x' = j x from e.
+  [[nodiscard]] static Vec3 stepped(const Mat3& j, const Vec3& e, double h) {
+    Step::Matrix rows{};
+    for (int column = 0; column < 3; ++column) {
+      for (int row = 0; row < 3; ++row) rows[as_size(row)][as_size(column)] = j[column][row];
+    }
+    const auto f = [&](const Step::Vector& x) {
+      const Vec3 v = j * Vec3(x[0], x[1], x[2]);
+      return Step::Vector{v.x, v.y, v.z};
+    };
+    Step step;
+    return step.run(f, rows, {e.x, e.y, e.z}, h) ? Vec3(step.end[0], step.end[1], step.end[2]) : Vec3{0.0};
+  }
   [[nodiscard]] std::array<Pack4, 3> dense() const {
     const auto pack = [](const Step::Vector& x, double time) { return Pack4{x[0], x[1], x[2], time}; };
     return {pack(dense_[0], per_speed_ * h_), pack(dense_[1], 0.0), pack(dense_[2], 0.0)};
@@ -185,6 +203,9 @@ class SwitchingMethod {
     return stiff_ ? implicit_.arc(theta) : explicit_.arc(theta);
   }
   [[nodiscard]] Pack4 error() const { return stiff_ ? implicit_.error() : explicit_.error(); }
+  [[nodiscard]] Vec3 stepped(const Mat3& j, const Vec3& e, double h) const {
+    return stiff_ ? RodasMethod::stepped(j, e, h) : Explicit::stepped(j, e, h);
+  }
   [[nodiscard]] std::array<Pack4, Dp54::kDenseDegree> dense() const {
     if (!stiff_) return explicit_.dense();
     const auto q = implicit_.dense();
