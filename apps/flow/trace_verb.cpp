@@ -73,6 +73,9 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
                                [](const Line& line) { return line.points.size() > 1; });
   const bool in_time = summary.kind == LineKind::kStreaklines || summary.kind == LineKind::kTimelines;
   if (any || (in_time && count_of(result, End::kEndOfTime) > 0)) return {};
+  if (field.max_speed() == 0.0 && field.notes().bad_values > 0)
+    return "no line: field " + summary.field +
+           " has no value but zero that is a number; try another --field or --time";
   if (field.max_speed() == 0.0)
     return "no line: field " + summary.field + " is zero everywhere; try another --field";
   if (count_of(result, End::kBadData) == result.lines.size()) {

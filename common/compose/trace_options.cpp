@@ -1,5 +1,8 @@
 #include "common/compose/trace_options.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/base/error.h"
 #include "common/base/text.h"
 
@@ -8,11 +11,14 @@ namespace {
 
 StopRule stop_plane(const std::string& text) {
   const auto v = parse_numbers(text, 4, "--stop-plane takes nx,ny,nz,d for the plane n.x = d");
-  const Vec3 n{v[0], v[1], v[2]};
-  const double length = glm::length(n);
-  if (!(length > 0.0)) throw usage_error("--stop-plane " + text + ": the normal is zero");
+  // Of numbers near one: the square of a normal of 1e300 or 1e-300 is none.
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  if (!(largest > 0.0)) throw usage_error("--stop-plane " + text + ": the normal is zero");
+  const Vec3 n{v[0] / largest, v[1] / largest, v[2] / largest};
+  const double length = glm::length(n), d = v[3] / largest / length;
+  if (!std::isfinite(d)) throw usage_error("--stop-plane " + text + ": lies beyond all numbers");
   // A unit normal makes the level a distance, as StopRule wants it.
-  return {[unit = n / length, d = v[3] / length](const Vec3& x) { return glm::dot(unit, x) - d; }};
+  return {[unit = n / length, d](const Vec3& x) { return glm::dot(unit, x) - d; }};
 }
 
 }  // namespace

@@ -80,6 +80,12 @@ Vec3 vector_of(const VectorChoice& choice, const std::vector<const DataArray*>& 
   return read(0) / arrays.back()->at(tuple);
 }
 
+/// The exponent of `speed`; of denormal ones the least whose reciprocal is a number.
+int unit_exponent(double speed) {
+  constexpr int kLeast = -1000;
+  return std::max(kLeast, binary_exponent(speed));
+}
+
 struct SpeedRange {
   double max_speed = 0.0;
   std::size_t bad = 0;  ///< points whose value is not finite
@@ -99,7 +105,7 @@ SpeedRange speed_range(std::span<const T> values) {
     }
     largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   }
-  const int exponent = binary_exponent(largest);
+  const int exponent = unit_exponent(largest);
   const double unit = power_of_two(-exponent);
   double square = 0.0;
   for (std::size_t p = 0; p + 2 < values.size(); p += 3) {
@@ -331,7 +337,7 @@ class VectorFieldBuilder {
     const SpeedRange range =
         std::visit([](const auto& values) { return speed_range(values); }, field.values_.values);
     field.max_speed_ = range.max_speed;
-    field.frame_.speed_exponent = binary_exponent(range.max_speed);
+    field.frame_.speed_exponent = unit_exponent(range.max_speed);
     field.values_.scale = power_of_two(-field.frame_.speed_exponent);
     field.notes_.bad_values = range.bad;
     if (choice.kind == VectorChoice::Kind::kMomentumOverDensity) {
@@ -358,7 +364,11 @@ class VectorFieldBuilder {
                     resting == 1 ? "point moves" : "points move", rest);
       field.notes_.lines.emplace_back(text.data());
     }
-    if (range.max_speed == 0.0) field.notes_.lines.emplace_back("the field is zero everywhere");
+    const std::size_t points =
+        std::visit([](const auto& values) { return values.size() / 3; }, field.values_.values);
+    if (range.max_speed == 0.0)
+      field.notes_.lines.emplace_back(range.bad == points ? "no value of the field is a number"
+                                                          : "the field is zero everywhere");
   }
 };
 

@@ -55,6 +55,32 @@ TEST(VectorFieldData, NaNHolesAreBadDataAndCounted) {
   }
 }
 
+TEST(VectorFieldData, DenormalSpeedsAreNoZeros) {
+  constexpr double kSpeed = 0x1p-1063;
+  for (DataSet block : {test::sample_uniform(*example("abc"), {3, 3, 3}),
+                        test::sample_tetrahedra(*example("abc"), {3, 3, 3})}) {
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < block.arrays[0].tuples; ++i)
+      numbers.insert(numbers.end(), {kSpeed, 0.0, -2.0 * kSpeed});
+    block.arrays[0] = make_array("velocity", Association::kPoint, 3, std::span<const double>(numbers));
+    const auto field = field_of(block);
+    EXPECT_GT(field->max_speed(), 2.0 * kSpeed);
+    CellHint hint;
+    const VectorSample sample = field->sample(0.4 * example("abc")->bounds().size(), hint);
+    ASSERT_EQ(sample.status, SampleStatus::kOk);
+    EXPECT_EQ(sample.value, Vec3(kSpeed, 0.0, -2.0 * kSpeed));
+  }
+}
+
+TEST(VectorFieldData, WithoutANumberSayThat) {
+  DataSet block = test::sample_uniform(*example("abc"), {3, 3, 3});
+  const std::vector<double> numbers(3 * block.arrays[0].tuples, std::nan(""));
+  block.arrays[0] = make_array("velocity", Association::kPoint, 3, std::span<const double>(numbers));
+  const std::vector<std::string> notes = field_of(block)->notes().lines;
+  EXPECT_NE(std::ranges::find(notes, "no value of the field is a number"), notes.end());
+  EXPECT_EQ(std::ranges::find(notes, "the field is zero everywhere"), notes.end());
+}
+
 TEST(VectorFieldData, BlankedPointsAreBadDataOnBoxesAndHolesInTetrahedra) {
   const auto formula = example("abc");
   const Vec3 h = formula->bounds().size() / 8.0;
