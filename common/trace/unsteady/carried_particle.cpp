@@ -151,9 +151,13 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     bool taken = false, leaves = false, jumps = false;
     SampleStatus left_by = SampleStatus::kOk;
     const bool at_jump = to_jump_ > 0.0;
+    const double least = std::min(4.0 * kUlp * age, age - now_.time);
     if (at_jump) {
-      const double least = 4.0 * kUlp * std::max(age, speed > 0.0 ? settings_.diagonal / speed : 0.0);
-      h = std::min(std::max(to_jump_, least), age - now_.time);
+      // Four times as long each time that the one before did not get across.
+      constexpr int kMostDoublings = 100;
+      h = std::min(std::ldexp(std::max(to_jump_, least), std::min(2 * stuck_, kMostDoublings)),
+                   age - now_.time);
+      ++stuck_;
       taken = jumps = attempt(h);
       to_jump_ = 0.0;
       // What was before the jump says nothing of what comes.
@@ -162,7 +166,7 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       if (!taken) h = std::min(step_, age - now_.time);
     }
     for (int n = 0; n < kMaxAttempts && !taken; ++n) {
-      if (!(now_.time + h > now_.time)) break;
+      if (!(h >= least)) break;
       leaves = false;
       if (!attempt(h)) {
         // The longest step whose stages all lie in the data.
@@ -205,7 +209,7 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       }
       to_jump_ = 2.0 * (outside - inside);
       h = inside;
-      if (!(now_.time + h > now_.time) || !attempt(h)) break;
+      if (!(h >= least) || !attempt(h)) break;
       taken = true;
     }
     if (!taken && !at_jump) {  // it is right here
@@ -217,6 +221,8 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       return;
     }
 
+    constexpr double kFree = 1e4;
+    if (!jumps && h > kFree * least) stuck_ = 0;
     const double local = local_error();
     const Vec3 last = step.k[Step::kStages - 1];
     Mat3 gradient{0.0};
@@ -232,6 +238,8 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
       const double slowest = std::min(speed, glm::length(last));
       const double change = glm::distance(first, last);
       error_.add(h * change);
+      // The cell behind a face is entered a little later.
+      if (slowest > 0.0) error_.add(FlowInTime::kFace * flow.cell_size() * change / slowest);
       if (change > 0.0) error_.add(glm::length(error_.vector()) * change / std::max(slowest, kUlp * change));
     }
     const double error = std::min(glm::length(error_.vector()), settings_.limits.max_error);

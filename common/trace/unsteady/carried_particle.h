@@ -58,6 +58,7 @@ class CarriedParticle {
   ErrorTransport error_;
   StepControl control_;
   double step_ = 0.0;     ///< the next one, in time; 0: to be found
+  int stuck_ = 0;         ///< steps across jumps since the last that was free of them
   double to_jump_ = 0.0;  ///< a jump of the velocity lies so near, in time; 0: none is known
   std::int64_t steps_ = 0;
 };

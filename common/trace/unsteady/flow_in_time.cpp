@@ -13,8 +13,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kInside = -1e-10;  // barycentric: a face belongs to both cells
-constexpr int kMostCells = 512;     // of a walk; beyond it the index is quicker
+constexpr double kInside = -FlowInTime::kFace;  // barycentric
+constexpr int kMostCells = 512;                 // of a walk; beyond it the index is quicker
 
 /// d/dt at times[at] of the parabola through three times, as weights of the values there.
 std::array<double, 3> parabola_slope(const std::array<double, 3>& times, std::size_t at) {

@@ -23,6 +23,9 @@ namespace palpate {
 
 class FlowInTime {
  public:
+  /// A point this part of a cell beyond its face still counts as in it: a face belongs to both cells.
+  static constexpr double kFace = 1e-10;
+
   struct Step {
     double time = 0.0;
     std::shared_ptr<const VectorField> field;
