@@ -5,13 +5,17 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "common/base/text.h"
+#include "common/load/written_number.h"
 #include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
 
+/// Numbers that a text may have beside its own size, repeated ones: a few letters must not fill the memory.
+constexpr std::uint64_t kMaxRepeated = std::uint64_t{1} << 24;
 /// No file holds more points than this; products of dimensions stay below 2^63.
 constexpr std::uint64_t kMaxPoints = std::uint64_t{1} << 40;
 constexpr std::uint32_t kMaxGrids = 100'000;
@@ -106,24 +110,42 @@ std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
 
 // ---- text ----------------------------------------------------------------------------------------------
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
+bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ','; }
 
-/// Nothing but what numbers are written with; a Fortran "D" exponent is not, VTK would stop at it.
+/// Nothing but what Fortran's numbers are written with, repeated ones ("75*0.3") included.
 bool is_numeric_text(std::string_view text) {
-  static constexpr std::string_view kNumber = "0123456789+-.eE";
+  static constexpr std::string_view kNumber = "0123456789+-.eEdD*";
   return std::all_of(text.begin(), text.end(),
                      [](char c) { return is_blank(c) || kNumber.find(c) != std::string_view::npos; });
 }
 
-/// Walks over words separated by blanks.
+/// Walks over words separated by blanks and commas.
 class Words {
  public:
   explicit Words(std::string_view text) : text_(text) {}
-  std::string_view next() {
+
+  /// A word, and how often it stands there ("75*0.3"): 0 at the end of the text.
+  struct Repeated {
+    std::string_view text;
+    std::uint64_t count = 0;
+  };
+  Repeated next_word() {
     while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
     const std::size_t first = at_;
     while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
-    return text_.substr(first, at_ - first);
+    const std::string_view word = text_.substr(first, at_ - first);
+    const std::size_t star = word.find('*');
+    if (star == std::string_view::npos) return {word, word.empty() ? std::uint64_t{0} : 1};
+    const auto count = parsed<std::uint64_t>(word.substr(0, star));
+    // What repeats itself no whole number of times is no number either.
+    if (!count || *count < 1 || *count > kMaxPoints) return {word, 1};
+    return {word.substr(star + 1), *count};
+  }
+  std::string_view next() {
+    if (last_.count == 0) last_ = next_word();
+    if (last_.count == 0) return {};
+    --last_.count;
+    return last_.text;
   }
   /// The next word as a whole number.
   std::optional<std::int32_t> next_integer() { return parsed<std::int32_t>(next()); }
@@ -131,6 +153,7 @@ class Words {
  private:
   std::string_view text_;
   std::size_t at_ = 0;
+  Repeated last_;
 };
 
 std::optional<Plot3dLayout> read_text_dimensions(std::string_view head, const Plot3dLayout& assumed) {
@@ -170,6 +193,7 @@ std::optional<Plot3dLayout> find_text_layout(std::string_view head, Plot3dFile k
   for (int bits = 0; bits < 8; ++bits) {
     Plot3dLayout assumed;
     assumed.text = true;
+    assumed.double_precision = true;
     assumed.multi_grid = (bits & 1) != 0;
     assumed.blanking = (bits & 2) != 0;
     assumed.two_dimensional = (bits & 4) != 0;
@@ -243,7 +267,9 @@ bool may_be_plot3d_text(const Plot3dBytes& bytes, Plot3dFile kind) {
   if (!is_numeric_text(head)) return false;
   // A number and its blank take two characters at least, and no program writes more than some fifty.
   constexpr std::uint64_t kMostCharacters = 64;
-  const std::uint64_t most = bytes.file_size / 2 + 1;
+  // Repeated ones take less.
+  const bool repeats = head.find('*') != std::string_view::npos;
+  const std::uint64_t most = repeats ? std::numeric_limits<std::uint64_t>::max() : bytes.file_size / 2 + 1;
   return find_text_layout(head, kind,
                           [&](std::uint64_t numbers) {
                             return numbers <= most && numbers >= bytes.file_size / kMostCharacters;
@@ -252,10 +278,44 @@ bool may_be_plot3d_text(const Plot3dBytes& bytes, Plot3dFile kind) {
 }
 
 std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3dFile kind) {
-  if (!is_numeric_text(text)) return std::nullopt;
   std::uint64_t count = 0;
-  for (Words words(text); !words.next().empty();) ++count;
+  Words words(text);
+  for (auto word = words.next_word(); word.count > 0; word = words.next_word()) {
+    count += word.count;
+    if (count > kMaxRepeated + text.size() || !written_number(word.text)) return std::nullopt;
+  }
   return find_text_layout(text, kind, [count](std::uint64_t numbers) { return numbers == count; });
+}
+
+std::string plot3d_bytes(std::string_view text, const Plot3dLayout& layout, Plot3dFile kind) {
+  Words words(text);
+  std::string bytes;
+  const auto put = [&bytes](auto value) {
+    std::array<char, sizeof(value)> raw{};
+    std::memcpy(raw.data(), &value, sizeof(value));
+    bytes.append(raw.data(), raw.size());
+  };
+  const auto put_integers = [&](std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const double number = written_number(words.next()).value_or(0.0);
+      constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+      put(std::abs(number) <= kMost ? static_cast<std::int32_t>(number) : std::int32_t{0});
+    }
+  };
+  const auto put_numbers = [&](std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) put(written_number(words.next()).value_or(0.0));
+  };
+  const std::uint64_t axes = axes_of(layout);
+  put_integers((layout.multi_grid ? 1 : 0) + axes * layout.grids.size());
+  for (const Index3& n : layout.grids) {
+    if (kind == Plot3dFile::kGrid) {
+      put_numbers(axes * count_of(n));
+      if (layout.blanking) put_integers(count_of(n));
+    } else {
+      put_numbers(4 + count_of(n) * solution_values(layout));
+    }
+  }
+  return bytes;
 }
 
 std::string describe(const Plot3dLayout& layout, Plot3dFile kind) {

@@ -4,7 +4,7 @@
 /// Grid file:     [grids]  dimensions of every grid  { x y z [iblank] } of every grid
 /// Solution file: [grids]  dimensions of every grid  { 4 conditions, 5 values a point } of every grid
 /// Two-dimensional files have two dimensions a grid, no z, and 4 values a point. Text files hold the same
-/// numbers, separated by blanks. `grids` is there in multi-grid files only; a Fortran program wraps each item
+/// numbers, separated by blanks or commas, as Fortran writes them (1.5D0, "75*0.3" for 75 of them). `grids` is there in multi-grid files only; a Fortran program wraps each item
 /// in record marks (its byte count before and after). P. P. Walatka et al., PLOT3D User's Manual, NASA
 /// TM-101067, 1990, ch. 8.
 #pragma once
@@ -28,7 +28,7 @@ struct Plot3dLayout {
   bool multi_grid = false;
   bool blanking = false;  ///< grid files
   bool double_precision = false;
-  bool text = false;  ///< numbers as text: no byte order, no record marks, read in single precision
+  bool text = false;  ///< numbers as text: no byte order, no record marks, double precision
   bool two_dimensional = false;
   std::vector<Index3> grids;      ///< points along i, j, k of every grid; k has 1 in two dimensions
   std::uint64_t data_offset = 0;  ///< of the first coordinate, or of the first condition
@@ -57,8 +57,12 @@ inline constexpr std::size_t kPlot3dTailBytes = 4096;
 [[nodiscard]] bool may_be_plot3d_text(const Plot3dBytes& bytes, Plot3dFile kind);
 
 /// The layout under which the count of numbers in `text`, the whole file, fits its own dimensions, or
-/// nothing.
+/// nothing: also where a word is no number, or more are repeated than 2^24 beside the file's size.
 [[nodiscard]] std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3dFile kind);
+
+/// The text as a binary file of its layout: this machine's byte order, double precision, no record marks.
+/// @pre `layout` was found in `text`.
+[[nodiscard]] std::string plot3d_bytes(std::string_view text, const Plot3dLayout& layout, Plot3dFile kind);
 
 /// "big endian, 1 grid, single precision, no record marks, no blanking"
 [[nodiscard]] std::string describe(const Plot3dLayout& layout, Plot3dFile kind);

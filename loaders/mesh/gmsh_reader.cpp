@@ -84,7 +84,7 @@ class GmshReader {
       const std::string section(words_.word());
       if (section.substr(0, 1) != "$")
         words_.refuse("'" + printable(section.substr(0, 40)) + "'", "a section such as $Nodes");
-      if (section != "$MeshFormat" && version_ == 0.0)
+      if (section != "$MeshFormat" && section != "$Comments" && version_ == 0.0)
         words_.refuse("'" + printable(section.substr(0, 40)) + "'", "$MeshFormat");
       if (section == "$MeshFormat") read_format();
       if (section == "$Nodes") version_ < 4.0 ? read_nodes_2() : read_nodes_4();
@@ -112,8 +112,8 @@ class GmshReader {
     version_ = words_.number("a version");
     const std::int64_t binary = words_.integer("0 for text, 1 for binary", 0, 1);
     const std::int64_t size = words_.integer("the size of a number", 1, 16);
-    if (version_ != 2.2 && version_ != 4.1) {
-      words_.refuse("version " + short_number(version_), "2.2 or 4.1",
+    if (version_ != 2.0 && version_ != 2.1 && version_ != 2.2 && version_ != 4.0 && version_ != 4.1) {
+      words_.refuse("version " + short_number(version_), "2.0 to 2.2, 4.0 or 4.1",
                     "write it again: gmsh FILE -save -format msh41");
     }
     if (size != 8) words_.refuse("numbers of " + std::to_string(size) + " bytes", "8");
@@ -159,23 +159,31 @@ class GmshReader {
     expect_end("$EndNodes");
   }
 
+  /// Version 4.0 counts nothing beside blocks and nodes, has the entity before its dimension, every node's number
+  /// beside its coordinates, and numbers of four bytes.
+  [[nodiscard]] bool is_40() const noexcept { return version_ < 4.1; }
+  std::int64_t tag_40(const char* what) { return binary_ ? int32() : words_.integer(what, 0, kMostTag); }
+
   void read_nodes_4() {
     const auto next = [&](const char* what) {
       return binary_ ? size64() : words_.integer(what, 0, kMostTag);
     };
     if (binary_) words_.end_line();
     const std::size_t blocks = believed(next("a count of blocks"), 4);
-    for (int i = 0; i < 3; ++i) (void)next("a number of nodes");
+    for (int i = 0; i < (is_40() ? 1 : 3); ++i) (void)next("a number of nodes");
     for (std::size_t b = 0; b < blocks; ++b) {
-      const std::int64_t dimension = binary_ ? int32() : words_.integer("a dimension", 0, 3);
-      (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
+      std::array<std::int64_t, 2> place{};  // dimension and entity; in 4.0 the other way round
+      for (std::int64_t& part : place)
+        part = binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag);
+      const std::int64_t dimension = place[is_40() ? 1 : 0];
       const std::int64_t parametric = binary_ ? int32() : words_.integer("0 or 1", 0, 1);
       if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
         words_.refuse("nodes of dimension " + std::to_string(dimension), "0 to 3");
       const std::size_t count = believed(next("a count of nodes"), 2);
-      std::vector<std::int64_t> tags(count);
+      std::vector<std::int64_t> tags(is_40() ? 0 : count);
       for (std::int64_t& tag : tags) tag = next("the number of a node");
-      for (const std::int64_t tag : tags) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::int64_t tag = is_40() ? tag_40("the number of a node") : tags[n];
         Vec3 x{0.0};
         for (int i = 0; i < 3; ++i) x[i] = binary_ ? real() : words_.number("a coordinate");
         for (std::int64_t i = 0; i < parametric * dimension; ++i)
@@ -257,17 +265,18 @@ class GmshReader {
     };
     if (binary_) words_.end_line();
     const std::size_t blocks = believed(next("a count of blocks"), 4);
-    for (int i = 0; i < 3; ++i) (void)next("a number of elements");
+    for (int i = 0; i < (is_40() ? 1 : 3); ++i) (void)next("a number of elements");
     std::vector<std::int64_t> nodes;
     for (std::size_t b = 0; b < blocks; ++b) {
-      (void)(binary_ ? int32() : words_.integer("a dimension", 0, 3));
-      (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
+      for (int i = 0; i < 2; ++i)
+        (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
       const ElementType& type = known_type(binary_ ? int32() : words_.integer("a type", 0, kMostTag));
       const std::size_t count = believed(next("a count of elements"), 2);
       nodes.resize(static_cast<std::size_t>(type.nodes));
       for (std::size_t e = 0; e < count; ++e) {
-        const std::int64_t tag = next("the number of an element");
-        for (std::int64_t& node : nodes) node = next("a node");
+        const std::int64_t tag =
+            is_40() ? tag_40("the number of an element") : next("the number of an element");
+        for (std::int64_t& node : nodes) node = is_40() ? tag_40("a node") : next("a node");
         add_element(type, tag, nodes);
       }
     }

@@ -1,10 +1,10 @@
 #include "loaders/mesh/mesh_words.h"
 
 #include <charconv>
-#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/written_number.h"
 
 namespace palpate {
 namespace {
@@ -72,17 +72,7 @@ std::string_view MeshWords::rest_of_line() {
 
 double MeshWords::number(const char* what) {
   const std::string_view text = word();
-  if (const auto value = palpate::number(text)) return *value;
-  // As Fortran writes it: 1.0D+00, and 1.0-100 where the letter found no place.
-  std::string plain(text.substr(0, 64));
-  for (char& c : plain) {
-    if (c == 'd' || c == 'D') c = 'e';
-  }
-  if (plain.find_first_of("eE") == std::string::npos) {
-    const std::size_t sign = plain.find_first_of("+-", 1);
-    if (sign != std::string::npos) plain.insert(sign, "e");
-  }
-  if (const auto value = palpate::number(plain); value && !text.empty()) return *value;
+  if (const auto value = written_number(text)) return *value;
   refuse(text.empty() ? "ends" : quote(text), what, text.empty() ? "the file may be truncated" : "");
 }
 

@@ -29,7 +29,7 @@ class MeshWords {
   /// The rest of this line, without blanks around it; the next word is of the next line.
   std::string_view rest_of_line();
 
-  /// The next word as a number: D exponents, NaN and infinity are taken. @param what it should be, for the message.
+  /// The next word as written_number() reads it. @param what it should be, for the message.
   /// @throws Error (bad input) where it is none.
   double number(const char* what);
   /// A whole number between `least` and `most`.

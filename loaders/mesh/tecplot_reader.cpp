@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/step_times.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
 
@@ -254,7 +255,7 @@ class TecplotReader {
     zone.name = "zone " + std::to_string(zones_.size() + 1);
     next();
     // Up to the first number that no key stands before.
-    while (!token_.empty() && (quoted_ || !is_value(token_))) {
+    while (!token_.empty() && (quoted_ || !looks_like_number(token_))) {
       const std::string key = upper(token_);
       if (starts_record(key)) break;
       if (key == "AUXDATA") {
@@ -496,6 +497,14 @@ class TecplotReader {
     if (zones_.empty())
       throw input_error({words_.file(), "", "has no zone", "data", "the file may be truncated"});
     const auto xyz = coordinates();
+    std::vector<double> times;
+    for (const Zone& zone : zones_) {
+      if (zone.time) times.push_back(*zone.time);
+    }
+    times = joined_times(std::move(times));
+    for (std::size_t z = 0, t = 0; z < zones_.size(); ++z) {
+      if (zones_[z].time) zones_[z].time = times[t++];
+    }
     MeshFile out;
     std::map<double, std::vector<DataSet>> by_time;
     std::vector<DataSet> always;

@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include <sys/mman.h>
-#include <unistd.h>
 #include <vtkGenericEnSightReader.h>
 #include <vtkInformation.h>
 #include <vtkMultiBlockDataSet.h>
@@ -20,6 +18,7 @@
 #include "common/load/find_format.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/foam/foam_case.h"
+#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -70,31 +69,6 @@ class EnsightCase {
   }
 
  private:
-  /// Text under the name of a file that is in memory alone.
-  class MemoryText {
-   public:
-    MemoryText() = default;
-    MemoryText(const MemoryText&) = delete;
-    MemoryText& operator=(const MemoryText&) = delete;
-    ~MemoryText() {
-      if (file_ >= 0) ::close(file_);
-    }
-
-    /// @returns the name. @throws Error (work).
-    std::string write(const std::string& text) {
-      file_ = ::memfd_create("case", MFD_CLOEXEC);
-      for (std::size_t at = 0; at < text.size();) {
-        const ssize_t count = file_ < 0 ? -1 : ::write(file_, text.data() + at, text.size() - at);
-        if (count <= 0) throw work_error("no memory for a case file");
-        at += static_cast<std::size_t>(count);
-      }
-      return "/proc/self/fd/" + std::to_string(file_);
-    }
-
-   private:
-    int file_ = -1;
-  };
-
   static constexpr std::size_t kCaseBytes = std::size_t{4} << 20U;
   std::string text_;
   MemoryText memory_;

@@ -1,6 +1,7 @@
 /// PLOT3D grid and solution through vtkMultiBlockPLOT3DReader, told the layout that was found
 /// (plot3d_layout.h).
 #include <algorithm>
+#include <bit>
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiBlockPLOT3DReader.h>
@@ -10,6 +11,7 @@
 #include "common/base/mapped_file.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
+#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -26,7 +28,7 @@ Plot3dLayout layout_of(const std::string& file, Plot3dFile kind) {
     layout = find_plot3d_text_layout(MappedFile(file).text(), kind);
     if (!layout) {
       throw input_error({file, "", "the count of its numbers does not fit its dimensions", "",
-                         "it may be truncated, or have words that are no numbers"});
+                         "it may be truncated, have words that are no numbers, or repeat over 2^24 of them"});
     }
   }
   if (!layout) {
@@ -127,14 +129,24 @@ class Plot3dReader : public Loader {
                        std::to_string(grid_.grids.size())});
   }
 
+  /// The file itself, or bytes in memory of what it holds as text, of which VTK would read some in single precision
+  /// and others not at all.
+  static std::string readable(const std::string& file, const Plot3dLayout& layout, Plot3dFile kind,
+                              MemoryText& memory) {
+    return layout.text ? memory.write(plot3d_bytes(MappedFile(file).text(), layout, kind)) : file;
+  }
+
   vtkDataObject* run(bool with_solution) {
     reader_ = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
-    reader_->SetXYZFileName(grid_file_.c_str());
-    if (with_solution) reader_->SetQFileName(solution_file_.c_str());
+    reader_->SetXYZFileName(readable(grid_file_, grid_, Plot3dFile::kGrid, grid_text_).c_str());
+    if (with_solution)
+      reader_->SetQFileName(
+          readable(solution_file_, solution_, Plot3dFile::kSolution, solution_text_).c_str());
     reader_->SetAutoDetectFormat(0);
-    reader_->SetBinaryFile(grid_.text ? 0 : 1);
-    reader_->SetByteOrder(grid_.big_endian ? vtkMultiBlockPLOT3DReader::FILE_BIG_ENDIAN
-                                           : vtkMultiBlockPLOT3DReader::FILE_LITTLE_ENDIAN);
+    reader_->SetBinaryFile(1);
+    reader_->SetByteOrder(grid_.big_endian || (grid_.text && std::endian::native == std::endian::big)
+                              ? vtkMultiBlockPLOT3DReader::FILE_BIG_ENDIAN
+                              : vtkMultiBlockPLOT3DReader::FILE_LITTLE_ENDIAN);
     reader_->SetHasByteCount(grid_.record_marks ? 1 : 0);
     reader_->SetMultiGrid(grid_.multi_grid ? 1 : 0);
     reader_->SetIBlanking(grid_.blanking ? 1 : 0);
@@ -152,6 +164,8 @@ class Plot3dReader : public Loader {
   vtkSmartPointer<vtkMultiBlockPLOT3DReader> reader_;
   std::string grid_file_;
   std::string solution_file_;
+  MemoryText grid_text_;
+  MemoryText solution_text_;
   Plot3dLayout grid_;
   Plot3dLayout solution_;
 };

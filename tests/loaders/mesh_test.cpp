@@ -1,7 +1,11 @@
 // Meshes in files that are read without a library: what they hold, what is said, and what is refused.
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -108,10 +112,64 @@ TEST_F(Meshes, GmshNodesWithoutValueHaveNoDataAndItIsSaid) {
   EXPECT_TRUE(std::isnan(blocks.at(0).find("U", Association::kPoint)->at(0)));
 }
 
+TEST_F(Meshes, GmshVersionsAndCommentsOfOldFilesAreRead) {
+  const std::string text = gmsh_file(cell_kinds().at(1), false, false, false);
+  for (const char* const version : {"2 0 8", "2.1 0 8", "2.0 0 8"}) {
+    Source source = Source::open({{folder_.write("a.msh", "$Comments\nby a program\n$EndComments\n" +
+                                                              replaced(text, "2.2 0 8", version))},
+                                  {}});
+    EXPECT_EQ(source.info().blocks.at(0).cell_count, 1U) << version;
+  }
+}
+
+/// A tetrahedron as version 4.0 has it, text or binary.
+std::string gmsh_40(bool binary) {
+  std::string out = std::string("$MeshFormat\n4") + (binary ? " 1 8\n" : " 0 8\n");
+  const auto put = [&](auto number, char after) {
+    if (binary) {
+      std::array<char, sizeof(number)> raw{};
+      std::memcpy(raw.data(), &number, sizeof(number));
+      out.append(raw.data(), raw.size());
+    } else {
+      out += std::to_string(number) + after;
+    }
+  };
+  if (binary) put(1, ' ');
+  out += std::string(binary ? "\n" : "") + "$EndMeshFormat\n$Nodes\n";
+  put(std::uint64_t{1}, ' ');
+  put(std::uint64_t{4}, '\n');
+  for (const int part : {7, 3, 0}) put(part, ' ');
+  put(std::uint64_t{4}, '\n');
+  for (int n = 0; n < 4; ++n) {
+    put(10 * n + 10, ' ');
+    for (int axis = 0; axis < 3; ++axis) put(axis == n - 1 ? 2.0 : 0.0, axis == 2 ? '\n' : ' ');
+  }
+  out += std::string(binary ? "\n" : "") + "$EndNodes\n$Elements\n";
+  put(std::uint64_t{1}, ' ');
+  put(std::uint64_t{1}, '\n');
+  for (const int part : {7, 3, 4}) put(part, ' ');
+  put(std::uint64_t{1}, '\n');
+  for (const int number : {5, 10, 20, 30, 40}) put(number, number == 40 ? '\n' : ' ');
+  return out + (binary ? "\n" : "") + "$EndElements\n";
+}
+
+TEST_F(Meshes, GmshVersion40HasNumbersBesideCoordinates) {
+  for (const bool binary : {false, true}) {
+    Source source = Source::open({{folder_.write("a.msh", gmsh_40(binary))}, {}});
+    const auto blocks = source.read({});
+    const auto& mesh = std::get<UnstructuredTopology>(blocks.at(0).topology);
+    EXPECT_EQ(mesh.types, (std::vector<std::uint8_t>{10})) << binary;
+    for (std::size_t n = 0; n < 4; ++n) {
+      for (int axis = 0; axis < 3; ++axis)
+        EXPECT_EQ(mesh.positions.at(n, axis), axis == static_cast<int>(n) - 1 ? 2.0 : 0.0) << binary;
+    }
+  }
+}
+
 TEST_F(Meshes, BrokenGmshFilesAreRefused) {
   const CellKind& hex = cell_kinds().at(1);
   const std::string text = gmsh_file(hex, false, false, false), four = gmsh_file(hex, true, false, false);
-  refused("a.msh", replaced(text, "2.2 0 8", "4.0 0 8"), "version 4");
+  refused("a.msh", replaced(text, "2.2 0 8", "3 0 8"), "version 3");
   refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n9"), "'$EndNodes'");
   refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n7"), "$EndNodes after as many");
   refused("a.msh", replaced(text, "$Nodes\n8", "$Nodes\n99999999999"), "99999999999");
@@ -146,6 +204,31 @@ TEST_F(Meshes, TecplotZonesOfPointsInOrder) {
   const DataSet block = source.read({"U"}).at(0);
   EXPECT_EQ(std::get<StructuredTopology>(block.topology).points, Index3(2));
   for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(block.arrays.at(0).at(n), static_cast<double>(n) + 0.5);
+}
+
+TEST_F(Meshes, TecplotZonesMayBeginWithNaN) {
+  for (const char* const word : {"NaN", "nan", "Infinity", "-Inf", "+NAN", "1.#QNAN"}) {
+    std::string text = ordered("I=2, J=2, K=2, F=POINT");
+    text = replaced(text, "X Y Z U", "U X Y Z");
+    // Its values: U first.
+    text = text.substr(0, text.find("F=POINT") + 8);
+    for (int n = 0; n < 8; ++n)
+      text += (n == 0 ? word : std::to_string(n)) + std::string(" ") + std::to_string(n % 2) + " " +
+              std::to_string(n / 2 % 2) + " " + std::to_string(n / 4) + "\n";
+    Source source = Source::open({{folder_.write("a.dat", text)}, {}});
+    const auto blocks = source.read({"U"});
+    const DataArray& values = blocks.at(0).arrays.at(0);
+    EXPECT_FALSE(std::isfinite(values.at(0))) << word;
+    EXPECT_EQ(values.at(7), 7.0) << word;
+  }
+}
+
+TEST_F(Meshes, TecplotTimesThatAreEqualUpToRoundingAreOne) {
+  std::string text = ordered("I=2, J=2, K=2, F=POINT, SOLUTIONTIME=0.3");
+  std::string more = ordered("I=2, J=2, K=2, F=POINT, SOLUTIONTIME=0.30000000000000004");
+  Source source = Source::open({{folder_.write("a.dat", text + more.substr(more.find("ZONE")))}, {}});
+  EXPECT_LE(source.info().times.size(), 1U);
+  EXPECT_EQ(source.read({"U"}).size(), 2U);
 }
 
 TEST_F(Meshes, TecplotHasTimesSharedVariablesRepeatedNumbersAndValuesOfCells) {
@@ -194,6 +277,38 @@ TEST_F(Meshes, BrokenTecplotFilesAreRefused) {
   refused("a.dat", "VARIABLES = X Y Z\nZONE N=4 E=1 ZONETYPE=FEPOLYHEDRON\n0 0 0\n", "POLYHEDRON");
   refused("a.dat", "FILETYPE=SOLUTION\nVARIABLES = U V W\nZONE I=2 J=2 K=2\n", "without its grid");
   refused("a.dat", "VARIABLES = X Y Z\nZONE I=2 J=2 F=POINT\n0 0 0 1 0 0 0 1 0 1 1 0\n", "surfaces only");
+}
+
+TEST_F(Meshes, NumbersOfUcdAreReadAsProgramsWriteThem) {
+  struct Word {
+    const char* text;
+    double value;
+  };
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN(),
+                   kInf = std::numeric_limits<double>::infinity();
+  for (const Word& word : {Word{"1e-400", 0.0},
+                           {"-1.5D-400", 0.0},
+                           {"1.#QNAN", kNan},
+                           {"-1.#IND", kNan},
+                           {"-1.#INF", -kInf},
+                           {"1.5D+01", 15.0},
+                           {"1.5+1", 15.0},
+                           {"nan", kNan}}) {
+    const std::string text =
+        std::string("4 1 1 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n1 1 tet 1 2 3 4\n1 1\nU,\n1 ") +
+        word.text + "\n2 1\n3 1\n4 1\n";
+    Source source = Source::open({{folder_.write("a.inp", text)}, {}});
+    const auto blocks = source.read({"U"});
+    const double found = blocks.at(0).arrays.at(0).at(0);
+    EXPECT_TRUE(found == word.value || (std::isnan(found) && std::isnan(word.value)))
+        << word.text << " " << found;
+  }
+  for (const char* const wrong : {"1.#XYZ", "1e", "e-400", "1e+400"}) {
+    refused("a.inp",
+            std::string("4 1 1 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n1 1 tet 1 2 3 4\n1 1\nU,\n1 ") +
+                wrong + "\n2 1\n3 1\n4 1\n",
+            "a value");
+  }
 }
 
 TEST_F(Meshes, BrokenUcdAndSu2FilesAreRefused) {

@@ -3,6 +3,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -255,6 +256,53 @@ TEST(Plot3d, EveryLayoutReadsBackGridAndSolution) {
       });
     }
   }
+}
+
+TEST(Plot3d, TextIsReadInDoublePrecisionAndAsFortranWritesIt) {
+  const test::TempFolder folder;
+  // 3 x 2 x 2 points 1e-9 apart at 1e6, of which a float holds none.
+  const auto x = [](int i) { return 1e6 + 1e-9 * i; };
+  struct Dialect {
+    const char* name;
+    bool repeats, exponent_d, commas;
+  };
+  for (const Dialect& d : {Dialect{"plain", false, false, false},
+                           {"repeats", true, false, false},
+                           {"D", false, true, false},
+                           {"commas", false, false, true},
+                           {"all", true, true, true}}) {
+    const std::string gap = d.commas ? ", " : " ";
+    std::string grid = d.repeats ? "3" + gap + "2*2\n" : "3" + gap + "2" + gap + "2\n";
+    for (int p = 0; p < 12; ++p) {
+      std::array<char, 40> text{};
+      (void)std::snprintf(text.data(), text.size(), "%.17e", x(p % 3));
+      std::string word = text.data();
+      if (d.exponent_d) std::replace(word.begin(), word.end(), 'e', 'D');
+      grid += word + gap + (p % 4 == 3 ? "\n" : "");
+    }
+    for (const int divisor : {3, 6}) {
+      for (int p = 0; p < 12; p += divisor) {
+        const std::string value = std::to_string(p / divisor % 2) + ".5";
+        if (d.repeats) {
+          grid += std::to_string(divisor) + "*" + value + gap;
+        } else {
+          for (int i = 0; i < divisor; ++i) grid += value + gap;
+        }
+      }
+    }
+    Source source = Source::open({{folder.write("grid.xyz", grid)}, {}});
+    const auto blocks = source.read({});
+    const auto& topology = std::get<StructuredTopology>(blocks.at(0).topology);
+    for (int p = 0; p < 12; ++p) {
+      const auto at = static_cast<std::size_t>(p);
+      EXPECT_EQ(topology.positions.at(at, 0), x(p % 3)) << d.name;
+      EXPECT_EQ(topology.positions.at(at, 1), 0.5 + p / 3 % 2) << d.name;
+      EXPECT_EQ(topology.positions.at(at, 2), 0.5 + p / 6) << d.name;
+    }
+  }
+  // A count that no memory holds is refused.
+  EXPECT_FALSE(find_plot3d_text_layout("2000 2000 2000 24000000000*0.5", Plot3dFile::kGrid));
+  EXPECT_FALSE(find_plot3d_text_layout("2 2 2 18446744073709551615*0.5", Plot3dFile::kGrid));
 }
 
 TEST(Plot3d, ASolutionOfAnotherGridIsRefused) {

@@ -265,5 +265,23 @@ TEST(TextDialects, ALostPieceCostsItselfAndAWord) {
   EXPECT_NE(refusal(folder.write("b.pvd", index_of({{"0", "0", "gone.vtu"}}))), "");
 }
 
+TEST(VtkXmlText, NumbersMayEndWithNaNDirectlyBeforeATag) {
+  const TempFolder folder;
+  for (const char* const word : {"nan", "NaN", "-nan", "inf"}) {
+    std::string values;
+    for (int n = 0; n < 23; ++n) values += std::to_string(n) + " ";
+    // Before it, a piece without points, which is cut out.
+    const std::string empty = "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"></Piece>";
+    for (const std::string& before : {std::string(), empty}) {
+      Source source = opened(
+          folder.write("a.vtu", mesh(before + cube_piece(0, array("U", "Float64", 3, values + word)))));
+      const auto blocks = source.read({"U"});
+      const DataArray& found = blocks.at(0).arrays.at(0);
+      EXPECT_EQ(found.at(7, 1), 22.0) << word;
+      EXPECT_FALSE(std::isfinite(found.at(7, 2))) << word;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate
