@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -16,7 +17,9 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
+#include "common/load/step_times.h"
 #include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/ensight_times.h"
 #include "loaders/vtk/foam/foam_case.h"
 #include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/solver_readers.h"
@@ -35,8 +38,10 @@ class EnsightCase {
   void set_up(Reader& reader, const std::string& file, std::vector<std::string>& notes) {
     text_ = read_head(file, kCaseBytes).bytes;
     std::vector<std::string> lost;
-    const std::string text = ensight_case_for_vtk(text_, file, "../../..", lost);
-    if (lost.empty() && text_.find('"') == std::string::npos) {
+    times_ = ensight_times(text_);
+    const std::string& timed = times_.all.empty() ? text_ : times_.text;
+    const std::string text = ensight_case_for_vtk(timed, file, "../../..", lost);
+    if (times_.all.empty() && lost.empty() && text_.find('"') == std::string::npos) {
       reader.SetCaseFileName(file.c_str());
     } else {
       // From /proc/self/fd the names of its files lead back to the root.
@@ -47,6 +52,20 @@ class EnsightCase {
   }
 
   static void choose_parts(Reader&) {}
+
+  /// The time that VTK calls `time`.
+  [[nodiscard]] double true_time(double time) const {
+    const auto last = static_cast<double>(times_.all.size()) - 1.0;
+    return time >= 0.0 && time <= last ? times_.all[static_cast<std::size_t>(std::lround(time))] : time;
+  }
+
+  /// The steps at which a field is given; empty: at all of them.
+  [[nodiscard]] std::vector<std::size_t> steps_of(const std::string& name,
+                                                  const std::vector<double>& times) const {
+    return times.size() == times_.all.size() ? ensight_steps_of(text_, times_, name)
+                                             : std::vector<std::size_t>{};
+  }
+
   static std::vector<std::string> add_boundary(std::vector<DataSet>&, double) { return {}; }
 
   /// VTK's readers take what is there of a truncated file: its size has to account for the values. Those of
@@ -71,6 +90,7 @@ class EnsightCase {
  private:
   static constexpr std::size_t kCaseBytes = std::size_t{4} << 20U;
   std::string text_;
+  EnsightTimes times_;  ///< VTK has their places in the list in place of them
   MemoryText memory_;
 };
 
@@ -85,7 +105,8 @@ class OpenFoamCase {
     // The reader wants a file in the case's folder; it need not be there.
     const bool is_folder = std::filesystem::is_directory(file);
     reader.SetFileName(is_folder ? (std::filesystem::path(file) / "case.foam").c_str() : file.c_str());
-    boundary_ = FoamBoundaryReader(foam_folder(file));
+    folder_ = foam_folder(file);
+    boundary_ = FoamBoundaryReader(folder_);
     // Cell values stay cell values and polyhedra polyhedra: how they become tetrahedra is the field's matter.
     reader.CreateCellToPointOff();
     reader.DecomposePolyhedraOff();
@@ -103,12 +124,44 @@ class OpenFoamCase {
     reader.DisableAllLagrangianArrays();
   }
 
+  static double true_time(double time) { return time; }
+
+  /// The steps at which a field's file is there, in a region at least; empty: at all of them.
+  [[nodiscard]] std::vector<std::size_t> steps_of(const std::string& name,
+                                                  const std::vector<double>& times) const {
+    std::vector<std::size_t> steps;
+    std::error_code error;
+    const auto has = [&name](const std::filesystem::path& folder) {
+      std::error_code none;
+      return std::filesystem::exists(folder / name, none) ||
+             std::filesystem::exists(folder / (name + ".gz"), none);
+    };
+    for (std::filesystem::directory_iterator it(folder_, error), end; !error && it != end;
+         it.increment(error)) {
+      const auto time = number(it->path().filename().string());
+      if (!time || !it->is_directory(error)) continue;
+      bool there = has(it->path());
+      for (std::filesystem::directory_iterator region(it->path(), error), last;
+           !there && !error && region != last; region.increment(error))
+        there = region->is_directory(error) && has(region->path());
+      error.clear();
+      if (!there) continue;
+      for (std::size_t t = 0; t < times.size(); ++t) {
+        if (joined_times({times[t], *time})[0] == joined_times({times[t], *time})[1]) steps.push_back(t);
+      }
+    }
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    return steps.size() == times.size() ? std::vector<std::size_t>{} : steps;
+  }
+
   static void check_values(const std::string&, const std::vector<DataArray>&, std::size_t, std::size_t) {}
   std::vector<std::string> add_boundary(std::vector<DataSet>& blocks, double time) {
     return boundary_.add(blocks, time);
   }
 
  private:
+  std::filesystem::path folder_;
   FoamBoundaryReader boundary_;
 };
 
@@ -143,12 +196,16 @@ class CaseReader : public Loader {
     // VTK knows the arrays' shapes only once they are read: the last step has them all (at the first one an
     // OpenFOAM case often has no mesh values yet), and only that one is read here.
     if (Case::kChecksFields) leave_out_broken(info.notes);
-    if (times_.size() > 1) info.times = times_;
+    std::vector<double> times;
+    for (const double time : times_) times.push_back(case_.true_time(time));
+    if (times.size() > 1) info.times = times;
     select(nullptr);
     update(times_.empty() ? 0 : times_.size() - 1);
     for (const VtkBlock& block : usable(&info.notes))
       info.blocks.push_back(describe_block(block.data, block.name));
     note_boundary(info.notes);
+    find_steps(times, info);
+    blocks_ = info.blocks;
     return info;
   }
 
@@ -159,6 +216,9 @@ class CaseReader : public Loader {
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : usable(nullptr))
       blocks.push_back(convert_block(block.data, block.name, wanted, file_));
+    // VTK goes on with the values of the time before.
+    for (DataSet& block : blocks)
+      std::erase_if(block.arrays, [&](const DataArray& array) { return !is_given(array.name, step); });
     std::map<std::pair<std::string, Association>, std::vector<DataArray>> parts;
     for (const DataSet& block : blocks) {
       for (const DataArray& array : block.arrays) parts[{array.name, array.association}].push_back(array);
@@ -166,6 +226,7 @@ class CaseReader : public Loader {
     for (const auto& [key, found] : parts)
       case_.check_values(file_, found, step, std::max<std::size_t>(1, times_.size()));
     if (!times_.empty()) (void)case_.add_boundary(blocks, times_[step]);
+    for (DataSet& block : blocks) add_not_given(block, wanted, step);
     return blocks;
   }
 
@@ -187,6 +248,60 @@ class CaseReader : public Loader {
     }
     for (int i = 0; i < reader_->GetNumberOfCellArrays(); ++i) {
       reader_->SetCellArrayStatus(reader_->GetCellArrayName(i), status(reader_->GetCellArrayName(i)));
+    }
+  }
+
+  [[nodiscard]] bool is_given(const std::string& name, std::size_t step) const {
+    const auto known = given_.find(name);
+    return known == given_.end() || std::binary_search(known->second.begin(), known->second.end(), step);
+  }
+
+  /// Finds the fields that are not given at all times, says so, and describes those that the last time lacks.
+  void find_steps(const std::vector<double>& times, FileInfo& info) {
+    for (const std::string& name : arrays()) {
+      std::vector<std::size_t> steps = case_.steps_of(name, times);
+      if (steps.empty() || broken_.count(name) > 0) continue;
+      const std::set<std::string> one{name};
+      if (steps.back() + 1 < times.size()) {
+        const std::string why = reads(&one, steps.back());
+        if (!why.empty()) {
+          info.notes.push_back("field '" + name + "' left out: " + why);
+          continue;
+        }
+        for (const VtkBlock& block : usable(nullptr)) {
+          const auto known =
+              std::find_if(info.blocks.begin(), info.blocks.end(),
+                           [&block](const BlockInfo& about) { return about.name == block.name; });
+          if (known == info.blocks.end()) continue;
+          for (const ArrayInfo& array : describe_block(block.data, block.name).arrays) {
+            const bool there =
+                std::any_of(known->arrays.begin(), known->arrays.end(), [&array](const ArrayInfo& a) {
+                  return a.name == array.name && a.association == array.association;
+                });
+            if (array.name == name && !there) known->arrays.push_back(array);
+          }
+        }
+      }
+      info.notes.push_back("field '" + name + "' is given at " + std::to_string(steps.size()) + " of " +
+                           std::to_string(times.size()) + " times, the first of them " +
+                           short_number(times[steps.front()]) + " and the last " +
+                           short_number(times[steps.back()]) + ": no data (NaN) at the others");
+      given_[name] = std::move(steps);
+    }
+  }
+
+  /// NaN for what is asked for and not given at this step.
+  void add_not_given(DataSet& block, const std::set<std::string>& wanted, std::size_t step) const {
+    const auto about = std::find_if(blocks_.begin(), blocks_.end(),
+                                    [&block](const BlockInfo& known) { return known.name == block.name; });
+    if (about == blocks_.end()) return;
+    for (const ArrayInfo& array : about->arrays) {
+      if (wanted.count(array.name) == 0 || is_given(array.name, step)) continue;
+      const std::size_t tuples =
+          array.association == Association::kPoint ? block.point_count() : block.cell_count();
+      const std::vector<double> none(tuples * static_cast<std::size_t>(array.components),
+                                     std::numeric_limits<double>::quiet_NaN());
+      block.arrays.push_back(make_array(array.name, array.association, array.components, none));
     }
   }
 
@@ -257,7 +372,9 @@ class CaseReader : public Loader {
   vtkSmartPointer<typename Case::Reader> reader_;
   std::string file_;
   std::vector<double> times_;
-  std::set<std::string> broken_;  ///< fields that cannot be read
+  std::vector<BlockInfo> blocks_;
+  std::map<std::string, std::vector<std::size_t>> given_;  ///< steps of the fields that not all times have
+  std::set<std::string> broken_;                           ///< fields that cannot be read
 };
 
 /// An OpenFOAM case, whole or in the folders of processors.

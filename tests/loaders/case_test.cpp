@@ -244,5 +244,83 @@ TEST(OpenFoam, ValuesInProcessorFoldersAloneAreNoEmptyCase) {
   EXPECT_THROW((void)Source::open({{base}, {}}), Error);
 }
 
+TEST(Ensight, TimesAreReadInDoublePrecision) {
+  // A float holds neither of them apart from the other, nor 0.001.
+  for (const char* const values :
+       {"1000000.001 1000000.002", "0.001\n2.001", "\n 1.00000e-03\n  2.001e+00"}) {
+    const test::TempFolder folder;
+    const auto file = test::write_ensight_text(folder);
+    std::string text = test::read_file(file);
+    text.replace(text.find("0.0 0.5"), 7, values);
+    folder.write("cube.case", text);
+    Source source = Source::open({{file}, {}});
+    const bool large = values[0] == '1';
+    EXPECT_EQ(source.info().times,
+              large ? (std::vector<double>{1000000.001, 1000000.002}) : (std::vector<double>{0.001, 2.001}))
+        << values;
+    expect_cube_steps(source, {0, 1, 0});
+  }
+}
+
+TEST(Ensight, VariablesOfSomeTimesHaveNoDataAtTheOthersAndItIsSaid) {
+  const test::TempFolder folder;
+  const auto file = test::write_ensight_text(folder);
+  std::string text = test::read_file(file);
+  text.replace(text.find("1 pressure"), 10, "2 pressure");
+  folder.write("cube.case",
+               text +
+                   "time set: 2\nnumber of steps: 2\nfilename start number: 0\nfilename increment: 1\n"
+                   "time values: 0.5 1.0\n");
+  Source source = Source::open({{file}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 0.5, 1.0}));
+  ASSERT_EQ(source.arrays().size(), 2U);
+  EXPECT_TRUE(says(source, "'velocity' is given at 2 of 3 times"));
+  EXPECT_TRUE(says(source, "'pressure' is given at 2 of 3 times, the first of them 0.5"));
+  for (const std::size_t step : {0U, 1U, 2U, 0U}) {
+    const auto blocks = source.read({"velocity", "pressure"}, step);
+    const DataArray* velocity = blocks.at(0).find("velocity", Association::kPoint);
+    const DataArray* pressure = blocks.at(0).find("pressure", Association::kCell);
+    ASSERT_NE(velocity, nullptr);
+    ASSERT_NE(pressure, nullptr);
+    ASSERT_EQ(velocity->tuples, 8U);
+    if (step == 2) {
+      EXPECT_TRUE(std::isnan(velocity->at(1, 0)));
+    } else {
+      EXPECT_EQ(velocity->at(1, 1), test::cube_velocity(1, static_cast<int>(step))[1]);
+    }
+    if (step == 0) {
+      EXPECT_TRUE(std::isnan(pressure->at(0)));
+    } else {
+      EXPECT_EQ(pressure->at(0), 6.0 + static_cast<double>(step));
+    }
+  }
+}
+
+TEST(OpenFoam, FieldsOfSomeTimesHaveNoDataAtTheOthersAndItIsSaid) {
+  for (const char* const lost : {"0/U", "0.5/U"}) {
+    const test::TempFolder folder;
+    const auto file = test::write_openfoam(folder);
+    for (const char* const time : {"0", "0.5"})
+      folder.write(std::string(time) + "/p",
+                   test::foam_header("volScalarField", "p") +
+                       "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform " + time + ";\n" +
+                       "boundaryField\n{\n walls\n {\n type zeroGradient;\n }\n}\n");
+    std::filesystem::remove(folder.path(lost));
+    Source source = Source::open({{file}, {}});
+    EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 0.5}));
+    ASSERT_EQ(source.arrays().size(), 2U) << lost;
+    EXPECT_TRUE(says(source, "'U' is given at 1 of 2 times")) << lost;
+    for (const std::size_t step : {0U, 1U, 0U}) {
+      const auto blocks = source.read({"U", "p"}, step);
+      const DataArray* velocity = blocks.at(0).find("U", Association::kCell);
+      ASSERT_NE(velocity, nullptr);
+      EXPECT_EQ(blocks[0].find("p", Association::kCell)->at(0), 0.5 * static_cast<double>(step));
+      const bool there = std::string(lost) != (step == 0 ? "0/U" : "0.5/U");
+      EXPECT_EQ(std::isnan(velocity->at(0, 0)), !there) << lost << step;
+      if (there) EXPECT_EQ(velocity->at(0, 0), step == 0 ? 1.0 : 4.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace palpate
