@@ -359,6 +359,10 @@ std::optional<Sniffed> known_other(const FileHead& head) {
   if (auto mesh = known_mesh(text, head.ending)) return *std::move(mesh);
   if (head.ending == ".toml" && has(text, "format = ") && has(text, "program = "))
     return Sniffed{{}, "a session", "open it with --session THIS"};
+  if (head.ending == ".tt")
+    return Sniffed{{}, "a tiny-track file of DSI Studio", "save its tracts as .trk.gz or .tck there"};
+  if (head.ending == ".fib" || head.ending == ".fz")
+    return Sniffed{{}, "a fiber file of DSI Studio", "save its directions as NIfTI there"};
   if (is_gzip(text)) return Sniffed{{}, "a gzip file", "unpack it first"};
   return {};
 }

@@ -31,7 +31,7 @@ DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& ch
       blocks.size() == 1 ? std::get_if<UniformTopology>(&blocks.front().topology) : nullptr;
   if (topology == nullptr) {
     throw input_error({file, "", "is not one uniform grid", "one: images and structured points",
-                       "resample it to draw it as a volume"});
+                       "make an image of it, by 'Resample To Image' in ParaView for one"});
   }
   const DataSet& block = blocks.front();
   const DataArray* array = block.find(choice.array, choice.association);

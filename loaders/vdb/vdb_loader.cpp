@@ -180,7 +180,7 @@ class VdbLoader : public Loader {
                              (bytes > 0.0 ? ", more than this machine's memory holds" : ""),
                          "at most " + std::to_string(kMostSparsePoints >> 30U) +
                              " thousand million voxels, and fewer where they are no single numbers",
-                         "cut or resample it"});
+                         "cut it, or make its voxels larger, in the program that it is from"});
     }
     const openvdb::math::Transform& transform = grids_.front()->transform();
     const openvdb::Vec3d origin = transform.indexToWorld(box_.min());

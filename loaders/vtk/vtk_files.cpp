@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <vtkAbstractArray.h>
+#include <vtkDataArray.h>
 #include <vtkDataObject.h>
 #include <vtkDataSet.h>
 #include <vtkFieldData.h>
@@ -68,21 +69,58 @@ DataArray in_rows(const DataArray& array) {
   return ordered;
 }
 
+/// Words of strings, or of the codes of their letters, as one.
+std::string text_of(vtkAbstractArray* stated) {
+  std::string text;
+  for (vtkIdType i = 0; i < stated->GetNumberOfValues(); ++i) {
+    auto* const codes = vtkDataArray::SafeDownCast(stated);
+    if (codes == nullptr) {
+      text += stated->GetVariantValue(i).ToString();
+      continue;
+    }
+    const double code = codes->GetComponent(i / codes->GetNumberOfComponents(),
+                                            static_cast<int>(i % codes->GetNumberOfComponents()));
+    if (code >= 1.0 && code < 128.0) text += static_cast<char>(code);
+  }
+  return text;
+}
+
+/// "LPS" and "RAS" by any of their names, else the word itself.
+std::string space_named(std::string_view word) {
+  const std::string name = lowered(trimmed(word));
+  if (name == "lps" || name == "left-posterior-superior" || name == "lps+") return "LPS";
+  if (name == "ras" || name == "right-anterior-superior" || name == "ras+") return "RAS";
+  return std::string(trimmed(word));
+}
+
 /// What the file says of its space, "LPS": 3D Slicer states it in the title of legacy files, and in the field
 /// data SPACE. Of lines and surfaces alone; empty where there is no word.
 std::string space_of(const std::string& file, bool legacy, vtkDataSet* data) {
   if (vtkPolyData::SafeDownCast(data) == nullptr) return {};
-  if (auto* const stated = data->GetFieldData()->GetAbstractArray("SPACE");
-      stated != nullptr && stated->GetNumberOfValues() == 1) {
-    return std::string(trimmed(stated->GetVariantValue(0).ToString()));
+  constexpr std::string_view kKey = "space";
+  vtkFieldData* const fields = data->GetFieldData();
+  for (int f = 0; f < fields->GetNumberOfArrays(); ++f) {
+    vtkAbstractArray* const stated = fields->GetAbstractArray(f);
+    const char* const name = stated->GetName();
+    constexpr vtkIdType kLongest = 64;
+    if (name == nullptr || lowered(trimmed(name)) != kKey || stated->GetNumberOfValues() > kLongest) continue;
+    if (std::string space = space_named(text_of(stated)); !space.empty()) return space;
   }
   if (!legacy) return {};
   constexpr std::size_t kTwoLines = 384;
   const HeadOfFile head = read_head(file, kTwoLines);
   const std::vector<std::string_view> lines = split(head.bytes, '\n');
-  constexpr std::string_view kKey = "SPACE=";
-  const std::size_t at = lines.size() > 1 ? lines[1].find(kKey) : std::string_view::npos;
-  return at == std::string_view::npos ? std::string() : std::string(lines[1].substr(at + kKey.size(), 3));
+  const std::string_view title = lines.size() > 1 ? lines[1] : std::string_view();
+  const std::string small = lowered(title);
+  for (std::size_t at = small.find(kKey); at != std::string::npos; at = small.find(kKey, at + 1)) {
+    std::string_view rest = title.substr(at + kKey.size());
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    if (!rest.starts_with('=') && !rest.starts_with(':')) continue;
+    rest.remove_prefix(1);
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\""), rest.size()));
+    return space_named(rest.substr(0, rest.find_first_of(" \t\r\",;")));
+  }
+  return {};
 }
 
 /// Positions with x and y turned around: from LPS to RAS.

@@ -79,6 +79,21 @@ std::string tck_points(const Tractogram& lines, bool big_endian) {
   return bytes;
 }
 
+/// `content` as a gzip file.
+inline std::string gzip(const std::string& content) {
+  z_stream stream{};
+  deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(deflateBound(&stream, content.size()) + 32, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(content.data()));
+  stream.avail_in = static_cast<uInt>(content.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  deflate(&stream, Z_FINISH);
+  packed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return packed;
+}
+
 /// A zip file of `members`, deflated where `deflated`.
 inline std::string zip(const std::vector<std::pair<std::string, std::string>>& members, bool deflated) {
   std::string bytes, directory;

@@ -349,6 +349,56 @@ TEST(ReadTractogram, TurnsVtkTractsThatStateLps) {
   first("plain.vtp", vtp(""), false);
 }
 
+// The same word in other cases, with blanks, as a whole name, and as codes of letters.
+TEST(ReadTractogram, KnowsASpaceHoweverItIsSpelled) {
+  const TempFolder folder;
+  const std::string body = "POINTS 3 float\n1 2 3 4 5 6 7 8 10\nLINES 1 4\n3 0 1 2\n";
+  const auto lps = [&](const std::string& title, const std::string& field) {
+    folder.write("a.vtk",
+                 "# vtk DataFile Version 3.0\n" + title + "\nASCII\nDATASET POLYDATA\n" + field + body);
+    const TractogramFile read = read_tractogram(folder.path("a.vtk"));
+    EXPECT_EQ(read.lines.points.size(), 3U);
+    std::string notes;
+    for (const std::string& note : read.info.notes) notes += note;
+    const bool turned = read.lines.points[0].x == -1.0F;
+    EXPECT_EQ(turned, notes.find("turned into RAS") != std::string::npos) << notes;
+    return turned;
+  };
+  for (const char* title : {"3D Slicer output. space=LPS", "SPACE = LPS", "Space: lps", "x SPACE=Lps; y",
+                            "space =\tLPS\r", "SPACE=\"LPS\"", "in space, SPACE=left-posterior-superior"})
+    EXPECT_TRUE(lps(title, "")) << title;
+  for (const char* title :
+       {"SPACE = RAS", "space=right-anterior-superior", "LPS", "space odyssey", "spacecraft=LPS"})
+    EXPECT_FALSE(lps(title, "")) << title;
+  for (const char* field :
+       {"FIELD FieldData 1\nSPACE 1 3 unsigned_char\n76 80 83\n",
+        "FIELD FieldData 1\nspace 3 1 unsigned_char\n108 112 115\n",
+        "FIELD FieldData 1\nSpace 1 4 char\n76 80 83 0\n", "FIELD FieldData 1\nSPACE 1 1 string\nlps\n"})
+    EXPECT_TRUE(lps("vtk output", field)) << field;
+}
+
+TEST(ReadTractogram, NamesPackedTracts) {
+  const TempFolder folder;
+  const auto line = [](const std::filesystem::path& file) -> std::string {
+    try {
+      (void)read_tractogram(file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const char* name : {"a.trk", "a.tck"}) {
+    write_tractogram(folder.path(name), sample_tracts(), true);
+    const std::string said =
+        line(folder.write(std::string(name) + ".gz", gzip(read_file(folder.path(name)))));
+    EXPECT_NE(said.find("tracks; expected"), std::string::npos) << said;
+    EXPECT_NE(said.find("unpack it first"), std::string::npos) << said;
+  }
+  const std::string tiny = line(folder.write("a.tt.gz", gzip(std::string("\0\0\0\0\3\0\0\0track", 13))));
+  EXPECT_NE(tiny.find("tiny-track file of DSI Studio"), std::string::npos) << tiny;
+  EXPECT_NE(tiny.find(".trk.gz"), std::string::npos) << tiny;
+}
+
 // Truth of points, of lines and of groups: a byte each.
 TEST(ReadTractogram, ReadsTruthOfTrx) {
   const TempFolder folder;
