@@ -16,6 +16,13 @@
 namespace palpate {
 namespace {
 
+/// Whether tensors of a single slice can be fitted and measured, though no line can be traced through them.
+bool is_tensor_slice(const Input& input, FieldKind kind) {
+  return kind == FieldKind::kTensor && input.file() != nullptr && !input.not_volume().empty() &&
+         !input.fields().empty() && !input.file()->blocks.empty() &&
+         input.file()->blocks.front().grid == "uniform";
+}
+
 std::string position_text(const Vec3& x) {
   // No "-0" for what is turned around.
   return "(" + short_number(x.x + 0.0) + ", " + short_number(x.y + 0.0) + ", " + short_number(x.z + 0.0) +
@@ -198,8 +205,10 @@ std::string summary_text(const InfoSummary& summary) {
     text += input.not_volume().empty() ? "  field      no fibres: " : "  field      no volume cells: ";
     text += kDrawn;
   } else if (!input.not_volume().empty()) {
-    text += kind == FieldKind::kScalar ? "  field      no volume cells: nothing to feel\n"
-                                       : "  field      no volume cells: nothing to trace\n";
+    text += is_tensor_slice(input, kind) ? "  field      " + input.fields().front() +
+                                               " of one slice: fit and measure take it; nothing to trace\n"
+            : kind == FieldKind::kScalar ? "  field      no volume cells: nothing to feel\n"
+                                         : "  field      no volume cells: nothing to trace\n";
   } else if (summary.field.empty()) {
     text += "  field      no " + std::string(name_of(kind)) + " field can be made from these arrays\n";
   } else {
@@ -268,6 +277,9 @@ ExitCode run_info(const Document& options, const VerbContext& context) {
     add_field(input, *field, summary);
     summary.largest_trace = field->largest_trace();
     summary.negative_tensors = field->negative_tensors();
+  } else if (is_tensor_slice(input, context.explorer.kind)) {
+    const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
+    summary.notes.insert(summary.notes.end(), made.notes.begin(), made.notes.end());
   } else if (has_field && context.explorer.kind == FieldKind::kFibre) {
     add_heart(input, options, context.progress, summary);
   } else if (has_field) {

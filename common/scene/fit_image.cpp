@@ -72,7 +72,7 @@ DataArray volumes_of(const DataArray& signals, const std::vector<std::size_t>& v
 }
 
 /// The table, and a warning where it determines tensors badly.
-void say_quality(const GradientTable& table, std::vector<std::string>& notes) {
+bool say_quality(const GradientTable& table, std::vector<std::string>& notes) {
   const TableQuality quality = quality_of(table);
   const auto places = [](double x) { return short_number(std::round(100.0 * x) / 100.0); };
   std::string gains;
@@ -81,10 +81,11 @@ void say_quality(const GradientTable& table, std::vector<std::string>& notes) {
                   places(quality.condition) + ", noise of xx xy xz yy yz zz " + gains +
                   " times that of evenly spread ones");
   const double worst = *std::max_element(quality.noise_gain.begin(), quality.noise_gain.end());
-  if (quality.condition <= kMostCondition && worst <= kMostCondition) return;
+  if (quality.condition <= kMostCondition && worst <= kMostCondition) return true;
   notes.push_back("WARNING: the gradient table hardly determines tensors (condition " +
                   places(quality.condition) + ", noise up to " + places(worst) +
                   " times that of evenly spread directions): directions and tracts may be noise");
+  return false;
 }
 
 }  // namespace
@@ -92,7 +93,7 @@ void say_quality(const GradientTable& table, std::vector<std::string>& notes) {
 FittedImage fit_image(const DataArray& signals, const UniformTopology& topology, const GradientTable& table,
                       const TensorReading& reading, const std::string& file, int threads,
                       std::vector<std::string>& notes, Progress* progress) {
-  FittedImage fitted{{}, choose_gradients(table, reading.gradients, file)};
+  FittedImage fitted{.fit = {}, .gradients = choose_gradients(table, reading.gradients, file)};
   const GradientTable& taken = fitted.gradients.table;
   notes.insert(notes.end(), fitted.gradients.notes.begin(), fitted.gradients.notes.end());
   if (const std::string problem = gradient_problem(taken); !problem.empty()) {
@@ -101,7 +102,7 @@ FittedImage fit_image(const DataArray& signals, const UniformTopology& topology,
          "six or more directions that differ, and an image without weighting or of a second b-value",
          "name other gradients by --bval and --bvec"});
   }
-  say_quality(taken, notes);
+  fitted.doubtful = !say_quality(taken, notes);
   const bool all = taken.weightings.size() == table.weightings.size();
   const DataArray used = all ? signals : volumes_of(signals, fitted.gradients.volumes, threads);
   std::vector<std::uint8_t> mask;

@@ -17,6 +17,7 @@ namespace palpate {
 struct FittedImage {
   TensorFit fit;
   ChosenGradients gradients;
+  bool doubtful = false;  ///< the table hardly determines tensors, which was said
 };
 
 /// Fits tensors to the volumes that `reading` leaves of `table` and that serve, where the mask of `reading` says: the foreground of the mean of the unweighted volumes (of

@@ -69,13 +69,20 @@ std::string turn_text(const AxisTurn& turn) {
 void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
                          std::vector<std::string>& notes) {
   if (!verdict.suspicious) return;
-  notes.push_back("WARNING: neighbouring main directions line up " +
-                  short_number(std::round(1000.0 * (verdict.gain - 1.0)) / 10.0) +
-                  " % better in other axes: gradients, vectors or tensors may have a wrong axis; try " +
-                  verdict.advice + (turn.is_identity() ? "" : " in addition to the turn that was asked for") +
-                  (verdict.rotated ? "; even then they line up better still rotated by 10 degrees, which no "
-                                     "option mends: was the image turned without its table?"
-                                   : ""));
+  std::string warning = "WARNING: neighbouring main directions line up " +
+                        short_number(std::round(1000.0 * (verdict.gain - 1.0)) / 10.0) +
+                        " % better in other axes: gradients, vectors or tensors may have a wrong axis; ";
+  // What would leave a rotation behind is no advice: it would only hide what is wrong.
+  if (verdict.rotated) {
+    warning +=
+        "but even in the best ones (" + verdict.advice +
+        ") they line up better still rotated by 10 degrees, which no option mends: was the image turned "
+        "without its table?";
+  } else {
+    warning +=
+        "try " + verdict.advice + (turn.is_identity() ? "" : " in addition to the turn that was asked for");
+  }
+  notes.push_back(std::move(warning));
 }
 
 /// How many of the tensors have an eigenvalue below zero, of at most 20000 that are asked.
@@ -119,12 +126,14 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
   const UniformTopology& grid = uniform(result.image, input);
   std::vector<float> tensors;
   Orientation taken{.turn = reading.turn};
+  bool doubtful = false;
   if (input.source.kind == TensorSource::Kind::kSignals) {
     const DataArray& signals = *result.image.find(kSignalArray, Association::kPoint);
     FittedImage fitted = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
                                    result.notes, progress);
     tensors = std::exchange(fitted.fit.tensors, {});
     result.fit = std::move(fitted.fit);
+    doubtful = fitted.doubtful;
     result.gradients = std::move(fitted.gradients.table);
     const VectorFrame read = input.diffusion.gradient_frame;
     taken.frame = reading.frame.value_or(read);
@@ -143,8 +152,14 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     turn_tensors(image * reading.turn.matrix() * glm::transpose(image), tensors);
     result.notes.push_back(turn_text(reading.turn));
   }
-  result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, taken, threads);
-  warn_of_orientation(result.orientation, reading.turn, result.notes);
+  // Of directions that are noise nothing can be learnt.
+  if (doubtful) {
+    result.notes.emplace_back(
+        "axes are not checked against the anatomy: the table does not determine directions");
+  } else {
+    result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, taken, threads);
+    warn_of_orientation(result.orientation, reading.turn, result.notes);
+  }
   if (as_stored && !turned) {
     keep_stored();
     return result;

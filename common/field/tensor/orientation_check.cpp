@@ -152,8 +152,20 @@ double excess(std::span<const double> sums, std::size_t width, std::span<const s
 
 }  // namespace
 
-bool clearly_better(const Coherence& a, const Coherence& b, double by) noexcept {
-  constexpr double kClear = 0.02, kErrors = 1.5;
+namespace {
+
+constexpr double kLeastErrors = 1.5;
+
+/// Standard errors that the best of all turns has to be better by: more where few voxels count, since their octants
+/// are few fibres each, and one of many turns is that much better by chance.
+double errors_for(std::size_t voxels) {
+  constexpr double kMostErrors = 4.0, kMany = 5000.0, kFew = 500.0;
+  const double few = std::log(kMany / std::max(1.0, static_cast<double>(voxels))) / std::log(kMany / kFew);
+  return kLeastErrors + (kMostErrors - kLeastErrors) * std::clamp(few, 0.0, 1.0);
+}
+
+bool better_by(const Coherence& a, const Coherence& b, double by, double errors) {
+  constexpr double kClear = 0.02;
   const double better = a.score - b.score;
   if (!(a.score > kClear && better > by)) return false;
   constexpr auto kCount = static_cast<double>(Coherence::kBlocks);
@@ -164,7 +176,13 @@ bool clearly_better(const Coherence& a, const Coherence& b, double by) noexcept 
     const double apart = a.without[block] - b.without[block] - mean;
     squares += apart * apart;
   }
-  return better > kErrors * std::sqrt((kCount - 1.0) / kCount * squares);
+  return better > errors * std::sqrt((kCount - 1.0) / kCount * squares);
+}
+
+}  // namespace
+
+bool clearly_better(const Coherence& a, const Coherence& b, double by) noexcept {
+  return better_by(a, b, by, kLeastErrors);
 }
 
 std::vector<Coherence> DirectionMap::coherence(std::span<const Mat3> turns, int threads) const {
@@ -301,7 +319,9 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   for (std::size_t a = 1; a < scores.size(); ++a) {
     if (scores[a].score > scores[best].score + kBetter) best = a;
   }
-  const bool suspicious = clearly_better(scores[best], scores.front());
+  constexpr double kByTurn = 0.02;
+  const double errors = errors_for(directions.size());
+  const bool suspicious = better_by(scores[best], scores.front(), kByTurn, errors);
   constexpr double kLeastSum = 1e-3;  // 1 + s is none below zero
   verdict.gain = (1.0 + scores[best].score) / std::max(1.0 + scores.front().score, kLeastSum);
   verdict.suspicious = suspicious;
@@ -312,8 +332,8 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   for (const Mat3& rotation : slight_rotations()) rotated.push_back(rotation * matrices[best]);
   const std::vector<Coherence> after = directions.coherence(rotated, threads);
   constexpr double kByRotation = 0.01;  // ten degrees change less than another axis does
-  verdict.rotated = std::any_of(after.begin() + 1, after.end(), [&after](const Coherence& one) {
-    return clearly_better(one, after.front(), kByRotation);
+  verdict.rotated = std::any_of(after.begin() + 1, after.end(), [&](const Coherence& one) {
+    return better_by(one, after.front(), kByRotation, kLeastErrors);
   });
   return verdict;
 }
