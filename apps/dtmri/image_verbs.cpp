@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -10,7 +12,7 @@
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/field/tensor/tensor_measure.h"
-#include "common/load/write/write_image.h"
+#include "common/scene/origin_of.h"
 
 namespace palpate {
 namespace {
@@ -45,23 +47,68 @@ const UniformTopology& grid_of(const TensorImage& made, const Input& input) {
   return *topology;
 }
 
+/// Of each point whether a number of the file there is not finite, so that it has no tensor; empty where all are.
+std::vector<bool> damaged_points(Input& input, Progress* progress) {
+  std::vector<bool> damaged;
+  const auto look = [&]<typename T>(T, const DataArray& array) {
+    const std::span numbers(reinterpret_cast<const T*>(array.bytes.data()), array.bytes.size() / sizeof(T));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (std::isfinite(numbers[i])) continue;
+      damaged.resize(array.tuples, false);
+      damaged[i / static_cast<std::size_t>(array.components)] = true;
+    }
+  };
+  if (input.file() == nullptr) return damaged;
+  for (const DataSet& block : input.read(input.tensor_source().arrays, progress)) {
+    for (const DataArray& array : block.arrays) {
+      if (array.sparse) continue;
+      if (array.type == ScalarType::kFloat32) look(float{}, array);
+      if (array.type == ScalarType::kFloat64) look(double{}, array);
+    }
+  }
+  return damaged;
+}
+
 /// Writes `values`, says what was done, and returns.
-ExitCode finish(const Document& options, const VerbContext& context, const Input& input,
-                const TensorImage& made, ImageContent content, const std::vector<float>& values,
-                ImageSummary summary) {
+ExitCode finish(const Document& options, const VerbContext& context, Input& input, const TensorImage& made,
+                ImageContent content, std::vector<float> values, ImageSummary summary) {
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
   const Stopwatch watch;
-  write_image(options.output.file, grid_of(made, input), content, values, convention_of(options),
-              options.common.force);
+  ImageOrigin origin = origin_of(input);
+  if (origin.header) origin.header = origin.header->of_others();
+  const auto components = static_cast<std::size_t>(component_count(content));
+  const UniformTopology& grid = grid_of(made, input);
+  const bool all =
+      std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+  const std::vector<bool> unknown = all ? std::vector<bool>() : damaged_points(input, &context.progress);
+  std::size_t zeros = 0, damaged = 0;
+  for (std::size_t v = 0; v * components < values.size(); ++v) {
+    float* const voxel = values.data() + v * components;
+    if (std::isfinite(*voxel)) {
+      ++summary.with_tensor;
+    } else if (v < unknown.size() && unknown[v]) {
+      ++damaged;
+    } else {
+      std::fill_n(voxel, components, 0.0F);
+      ++zeros;
+    }
+  }
+  if (zeros > 0)
+    context.console.note(options.output.file.string() + ": " + counted(zeros, "voxel") +
+                         " without a tensor, 0 there");
+  if (damaged > 0)
+    context.console.note(options.output.file.string() + ": " + counted(damaged, "voxel") +
+                         " with numbers that are not finite in " + input.title() + ": " +
+                         (content == ImageContent::kColor ? "black" : "NaN") + " there");
+  const std::vector<std::string> lost = write_image(options.output.file, grid, content, values,
+                                                    convention_of(options), options.common.force, origin);
+  for (const std::string& line : lost) context.console.note(options.output.file.string() + ": " + line);
   summary.seconds_write = watch.seconds();
   summary.input = input.title();
   summary.field = input.field_label();
   summary.output = options.output.file.string();
-  summary.voxels = values.size() / static_cast<std::size_t>(component_count(content));
-  const auto components = static_cast<std::size_t>(component_count(content));
-  for (std::size_t v = 0; v < values.size(); v += components)
-    summary.with_tensor += std::isfinite(values[v]) ? 1 : 0;
+  summary.voxels = values.size() / components;
   summary.turn = made.orientation.advice;
   summary.gain = made.orientation.gain;
   summary.notes = input.notes();
@@ -111,7 +158,7 @@ ExitCode run_measure(const Document& options, const VerbContext& context) {
   Input input = open_input(options, context);
   const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
   const Stopwatch watch;
-  const std::vector<float> values =
+  std::vector<float> values =
       measure_tensors(made.image, made.choice, measure, options.common.threads, westin);
   ImageSummary summary;
   summary.what = std::string(name_of(measure));
@@ -125,7 +172,7 @@ ExitCode run_measure(const Document& options, const VerbContext& context) {
   ImageContent content = ImageContent::kScalar;
   if (measure == TensorMeasure::kMainDirection) content = ImageContent::kVector;
   if (measure == TensorMeasure::kColor) content = ImageContent::kColor;
-  return finish(options, context, input, made, content, values, std::move(summary));
+  return finish(options, context, input, made, content, std::move(values), std::move(summary));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/grid/color_block.h"
 #include "apps/grid/grid_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -21,7 +22,7 @@
 #include "common/compose/volume_scene.h"
 #include "common/field/grid/image_resample.h"
 #include "common/load/volume_block.h"
-#include "common/load/write/write_image.h"
+#include "common/scene/origin_of.h"
 
 namespace palpate {
 namespace {
@@ -47,18 +48,6 @@ DataSet cropped(const DataSet& block, const Document& options) {
   result.visible.clear();
   result.arrays = {values_of(grid, block.arrays.front(), part)};
   return result;
-}
-
-/// The colours of the voxels, where the volume has some and nothing else is asked for.
-std::optional<DataSet> color_block(Input& input, Progress* progress) {
-  const ScalarChoice choice = input.scalar_choice();
-  if (choice.array != kColorArray || choice.component != ScalarChoice::kMagnitude) return std::nullopt;
-  std::vector<DataSet> blocks = input.read({choice.array}, progress);
-  const bool bytes = blocks.size() == 1 && blocks.front().arrays.size() == 1 &&
-                     blocks.front().arrays.front().type == ScalarType::kUint8 &&
-                     std::holds_alternative<UniformTopology>(blocks.front().topology);
-  if (!bytes) return std::nullopt;
-  return std::move(blocks.front());
 }
 
 /// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
@@ -126,7 +115,9 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
   array.owner = bytes;
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
-  write_image(options.output.file, summary.lattice, array, options.common.force, space_of(input));
+  const auto lost =
+      write_image(options.output.file, summary.lattice, array, options.common.force, origin_of(input));
+  for (const std::string& line : lost) context.console.note(options.output.file.string() + ": " + line);
   context.interrupt.keep(options.output.file);
   summary.input = input.title();
   summary.field = input.field_label();

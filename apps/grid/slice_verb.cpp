@@ -7,9 +7,11 @@
 #include <utility>
 #include <variant>
 
+#include "apps/grid/color_block.h"
 #include "apps/grid/grid_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -19,14 +21,17 @@
 #include "common/compose/plane_image_text.h"
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
+#include "common/field/array_type.h"
 #include "common/field/grid/image_contours.h"
+#include "common/field/grid/lattice_values.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/field/value_histogram.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/load/write/write_image.h"
 #include "common/load/write/write_lines.h"
+#include "common/math/lattice.h"
 #include "common/render/png.h"
 #include "common/scene/document/tables.h"
+#include "common/scene/origin_of.h"
 
 namespace palpate {
 namespace {
@@ -177,6 +182,62 @@ Box bounds_of(const UniformTopology& grid) {
   return box;
 }
 
+/// Of an image that was written: where it has no value, and what stands there.
+struct WrittenSlice {
+  std::size_t outside = 0, missing = 0;
+  bool lowest = false;  ///< outside: the lowest value of the data, else NaN
+};
+
+/// Writes a slice as voxels in the type of the data. Where it lies on the data's own voxels, and where these name
+/// parts of the image, it takes their numbers; elsewhere it interpolates, and rounds where the type is of whole numbers.
+WrittenSlice write_slice(const Document& options, const VerbContext& context, Input& input,
+                         const UniformTopology& grid, const DataArray& values, double lowest,
+                         const UniformTopology& lattice) {
+  const ImageOrigin origin = origin_of(input);
+  constexpr int kLabelIntent = 1002;  // of nifti1.h
+  const bool whole = is_whole(values.type), colors = values.components > 1;
+  const double none = whole ? lowest : std::numeric_limits<double>::quiet_NaN();
+  const NearestPoints nearest = nearest_points(grid, lattice);
+  const bool labels =
+      whole && !colors && !nearest.exact &&
+      ((origin.header && origin.header->intent == kLabelIntent) || looks_like_labels(values, grid.points));
+  WrittenSlice slice{.outside = nearest.outside, .missing = 0, .lowest = whole};
+  DataArray written;
+  if (!values.sparse && (nearest.exact || labels)) {
+    std::vector<std::byte> beyond(byte_size(values.type) * as_size(values.components));
+    if (!colors) std::ranges::copy(in_type(std::span(&none, 1), values.type).array.bytes, beyond.begin());
+    written = values_at(values, nearest, beyond);
+    if (labels)
+      context.console.note(
+          "whole numbers that name parts of the image: those of the nearest voxels are taken");
+    for (std::size_t i = 0; i < written.tuples && !whole; ++i)
+      slice.missing += std::isnan(written.at(i)) ? 1 : 0;
+  } else {
+    const auto components = as_size(values.components);
+    std::vector<double> numbers(count_of(lattice.points) * components);
+    for (std::size_t c = 0; c < components; ++c) {
+      const std::vector<double> part =
+          values_on(grid, values, static_cast<int>(c), lattice, options.common.threads);
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const bool beyond = std::isnan(part[i]);
+        slice.missing += c == 0 && beyond && !whole ? 1 : 0;
+        numbers[i * components + c] = !beyond ? part[i] : colors ? 0.0 : none;
+      }
+    }
+    TypedArray typed = in_type(numbers, values.type);
+    if (whole && typed.rounded > 0)
+      context.console.note("values between voxels rounded to " + std::string(name_of(values.type)) +
+                           ", the type of the data: by at most 0.5");
+    written = std::move(typed.array);
+    written.components = values.components;
+    written.tuples = count_of(lattice.points);
+  }
+  if (!whole) slice.missing -= slice.outside;
+  const auto lost = write_image(options.output.file, lattice, written, options.common.force, origin);
+  for (const std::string& line : lost) context.console.note(options.output.file.string() + ": " + line);
+  return slice;
+}
+
 /// Slices side by side, and the volume with them: what a window shows in panes.
 ExitCode draw_panes(const Document& options, const VerbContext& context) {
   if (options.output.file.empty()) throw usage_error("slice needs an output: try --out slices.png");
@@ -189,6 +250,15 @@ ExitCode draw_panes(const Document& options, const VerbContext& context) {
   drawn.volume.window = options.slice.window;
   drawn.volume.level = options.slice.level;
   return volume_render_verb(modes_of(FieldKind::kScalar), {}).run(drawn, context);
+}
+
+std::string nothing_there(const WrittenSlice& slice) {
+  std::string text;
+  if (slice.outside > 0)
+    text = "; " + counted(slice.outside, "point") + " outside, " +
+           (slice.lowest ? "at the lowest value" : "NaN");
+  if (slice.missing > 0) text += "; " + counted(slice.missing, "point") + " without a value, NaN";
+  return text;
 }
 
 ExitCode run_slice(const Document& options, const VerbContext& context) {
@@ -213,8 +283,11 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   const Greys greys = greys_of(values, with_window_of(input, options.slice), options.common.threads);
   const std::vector<double> contour_values = parse_contours(options.slice.contours);
   const bool as_lines = !contour_values.empty();
+  const bool as_voxels = !as_lines && !is_picture(options.output.file);
   const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
-  const ResampledImage slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
+  ResampledImage slice;
+  if (!as_voxels) slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
+  WrittenSlice written{.outside = slice.outside, .missing = 0, .lowest = true};
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
   const bool anatomical = space_of(input) == ImageSpace::kPatient;
@@ -237,14 +310,15 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
                {"Command", context.command_line},
                {"Comment", "right: " + summary.right + "; up: " + summary.up}});
   } else {
-    write_image(options.output.file, summary.lattice, ImageContent::kScalar, slice.values,
-                ImageConvention::kMrtrix, options.common.force, space_of(input));
+    const std::optional<DataSet> colors = color_block(input, &context.progress);
+    written = write_slice(options, context, input, grid, colors ? colors->arrays.front() : values,
+                          greys.lowest, summary.lattice);
   }
   context.interrupt.keep(options.output.file);
   summary.input = input.title();
   summary.field = input.field_label();
   summary.output = options.output.file.string();
-  summary.outside = slice.outside;
+  summary.outside = written.outside + written.missing;
   summary.lowest = greys.lowest;
   summary.highest = greys.highest;
   summary.seconds_load = input.seconds_open() + input.seconds_read();
@@ -257,10 +331,7 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
                                                                  ", level " + short_number(greys.level)
                                                            : std::string()) +
                         "), " + summary.right + " on the right, " + summary.up + " at the top" +
-                        (slice.outside > 0 && !as_lines
-                             ? "; " + counted(slice.outside, "point") + " outside, at the lowest value"
-                             : "") +
-                        "\n");
+                        (as_lines ? std::string() : nothing_there(written)) + "\n");
   context.console.print_json(lattice_json(summary));
   return ExitCode::kDone;
 }

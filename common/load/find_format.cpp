@@ -1,6 +1,7 @@
 #include "common/load/find_format.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <span>
@@ -14,6 +15,7 @@
 #include "common/base/index.h"
 #include "common/base/unique_fd.h"
 #include "common/load/gzip_head.h"
+#include "common/load/header_of_pair.h"
 #include "common/load/plot3d_layout.h"
 
 namespace palpate {
@@ -95,6 +97,34 @@ HeadOfFile read_head(const std::filesystem::path& path, std::size_t bytes, std::
   return head;
 }
 
+std::optional<std::filesystem::path> header_of_pair(const std::filesystem::path& path,
+                                                    std::string_view head) {
+  std::filesystem::path header = path;
+  const bool packed = lower_ending(header) == ".gz";
+  if (packed) header.replace_extension();
+  if (lower_ending(header) != ".img") return std::nullopt;
+  constexpr std::size_t kHeaderBytes = 348, kMark = 344;
+  const std::string start =
+      is_gzip(head) ? gzip_head(head, kHeaderBytes) : std::string(head.substr(0, kHeaderBytes));
+  if (start.size() == kHeaderBytes && std::string_view(start).substr(kMark, 2) == "n+") return std::nullopt;
+  const std::filesystem::path stem = std::filesystem::path(header).replace_extension();
+  for (const char* ending : {".hdr", ".HDR", ".hdr.gz"}) {
+    header = stem;
+    header += ending;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(header, ignored)) continue;
+    const HeadOfFile found = read_head(header, kSniffBytes);
+    const std::string bytes = is_gzip(found.bytes) ? gzip_head(found.bytes, kHeaderBytes) : found.bytes;
+    // Those of other programs' .img files are text.
+    constexpr std::array<std::string_view, 4> kSizes{
+        std::string_view("\x5c\x01\0\0", 4), std::string_view("\0\0\x01\x5c", 4),
+        std::string_view("\x1c\x02\0\0", 4), std::string_view("\0\0\x02\x1c", 4)};
+    for (const std::string_view size : kSizes)
+      if (bytes.starts_with(size)) return header;
+  }
+  return std::nullopt;
+}
+
 Format find_format(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
@@ -112,6 +142,7 @@ Format find_format(const std::filesystem::path& path) {
     refuse(path, "marks no folder of " + std::string(row.folder), std::string(row.marks) + " beside it");
   }
   if (head.file_size == 0) refuse(path, "is empty", readable());
+  if (const auto header = header_of_pair(path, head.bytes)) return find_format(*header);
   const bool packed = is_gzip(head.bytes);
   if (packed) {
     head.bytes = gzip_head(head.bytes, kSniffBytes);
@@ -123,10 +154,11 @@ Format find_format(const std::filesystem::path& path) {
   if (packed && head.bytes.empty())
     refuse(path, "a gzip file of which nothing can be unpacked", "", "it may be cut off or damaged");
   if (packed && (!sniffed.format || !row_of(*sniffed.format).gzip)) {
-    refuse(
-        path,
-        "a gzip file" + (sniffed.format ? " of " + std::string(row_of(*sniffed.format).name) : std::string()),
-        readable(), "unpack it first");
+    std::string of = sniffed.format ? std::string(row_of(*sniffed.format).name) : std::string();
+    const bool known = sniffed.found.starts_with("a ") && sniffed.found != "a gzip file";
+    if (known) of = sniffed.found;
+    refuse(path, "a gzip file" + (of.empty() ? "" : " of " + of), readable(),
+           known && !sniffed.remedy.empty() ? sniffed.remedy : "unpack it first");
   }
   if (!sniffed.format) refuse(path, sniffed.found, readable(), sniffed.remedy);
   return *sniffed.format;

@@ -58,6 +58,20 @@ std::uint64_t bytes_of_type(int datatype) {
   return found == kTypes.end() ? 0 : found->second;
 }
 
+/// The fields of a qform, numbers of type T from three places on.
+template <typename T>
+NiftiQform qform_at(const HeaderBytes& bytes, std::size_t quaternion, std::size_t steps) {
+  NiftiQform qform;
+  const auto take = [&bytes](auto& to, std::size_t from) {
+    for (std::size_t i = 0; i < to.size(); ++i)
+      to[i] = static_cast<double>(bytes.at<T>(from + i * sizeof(T)));
+  };
+  take(qform.quaternion, quaternion);
+  take(qform.offset, quaternion + 3 * sizeof(T));
+  take(qform.steps, steps);
+  return qform;
+}
+
 constexpr std::int32_t kBytes1 = 348;
 constexpr std::int32_t kBytes2 = 540;
 
@@ -87,6 +101,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     for (std::size_t i = 0; i < 8; ++i) claims.size[i] = bytes.at<std::int16_t>(40 + 2 * i);
     claims.datatype = bytes.at<std::int16_t>(70);
     offset = static_cast<double>(bytes.at<float>(108));
+    claims.qform = qform_at<float>(bytes, 256, 76);
   } else {
     if (head.size() < static_cast<std::size_t>(kBytes2)) return failed("ends within its header");
     const std::string_view magic = head.substr(4, 4);
@@ -97,8 +112,11 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     for (std::size_t i = 0; i < 8; ++i) claims.size[i] = bytes.at<std::int64_t>(16 + 8 * i);
     claims.datatype = bytes.at<std::int16_t>(12);
     offset = static_cast<double>(bytes.at<std::int64_t>(168));
+    claims.qform = qform_at<double>(bytes, 352, 104);
   }
-  claims.bytes_per_voxel = bytes_of_type(claims.datatype);
+  constexpr int kBinary = 1;
+  claims.bits = claims.datatype == kBinary;
+  claims.bytes_per_voxel = claims.bits ? 1 : bytes_of_type(claims.datatype);
   if (claims.bytes_per_voxel == 0)
     return failed("has values of the unknown type " + std::to_string(claims.datatype));
   if (claims.size[0] < 1 || claims.size[0] > 7)
@@ -116,15 +134,21 @@ NiftiClaims read_nifti_claims(std::string_view head) {
   return claims;
 }
 
-std::string nifti_size_problem(const NiftiClaims& claims, std::uint64_t available, bool gzip) {
+std::optional<std::uint64_t> nifti_voxel_bytes(const NiftiClaims& claims) {
   std::uint64_t bytes = claims.bytes_per_voxel;
-  bool huge = false;
-  for (std::size_t i = 1; i < 8; ++i)
-    huge = huge || __builtin_mul_overflow(bytes, static_cast<std::uint64_t>(claims.size[i]), &bytes);
-  huge = huge || bytes > kMaxBytes;
+  for (std::size_t i = 1; i < 8; ++i) {
+    if (__builtin_mul_overflow(bytes, static_cast<std::uint64_t>(claims.size[i]), &bytes))
+      return std::nullopt;
+  }
+  if (claims.bits) bytes = bytes / 8 + (bytes % 8 != 0 ? 1 : 0);
+  return bytes <= kMaxBytes ? std::optional(bytes) : std::nullopt;
+}
+
+std::string nifti_size_problem(const NiftiClaims& claims, std::uint64_t available, bool gzip) {
+  const std::optional<std::uint64_t> bytes = nifti_voxel_bytes(claims);
   const std::uint64_t possible = gzip ? std::min(available, kMaxBytes) * kGzipRatio : available;
-  if (!huge && claims.offset + bytes <= possible) return "";
-  return "claims " + (huge ? std::string("over 2^50") : std::to_string(bytes)) +
+  if (bytes && claims.offset + *bytes <= possible) return "";
+  return "claims " + (bytes ? std::to_string(*bytes) : std::string("over 2^50")) +
          " bytes of voxels from byte " + std::to_string(claims.offset) + " on, but there are " +
          std::to_string(available) + (gzip ? " packed bytes" : " bytes");
 }

@@ -7,8 +7,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "common/load/nifti_form.h"
 
 namespace palpate {
 
@@ -22,10 +25,15 @@ struct NiftiClaims {
   std::array<std::int64_t, 8> size{};  ///< voxels along axis 1 to 7; [0]: how many axes
   int datatype = 0;                    ///< DT_ code of nifti1.h
   std::uint64_t bytes_per_voxel = 0;
+  bool bits = false;         ///< DT_BINARY: eight voxels a byte, and bytes_per_voxel is 1
   std::uint64_t offset = 0;  ///< of the first voxel in its file
-  bool packed = false;       ///< the header's file is a gzip file; set by check_nifti()
-  std::string problem;       ///< what is wrong, or empty
+  NiftiQform qform;
+  bool packed = false;  ///< the header's file is a gzip file; set by check_nifti()
+  std::string problem;  ///< what is wrong, or empty
 };
+
+/// Bytes of all voxels; nothing where they are beyond any file.
+[[nodiscard]] std::optional<std::uint64_t> nifti_voxel_bytes(const NiftiClaims& claims);
 
 /// Reads the claims from the first bytes of a NIfTI file, unpacked.
 [[nodiscard]] NiftiClaims read_nifti_claims(std::string_view head);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
+#include "common/load/header_of_pair.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/nifti/nifti_check.h"
@@ -62,6 +64,8 @@ Voxel voxel_of(int datatype, const std::string& file) {
   }
 }
 
+constexpr std::size_t kPairBytes = std::size_t{64} << 10;  // of which a header can be unpacked
+
 bool is_vector_intent(int intent) {
   return intent == NIFTI_INTENT_VECTOR || intent == NIFTI_INTENT_DISPVECT ||
          intent == NIFTI_INTENT_RGB_VECTOR;
@@ -105,7 +109,11 @@ class VoxelFile {
 }  // namespace
 
 struct NiftiFile::Image {
-  Image(std::string file, FourthAxis fourth_axis, bool left_handed) : file_(std::move(file)) {
+  Image(std::string file, FourthAxis fourth_axis, std::optional<bool> left_handed) : file_(std::move(file)) {
+    if (const auto header = header_of_pair(file_, read_head(file_, kPairBytes).bytes)) {
+      place_.notes.push_back("the header is " + header->filename().string());
+      file_ = header->string();
+    }
     const NiftiClaims claims = check_nifti(file_);
     nifti_set_debug_level(0);
     // niftilib goes by the name.
@@ -116,26 +124,39 @@ struct NiftiFile::Image {
           {file_, "", claims.packed ? "is NIfTI packed by gzip, not named so" : "is NIfTI, not named so",
            claims.packed ? "a name ending in .nii.gz" : "a name ending in .nii or .hdr", "rename it"});
     }
-    image_.reset(nifti_image_read(file_.c_str(), 0));
+    image_.reset(claims.bits ? read_binary_header() : nifti_image_read(file_.c_str(), 0));
     if (!image_)
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});
     if (claims.pair) check_nifti_voxels(image_->iname, claims);
-    place_ = place_of(claims, left_handed);
+    bits_ = claims.bits;
+    NiftiPlace place = place_of(claims, left_handed);
+    place.notes.insert(place.notes.begin(), place_.notes.begin(), place_.notes.end());
+    place_ = std::move(place);
     note_rest(claims);
     describe_values(fourth_axis);
+  }
+
+  /// niftilib knows no bits: it is told that they are bytes. Null where it cannot read the header.
+  [[nodiscard]] nifti_image* read_binary_header() const {
+    int swapped = 0;
+    const std::unique_ptr<nifti_1_header, decltype(&std::free)> header(
+        nifti_read_n1_hdr(file_.c_str(), &swapped, 0), std::free);
+    if (!header || header->sizeof_hdr != static_cast<int>(sizeof(nifti_1_header)))
+      throw input_error({file_, "header", "has voxels of one bit, not in NIfTI-1", "NIfTI-1, or bytes", ""});
+    header->datatype = DT_UINT8;
+    header->bitpix = 8;
+    return nifti_convert_n1hdr2nim(*header, file_.c_str());
   }
 
   /// What stands behind the voxels: all would be moved where they begin elsewhere than the header says.
   void note_rest(const NiftiClaims& claims) {
     if (claims.packed || std::string_view(image_->iname).ends_with(".gz")) return;
-    std::uint64_t end = claims.bytes_per_voxel;
-    for (std::size_t axis = 1; axis < 8; ++axis) end *= static_cast<std::uint64_t>(claims.size[axis]);
-    end += claims.offset;
+    const std::uint64_t end = nifti_voxel_bytes(claims).value_or(0) + claims.offset;
     const std::uint64_t there = read_head(image_->iname, 0).file_size;
     if (there > end) place_.notes.push_back(counted(there - end, "byte") + " behind the voxels left unread");
   }
 
-  NiftiPlace place_of(const NiftiClaims& claims, bool left_handed) const {
+  NiftiPlace place_of(const NiftiClaims& claims, std::optional<bool> left_handed) const {
     constexpr std::int64_t kMostVoxels = std::int64_t{1} << 30;
     for (std::size_t axis = 1; axis < 4; ++axis) {
       if (claims.size[axis] > kMostVoxels)
@@ -145,7 +166,7 @@ struct NiftiFile::Image {
       if (image_->dim[axis] != claims.size[axis] && static_cast<std::int64_t>(axis) <= image_->dim[0])
         throw input_error({file_, "header", "niftilib reads other sizes than it states"});
     }
-    return place_nifti(*image_, left_handed, file_);
+    return place_nifti(*image_, claims.qform, left_handed, file_);
   }
 
   [[nodiscard]] std::optional<VectorFrame> stated_frame() const noexcept {
@@ -202,11 +223,24 @@ struct NiftiFile::Image {
 
   /// The stored numbers of volume `index` (time step + steps * component), in this machine's byte order.
   void read_volume(VoxelFile& file, std::int64_t index, std::span<std::byte> out) const {
+    if (bits_) return read_bits(file, index, out);
     const std::uint64_t at =
         static_cast<std::uint64_t>(image_->iname_offset) + static_cast<std::uint64_t>(index) * out.size();
     check_voxel_counts(image_->iname, {.wanted = out.size(), .unpacked = file.read(at, out)});
     const bool same = image_->byteorder == nifti_short_order();
     to_native(out, byte_size(stored_.type), same == (std::endian::native == std::endian::big));
+  }
+
+  /// The same of bits, the first voxel in the highest one as MRtrix has them: zeros and ones.
+  void read_bits(VoxelFile& file, std::int64_t index, std::span<std::byte> out) const {
+    const std::uint64_t first = static_cast<std::uint64_t>(index) * out.size();
+    std::vector<std::byte> packed((first % 8 + out.size() + 7) / 8);
+    const std::uint64_t at = static_cast<std::uint64_t>(image_->iname_offset) + first / 8;
+    check_voxel_counts(image_->iname, {.wanted = packed.size(), .unpacked = file.read(at, packed)});
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const std::uint64_t bit = first % 8 + i;
+      out[i] = (packed[bit / 8] >> (7 - bit % 8)) & std::byte{1};
+    }
   }
 
   DataArray values(std::int64_t step, const std::function<void(double)>& on_progress) const {
@@ -269,9 +303,10 @@ struct NiftiFile::Image {
   double slope_ = 1.0;
   double intercept_ = 0.0;
   bool scaled_ = false;
+  bool bits_ = false;  ///< eight voxels a byte
 };
 
-NiftiFile::NiftiFile(const std::string& file, FourthAxis fourth_axis, bool left_handed)
+NiftiFile::NiftiFile(const std::string& file, FourthAxis fourth_axis, std::optional<bool> left_handed)
     : image_(std::make_unique<Image>(file, fourth_axis, left_handed)) {}
 NiftiFile::NiftiFile(NiftiFile&&) noexcept = default;
 NiftiFile& NiftiFile::operator=(NiftiFile&&) noexcept = default;

@@ -20,9 +20,9 @@ enum class FourthAxis : std::uint8_t { kTime, kComponents };
 class NiftiFile {
  public:
   /// Reads the header, which check_nifti() has held against the file's size.
-  /// @param left_handed LoadRequest::left_handed.
+  /// @param left_handed LoadRequest::left_handed, where it is asked for.
   /// @throws Error (bad input).
-  NiftiFile(const std::string& file, FourthAxis fourth_axis, bool left_handed);
+  NiftiFile(const std::string& file, FourthAxis fourth_axis, std::optional<bool> left_handed);
   NiftiFile(NiftiFile&&) noexcept;
   NiftiFile& operator=(NiftiFile&&) noexcept;
   ~NiftiFile();

@@ -33,8 +33,9 @@ class NiftiLoader : public Loader {
     const std::string file = request.files.front().string();
     check_others(request);
     files_.clear();
-    files_.emplace_back(file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime,
-                        request.left_handed);
+    files_.emplace_back(
+        file, request.diffusion ? FourthAxis::kComponents : FourthAxis::kTime,
+        request.diffusion || request.left_handed ? std::optional(request.left_handed) : std::nullopt);
     const NiftiFile& first = files_.front();
 
     FileInfo info;

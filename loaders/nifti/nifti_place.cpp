@@ -4,26 +4,19 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
 namespace {
 
-/// Millimetres in the header's unit of length.
-double millimetres(const nifti_image& image, std::vector<std::string>& notes) {
-  switch (image.xyz_units) {
-    case NIFTI_UNITS_METER:
-      notes.emplace_back("coordinates turned from metres into mm");
-      return 1e3;
-    case NIFTI_UNITS_MICRON:
-      notes.emplace_back("coordinates turned from micrometres into mm");
-      return 1e-3;
-    case NIFTI_UNITS_MM:
-      return 1.0;
-    default:
-      notes.emplace_back("the header names no unit of length; taken for mm");
-      return 1.0;
-  }
+/// Says what becomes of the header's unit of length.
+void note_units(const nifti_image& image, std::vector<std::string>& notes) {
+  if (image.xyz_units == NIFTI_UNITS_METER) notes.emplace_back("coordinates turned from metres into mm");
+  if (image.xyz_units == NIFTI_UNITS_MICRON)
+    notes.emplace_back("coordinates turned from micrometres into mm");
+  if (nifti_millimetres(image.xyz_units) == 1.0 && image.xyz_units != NIFTI_UNITS_MM)
+    notes.emplace_back("the header names no unit of length; taken for mm");
 }
 
 void set_transform(const nifti_dmat44& m, double unit, UniformTopology& topology) {
@@ -46,15 +39,6 @@ double farthest_apart(const UniformTopology& a, const UniformTopology& b) {
   return farthest;
 }
 
-bool all_zero(const nifti_dmat44& m) {
-  for (int row = 0; row < 3; ++row) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (m.m[row][axis] != 0.0) return false;
-    }
-  }
-  return true;
-}
-
 std::string space_name(int code) {
   switch (code) {
     case NIFTI_XFORM_SCANNER_ANAT:
@@ -72,47 +56,63 @@ std::string space_name(int code) {
 
 }  // namespace
 
-NiftiPlace place_nifti(const nifti_image& image, bool left_handed, const std::string& file) {
+NiftiPlace place_nifti(const nifti_image& image, const NiftiQform& qform, std::optional<bool> left_handed,
+                       const std::string& file) {
   NiftiPlace place;
   UniformTopology& topology = place.topology;
   topology.points = {static_cast<int>(image.nx), static_cast<int>(image.ny), static_cast<int>(image.nz)};
-  const double unit = millimetres(image, place.notes);
-  const bool zero = image.sform_code > 0 && all_zero(image.sto_xyz);
-  const bool sform = image.sform_code > 0 && !zero;
-  if (zero)
-    place.notes.push_back("WARNING: the header claims an sform (" + space_name(image.sform_code) +
-                          ") that is zero: left aside");
-  place.anatomical = sform || image.qform_code > 0;
+  const double unit = nifti_millimetres(image.xyz_units);
+  note_units(image, place.notes);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (qform.steps[as_size(axis) + 1] == 0.0 && topology.points[axis] > 1 && image.sform_code <= 0)
+      place.notes.push_back("WARNING: the header states no step along axis " + std::to_string(axis + 1) +
+                            ": taken as 1");
+  }
+  std::optional<UniformTopology> qform_place;
+  if (image.qform_code > 0) qform_place = place_by(qform, topology.points, unit);
+  bool sform = image.sform_code > 0;
   if (sform) {
     set_transform(image.sto_xyz, unit, topology);
+    const bool zero = topology.axes == Mat3{0.0};
+    if (zero || (qform_place && !spans_volume(topology))) {
+      sform = false;
+      place.notes.push_back("WARNING: the header claims an sform (" + space_name(image.sform_code) +
+                            ") that " + (zero ? "is zero" : "spans no volume") + ": left aside");
+    }
+  }
+  if (image.qform_code > 0 && !qform_place) {
+    if (!sform)
+      throw input_error({file, "header", "its qform is no rotation with steps and a place",
+                         "a quaternion of at most unit length, and finite numbers", ""});
+    place.notes.push_back("WARNING: the header claims a qform (" + space_name(image.qform_code) +
+                          ") that is no rotation with steps and a place: left aside");
+  }
+  place.anatomical = sform || qform_place;
+  if (sform) {
     place.notes.push_back("RAS+ mm from the sform, " + space_name(image.sform_code));
-    if (image.qform_code > 0) {
-      UniformTopology other = topology;
-      set_transform(image.qto_xyz, unit, other);
-      const double apart = farthest_apart(topology, other);
+    if (qform_place) {
+      const double apart = farthest_apart(topology, *qform_place);
       const double voxel = std::min(
           {glm::length(topology.axes[0]), glm::length(topology.axes[1]), glm::length(topology.axes[2])});
       if (apart > 0.5 * voxel)
         place.notes.push_back("the header's qform lies up to " + short_number(apart) + " mm from its sform");
     }
-  } else if (image.qform_code > 0) {
-    set_transform(image.qto_xyz, unit, topology);
+  } else if (qform_place) {
+    topology = *qform_place;
     place.notes.push_back("RAS+ mm from the qform, " + space_name(image.qform_code));
   } else {
     topology.axes = Mat3{0.0};
+    topology.origin = Vec3{0.0};
     for (int axis = 0; axis < 3; ++axis) topology.axes[axis][axis] = unit * std::abs(image.pixdim[axis + 1]);
-    if (left_handed) topology.axes[0] = -topology.axes[0];
+    if (left_handed.value_or(false)) topology.axes[0] = -topology.axes[0];
     place.notes.push_back(
         "WARNING: neither sform nor qform: spacings alone, no orientation known; taken as " +
-        std::string(left_handed ? "left-handed, from right to left" : "right-handed, from left to right") +
-        " (--handedness). Programs disagree here: left and right may be mirrored, and so may gradients along x");
+        std::string(left_handed.value_or(false) ? "left-handed, from right to left"
+                                                : "right-handed, from left to right") +
+        (left_handed ? " (--handedness)" : "") + ". Programs disagree here: left and right may be mirrored" +
+        (left_handed ? ", and so may gradients along x" : ""));
   }
-  // Steps of any unit: it is their directions that must span space.
-  const double steps =
-      glm::length(topology.axes[0]) * glm::length(topology.axes[1]) * glm::length(topology.axes[2]);
-  constexpr double kFlat = 1e-9;
-  if (!(std::abs(glm::determinant(topology.axes)) > kFlat * steps) || !std::isfinite(steps) ||
-      !is_finite(topology.origin)) {
+  if (!spans_volume(topology)) {
     throw input_error({file, "header", "its axes span no volume", "three independent, finite directions"});
   }
   return place;

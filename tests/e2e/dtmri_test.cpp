@@ -108,7 +108,11 @@ TEST_F(Dtmri, FitsTheHeadAndMeasuresWhatItWrote) {
   const Json direct = json({"measure", dwi.string(), "--measure", "fa", "--out", "a.nii"});
   const Json written = json({"measure", "tensor.nii.gz", "--out", "b.nii"});  // fa is the default
   EXPECT_EQ(direct["with_tensor"], written["with_tensor"]);
-  EXPECT_EQ(read_file(folder_.path("a.nii")), read_file(folder_.path("b.nii")));
+  const auto voxels = [&](const char* name) { return read_file(folder_.path(name)).substr(352); };
+  EXPECT_TRUE(voxels("a.nii") == voxels("b.nii"));
+  // Both say what the head says of itself.
+  for (const char* name : {"a.nii", "b.nii"})
+    EXPECT_EQ(read_file(folder_.path(name)).substr(148, 5), "TE=79") << name;
 
   // A wrong axis is noticed, and the words that are suggested put it right.
   const Json flipped = json({"fit", dwi.string(), "--flip", "j", "--out", "flipped.nii.gz"});

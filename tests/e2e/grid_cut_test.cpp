@@ -225,8 +225,12 @@ TEST_F(GridCut, PartsAreWrittenInTheirPlacesAndOpenAgain) {
     const Json info = json({"info", name});
     EXPECT_EQ(info["range"], Json({16.0, 32.0})) << name;
     EXPECT_EQ(info["blocks"][0]["size"], Json({2, 2, 3})) << name;
-    EXPECT_EQ(info["blocks"][0]["bounds"]["lower"], Json({1.0, 2.0, 3.0})) << name;
-    EXPECT_EQ(info["blocks"][0]["bounds"]["upper"], Json({2.0, 4.0, 9.0})) << name;
+    // NIfTI has no places but a patient's, which nothing is known of here.
+    const bool placed = name != "part.nii.gz";
+    EXPECT_EQ(info["blocks"][0]["bounds"]["lower"], placed ? Json({1.0, 2.0, 3.0}) : Json({0.0, 0.0, 0.0}))
+        << name;
+    EXPECT_EQ(info["blocks"][0]["bounds"]["upper"], placed ? Json({2.0, 4.0, 9.0}) : Json({1.0, 2.0, 6.0}))
+        << name;
   }
   // Shapes cut voxels as they cut pictures, from a session, too; lenses that show something are left aside.
   const std::vector<std::string> cut{"clip",   "a_3x4x5_uint8.raw", "--raw-size", "3x4x5", "--raw-type",

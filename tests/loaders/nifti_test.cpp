@@ -15,6 +15,7 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/load/image_header.h"
 #include "common/load/load.h"
 #include "tests/loaders/nifti_fixture.h"
 #include "tests/support/shared_data.h"
@@ -74,6 +75,57 @@ TEST(Nifti, VersionsPackingsAndPairsGiveTheSameVoxels) {
     EXPECT_EQ(block.arrays[0].type, ScalarType::kInt16);
     for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(block.arrays[0].at(p), static_cast<double>(p)) << file;
   }
+}
+
+// Of a pair either file may be named, packed or not; another program's header beside an .img is none.
+TEST(Nifti, APairIsOpenedByItsVoxels) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 3, 4}, .datatype = 4};
+  header.pair = true;
+  const std::string voxels = counting<std::int16_t>(24);
+  folder.write("a.hdr", header.version1());
+  folder.write("b.hdr.gz", gzip(header.version1()));
+  for (const auto& file : {folder.write("a.img", voxels), folder.write("b.img.gz", gzip(voxels))}) {
+    Source source = Source::open({{file}, {}});
+    const DataSet block = read_block(source);
+    for (std::size_t p = 0; p < 24; ++p) ASSERT_EQ(block.arrays.at(0).at(p), static_cast<double>(p)) << file;
+  }
+  const auto line = [](const std::filesystem::path& file) -> std::string {
+    try {
+      (void)Source::open({{file}, {}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  std::string analyze = header.version1();
+  analyze.replace(344, 4, std::string(4, '\0'));
+  folder.write("c.hdr", analyze);
+  EXPECT_NE(line(folder.write("c.img", voxels)).find("Analyze header"), std::string::npos);
+  folder.write("d.hdr", "ENVI\nsamples = 2\n");
+  EXPECT_NE(line(folder.write("d.img", voxels)).find("d.img"), std::string::npos);
+}
+
+// Masks of one bit a voxel, the first one in the highest bit: the second volume begins within a byte.
+TEST(Nifti, BitsAreZerosAndOnes) {
+  const test::TempFolder folder;
+  const auto bit = [](std::size_t v) { return v % 3 == 0 || v % 7 == 2; };
+  const NiftiHeader header{.size = {3, 3, 3, 2}, .datatype = 1};
+  std::string voxels(7, '\0');
+  for (std::size_t v = 0; v < 54; ++v)
+    if (bit(v)) voxels[v / 8] = static_cast<char>(voxels[v / 8] | (0x80 >> (v % 8)));
+  std::string h = header.version1();
+  test::put_at(h, 72, std::int16_t{1});
+  Source source = Source::open({{folder.write("bits.nii", h + std::string(4, '\0') + voxels)}, {}});
+  for (std::size_t step = 0; step < 2; ++step) {
+    const DataSet block = read_block(source, step);
+    EXPECT_EQ(block.arrays.at(0).type, ScalarType::kUint8);
+    for (std::size_t p = 0; p < 27; ++p)
+      EXPECT_EQ(block.arrays[0].at(p), bit(27 * step + p) ? 1.0 : 0.0) << p;
+  }
+  EXPECT_THROW(
+      (void)Source::open({{folder.write("cut.nii", h + std::string(4, '\0') + voxels.substr(1))}, {}}),
+      Error);
 }
 
 TEST(Nifti, BytesBehindTheVoxelsAreSaid) {
@@ -193,6 +245,60 @@ TEST(Nifti, AnSformOfZerosIsLeftAside) {
     std::size_t warnings = 0;
     for (const std::string& note : source.info().notes) warnings += note.starts_with("WARNING") ? 1 : 0;
     EXPECT_EQ(warnings, qform ? 1U : 2U);
+  }
+}
+
+// Of two forms the one that can be used is taken, whichever it is, and the other one is named.
+TEST(Nifti, AFormThatCannotBeUsedIsLeftAside) {
+  const test::TempFolder folder;
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                  kInf = std::numeric_limits<float>::infinity();
+  NiftiHeader good{.size = {2, 2, 2}, .datatype = 2};
+  good.sform_code = 4;
+  good.srow = {3, 0, 0, 7, 0, 3, 0, 8, 0, 0, 3, 9};
+  good.qform_code = 1;
+  good.quatern = {0, 0, 1};
+  good.qoffset = {1, 2, 3};
+  good.pixdim = {2, 3, 4};
+  good.xyz_units = 2;
+  std::vector<NiftiHeader> bad_sforms(5, good), bad_qforms(6, good);
+  bad_sforms[0].srow = {};
+  bad_sforms[1].srow[5] = 0;  // flat
+  bad_sforms[2].srow[4] = kNan;
+  bad_sforms[3].srow[11] = kInf;
+  bad_sforms[4].srow = {1, 1, 1, 0, 2, 2, 2, 0, 0, 0, 1, 0};
+  bad_qforms[0].quatern[1] = kNan;
+  bad_qforms[1].qoffset[0] = kNan;
+  bad_qforms[2].quatern = {1, 1, 0};
+  bad_qforms[3].pixdim[1] = static_cast<double>(kNan);
+  bad_qforms[4].qoffset[2] = -kInf;
+  bad_qforms[5].quatern[2] = kInf;
+  const auto check = [&](const NiftiHeader& header, bool sform) {
+    Source source = Source::open(
+        {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+    const auto topology = std::get<UniformTopology>(read_block(source).topology);
+    EXPECT_TRUE(source.info().anatomical);
+    EXPECT_LT(glm::distance(topology.axes[0], sform ? Vec3(3, 0, 0) : Vec3(-2, 0, 0)), 1e-12);
+    EXPECT_LT(glm::distance(topology.axes[2], sform ? Vec3(0, 0, 3) : Vec3(0, 0, 4)), 1e-12);
+    EXPECT_EQ(topology.origin, sform ? Vec3(7, 8, 9) : Vec3(1, 2, 3));
+    std::string notes;
+    for (const std::string& note : source.info().notes) notes += note + "\n";
+    EXPECT_NE(notes.find(sform ? "RAS+ mm from the sform" : "RAS+ mm from the qform"), std::string::npos)
+        << notes;
+    EXPECT_NE(notes.find("left aside"), std::string::npos) << notes;
+    // A form that is of no use is not said again.
+    EXPECT_EQ(read_image_header(folder.path("a.nii"))->sform_code, sform ? 4 : 0);
+    EXPECT_EQ(read_image_header(folder.path("a.nii"))->qform_code, sform ? 0 : 1);
+  };
+  for (const NiftiHeader& header : bad_sforms) check(header, false);
+  for (const NiftiHeader& header : bad_qforms) check(header, true);
+  // Neither: nothing is made up.
+  for (NiftiHeader header : bad_qforms) {
+    header.sform_code = 0;
+    EXPECT_THROW((void)Source::open({{folder.write("a.nii", header.version1() + std::string(4, '\0') +
+                                                                counting<std::uint8_t>(8))},
+                                     {}}),
+                 Error);
   }
 }
 

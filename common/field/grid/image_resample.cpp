@@ -12,6 +12,7 @@
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/grid_from_data.h"
+#include "common/field/grid/lattice_values.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 
@@ -20,6 +21,9 @@ namespace {
 
 // Points this near to a border, in voxels, are on it: a slice of the outermost layer is not outside.
 constexpr double kGridRounding = 1e-6;
+
+/// Whether a grid coordinate lies between the first point and the last one.
+bool is_inside(double g, double last) { return g >= -kGridRounding && g <= last + kGridRounding; }
 
 double length_of(const Vec3& v) {
   const double unit = power_of_two(binary_exponent(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})));
@@ -143,8 +147,8 @@ DataArray values_of(const UniformTopology& image, const DataArray& values, const
   return result;
 }
 
-ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
-                        const UniformTopology& lattice, float filler, int threads) {
+std::vector<double> values_on(const UniformTopology& image, const DataArray& values, int component,
+                              const UniformTopology& lattice, int threads) {
   const Index3 n = image.points, m = lattice.points;
   PALPATE_CHECK(values.tuples == count_of(n) && component >= 0 && component < values.components);
   const GridFromData grid(image.axes, image.origin);
@@ -152,13 +156,12 @@ ResampledImage resample(const UniformTopology& image, const DataArray& values, i
   const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
                   grid.direction(lattice.axes[2]));
   const auto at = [&](const Index3& p) { return values.at(index_in(n, p), component); };
-  // NaN outside, and where a voxel that counts has no value.
   const auto sample = [&](Vec3 g) {
     Index3 low{0};
     Vec3 part{0.0};
     for (int axis = 0; axis < 3; ++axis) {
       const double last = n[axis] - 1;
-      if (!(g[axis] >= -kGridRounding && g[axis] <= last + kGridRounding)) return std::nan("");
+      if (!is_inside(g[axis], last)) return std::nan("");
       g[axis] = std::clamp(g[axis], 0.0, last);
       // On a point the others have no say.
       if (std::abs(g[axis] - std::round(g[axis])) <= kGridRounding) g[axis] = std::round(g[axis]);
@@ -176,29 +179,76 @@ ResampledImage resample(const UniformTopology& image, const DataArray& values, i
       }
       if (weight > 0.0) sum += weight * at(p);
     }
-    return sum;
+    return std::isfinite(sum) ? sum : std::nan("");
   };
 
-  ResampledImage result;
-  result.values.assign(count_of(m), filler);
+  std::vector<double> result(count_of(m));
   const auto row = as_size(m.x);
-  const std::size_t rows = row > 0 ? result.values.size() / row : 0;
-  std::vector<std::size_t> outside(rows, 0);
+  const std::size_t rows = row > 0 ? result.size() / row : 0;
   parallel_for(rows, threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t r = first; r < last; ++r) {
       const auto j = static_cast<int>(r % as_size(m.y));
       const auto k = static_cast<int>(r / as_size(m.y));
-      for (int i = 0; i < m.x; ++i) {
-        const double value = sample(start + step * Vec3(i, j, k));
-        if (std::isfinite(value)) {
-          result.values[r * row + as_size(i)] = static_cast<float>(value);
-        } else {
-          ++outside[r];
-        }
-      }
+      for (int i = 0; i < m.x; ++i) result[r * row + as_size(i)] = sample(start + step * Vec3(i, j, k));
     }
   });
-  for (const std::size_t some : outside) result.outside += some;
+  return result;
+}
+
+ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
+                        const UniformTopology& lattice, float filler, int threads) {
+  ResampledImage result;
+  for (const double value : values_on(image, values, component, lattice, threads)) {
+    result.outside += std::isnan(value) ? 1 : 0;
+    result.values.push_back(std::isnan(value) ? filler : static_cast<float>(value));
+  }
+  return result;
+}
+
+NearestPoints nearest_points(const UniformTopology& image, const UniformTopology& lattice) {
+  const GridFromData grid(image.axes, image.origin);
+  const Vec3 start = grid.point(lattice.origin);
+  const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
+                  grid.direction(lattice.axes[2]));
+  const Index3 m = lattice.points;
+  NearestPoints nearest;
+  nearest.index.reserve(count_of(m));
+  for (int k = 0; k < m.z; ++k) {
+    for (int j = 0; j < m.y; ++j) {
+      for (int i = 0; i < m.x; ++i) {
+        const Vec3 g = start + step * Vec3(i, j, k);
+        Index3 point{0};
+        bool inside = true, exact = true;
+        for (int axis = 0; axis < 3; ++axis) {
+          const double last = image.points[axis] - 1;
+          inside = inside && is_inside(g[axis], last);
+          if (!inside) break;
+          const double whole = std::clamp(std::round(g[axis]), 0.0, last);
+          exact = exact && std::abs(g[axis] - whole) <= kGridRounding;
+          point[axis] = static_cast<int>(whole);
+        }
+        nearest.outside += inside ? 0 : 1;
+        nearest.exact = nearest.exact && exact;
+        nearest.index.push_back(inside ? index_in(image.points, point) : NearestPoints::kBeyond);
+      }
+    }
+  }
+  return nearest;
+}
+
+DataArray values_at(const DataArray& values, const NearestPoints& points, std::span<const std::byte> beyond) {
+  const std::size_t size = byte_size(values.type) * as_size(values.components);
+  PALPATE_CHECK(!values.sparse && beyond.size() == size);
+  const auto bytes = std::make_shared<std::vector<std::byte>>(points.index.size() * size);
+  std::byte* to = bytes->data();
+  for (const std::size_t index : points.index) {
+    const bool there = index != NearestPoints::kBeyond;
+    to = std::ranges::copy(there ? values.bytes.subspan(index * size, size) : beyond, to).out;
+  }
+  DataArray result = values;
+  result.tuples = points.index.size();
+  result.bytes = std::as_const(*bytes);
+  result.owner = bytes;
   return result;
 }
 

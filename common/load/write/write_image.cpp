@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,8 @@
 #include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
-#include "common/field/tensor/vector_frame.h"
+#include "common/load/write/image_origin.h"
+#include "common/load/write/nifti_head.h"
 #include "common/math/lattice.h"
 #include "common/math/vec_text.h"
 
@@ -37,19 +39,23 @@ Ending ending_of(const std::filesystem::path& path) {
 /// Writes bytes as they are or through gzip, whose header carries no time: the same image, the same file.
 class Sink {
  public:
-  Sink(const std::filesystem::path& path, bool overwrite, bool packed) : file_(path, overwrite) {
-    if (!packed) return;
-    constexpr int kGzipWrapper = 16;  // added to the size of the window: gzip's header in place of zlib's
-    constexpr int kMemoryLevel = 8;   // zlib's default
-    packed_ = deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS + kGzipWrapper,
-                           kMemoryLevel, Z_DEFAULT_STRATEGY) == Z_OK;
-    if (!packed_) throw work_error(path.string() + ": not enough memory to pack it");
+  Sink(const std::filesystem::path& path, bool overwrite, bool packed) : path_(path), file_(path, overwrite) {
+    if (packed) pack_from_here();
   }
   ~Sink() {
     if (packed_) deflateEnd(&stream_);
   }
   Sink(const Sink&) = delete;
   Sink& operator=(const Sink&) = delete;
+
+  /// What follows goes through gzip. @pre nothing did before.
+  void pack_from_here() {
+    constexpr int kGzipWrapper = 16;  // added to the size of the window: gzip's header in place of zlib's
+    constexpr int kMemoryLevel = 8;   // zlib's default
+    packed_ = deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS + kGzipWrapper,
+                           kMemoryLevel, Z_DEFAULT_STRATEGY) == Z_OK;
+    if (!packed_) throw work_error(path_.string() + ": not enough memory to pack it");
+  }
 
   void write(std::string_view bytes) {
     if (packed_) {
@@ -82,124 +88,33 @@ class Sink {
     } while (!bytes.empty());
   }
 
+  std::filesystem::path path_;
   OutputFile file_;
   z_stream stream_{};
   bool packed_ = false;
 };
 
-/// Bytes of numbers as they lie in memory.
-class Bytes {
- public:
-  explicit Bytes(std::size_t size) : bytes_(size, '\0') {}
-  template <typename T>
-  void put(std::size_t offset, T value) {
-    std::memcpy(bytes_.data() + offset, &value, sizeof(T));
-  }
-  void put_text(std::size_t offset, std::string_view text) { bytes_.replace(offset, text.size(), text); }
-  [[nodiscard]] const std::string& text() const noexcept { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-/// What the numbers of a voxel are, and how they are stored.
-struct Stored {
-  ImageContent content = ImageContent::kScalar;
-  ScalarType type = ScalarType::kFloat32;
-  int components = 1;
-
-  [[nodiscard]] bool colors() const noexcept { return content == ImageContent::kColor; }
-};
-
 Stored stored_as(ImageContent content) {
   const bool colors = content == ImageContent::kColor;
-  return {content, colors ? ScalarType::kUint8 : ScalarType::kFloat32, component_count(content)};
+  return {.content = content,
+          .type = colors ? ScalarType::kUint8 : ScalarType::kFloat32,
+          .components = component_count(content)};
 }
 
-/// How the formats call a number type: the code of nifti1.h, the names of NRRD and of VTK.
-struct TypeNames {
-  std::int16_t nifti;
-  const char *nrrd, *vtk;
-};
-TypeNames names_of(ScalarType type) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return {256, "int8", "Int8"};
-    case ScalarType::kUint8:
-      return {2, "uint8", "UInt8"};
-    case ScalarType::kInt16:
-      return {4, "int16", "Int16"};
-    case ScalarType::kUint16:
-      return {512, "uint16", "UInt16"};
-    case ScalarType::kInt32:
-      return {8, "int32", "Int32"};
-    case ScalarType::kUint32:
-      return {768, "uint32", "UInt32"};
-    case ScalarType::kInt64:
-      return {1024, "int64", "Int64"};
-    case ScalarType::kUint64:
-      return {1280, "uint64", "UInt64"};
-    case ScalarType::kFloat32:
-      return {16, "float", "Float32"};
-    case ScalarType::kFloat64:
-      break;
-  }
-  return {64, "double", "Float64"};
-}
-
-constexpr std::int16_t kRgb = 128, kRgba = 2304;  ///< DT_RGB24, DT_RGBA32
-
-/// The description in the header: its own fields cannot say along which axes directions and tensors are.
-std::string nifti_description(ImageContent content, ImageConvention convention) {
-  const bool fsl = convention == ImageConvention::kFsl;
-  std::string text;
-  if (content == ImageContent::kVector) text = "directions, ";
-  if (content == ImageContent::kTensor) text = fsl ? "xx xy xz yy yz zz, " : "xx yy zz xy xz yz, ";
-  if (text.empty()) return text;
-  return text + frame_mark(fsl ? VectorFrame::kImage : VectorFrame::kScanner) +
-         (fsl ? " (FSL's image axes)" : " (RAS+)");
-}
-
-/// The header of nifti1.h (348 bytes) with its 4 bytes of extension flags; the affine is the sform.
-std::string nifti_header(const UniformTopology& topology, const Stored& stored, ImageSpace space,
-                         const std::string& description = {}) {
-  const int volumes = stored.colors() ? 1 : stored.components;
-  const std::int16_t colors = stored.components == 4 ? kRgba : kRgb;
-  const std::size_t bytes = byte_size(stored.type) * (stored.colors() ? as_size(stored.components) : 1);
-  Bytes header(352);
-  header.put(0, std::int32_t{348});
-  header.put(40, static_cast<std::int16_t>(volumes > 1 ? 4 : 3));
-  for (int axis = 0; axis < 3; ++axis)
-    header.put(42 + 2 * as_size(axis), static_cast<std::int16_t>(topology.points[axis]));
-  header.put(48, static_cast<std::int16_t>(volumes));
-  for (std::size_t axis = 4; axis < 7; ++axis) header.put(42 + 2 * axis, std::int16_t{1});
-  header.put(70, stored.colors() ? colors : names_of(stored.type).nifti);
-  header.put(72, static_cast<std::int16_t>(8 * bytes));  // bits a voxel
-  header.put(76, 1.0F);
-  for (std::size_t axis = 0; axis < 7; ++axis) {
-    const double step = axis < 3 ? glm::length(topology.axes[static_cast<int>(axis)]) : 1.0;
-    header.put(80 + 4 * axis, static_cast<float>(step));
-  }
-  header.put(108, 352.0F);
-  header.put(112, 1.0F);  // slope
-  const bool patient = space == ImageSpace::kPatient;
-  header.put(123, static_cast<char>(patient ? 2 : 0));          // millimetres, or unknown
-  header.put(254, static_cast<std::int16_t>(patient ? 1 : 2));  // sform: scanner space, or that of some image
-  for (int row = 0; row < 3; ++row) {
-    const std::size_t at = 280 + 16 * as_size(row);
-    for (int axis = 0; axis < 3; ++axis)
-      header.put(at + 4 * as_size(axis), static_cast<float>(topology.axes[axis][row]));
-    header.put(at + 12, static_cast<float>(topology.origin[row]));
-  }
-  header.put_text(148, description);
-  header.put_text(344, std::string_view("n+1\0", 4));
-  return header.text();
+/// Without ends of lines, which end a field.
+std::string on_one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  return text;
 }
 
 std::string vector_text(const Vec3& v) { return "(" + exact_text(v) + ")"; }
 
-std::string nrrd_header(const UniformTopology& topology, const Stored& stored, ImageSpace space) {
-  const bool patient = space == ImageSpace::kPatient;
+/// Whether NRRD's voxels are packed: as those were that the image is made of.
+bool packs(const ImageOrigin& origin) { return origin.header && origin.header->packed; }
+
+std::string nrrd_header(const UniformTopology& topology, const Stored& stored, const ImageOrigin& origin) {
+  const bool patient = origin.space == ImageSpace::kPatient;
   const ImageContent content = stored.content;
   const bool scalar = content == ImageContent::kScalar;
   std::string kind, size;
@@ -227,14 +142,17 @@ std::string nrrd_header(const UniformTopology& topology, const Stored& stored, I
   // Tensors and directions are in the axes of the space.
   if (!scalar && content != ImageContent::kColor) text += "measurement frame: (1,0,0) (0,1,0) (0,0,1)\n";
   if (patient) text += "space units: \"mm\" \"mm\" \"mm\"\n";
-  return text + "endian: little\nencoding: raw\nspace origin: " + vector_text(topology.origin) + "\n\n";
+  const std::string content_words = origin.header ? with_description_of(*origin.header, {}) : std::string();
+  if (!content_words.empty()) text += "content: " + on_one_line(content_words) + "\n";
+  return text + "endian: little\nencoding: " + (packs(origin) ? "gzip" : "raw") +
+         "\nspace origin: " + vector_text(topology.origin) + "\n\n";
 }
 
-float finite_or_zero(float value) noexcept { return std::isfinite(value) ? value : 0.0F; }
-
+/// Black where it is no number: a byte has none for that.
 std::uint8_t color_byte(float part) noexcept {
-  return static_cast<std::uint8_t>(
-      std::lround(255.0 * std::clamp(static_cast<double>(finite_or_zero(part)), 0.0, 1.0)));
+  return std::isfinite(part)
+             ? static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(static_cast<double>(part), 0.0, 1.0)))
+             : std::uint8_t{0};
 }
 
 /// The numbers of one voxel as a NIfTI file has them.
@@ -254,10 +172,13 @@ void to_convention(ImageContent content, const Mat3& axes_from_ras, ImageConvent
 }
 
 void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent content,
-                 std::span<const float> values, ImageConvention convention, ImageSpace space) {
+                 std::span<const float> values, ImageConvention convention, const ImageOrigin& origin,
+                 std::vector<std::string>& lost) {
   const auto components = as_size(component_count(content));
   const std::size_t voxels = values.size() / components;
-  sink.write(nifti_header(topology, stored_as(content), space, nifti_description(content, convention)));
+  const ImageHeader header = header_of(origin);
+  sink.write(nifti_head(topology, stored_as(content), header,
+                        with_description_of(header, nifti_description(content, convention)), lost));
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -268,11 +189,8 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
   const Mat3 axes_from_ras =
       convention == ImageConvention::kFsl ? glm::transpose(fsl_axes(topology.axes)) : Mat3{1.0};
   std::vector<float> turned(values.begin(), values.end());
-  for (std::size_t v = 0; v < voxels; ++v) {
-    float* const voxel = turned.data() + v * components;
-    to_convention(content, axes_from_ras, convention, voxel);
-    std::transform(voxel, voxel + components, voxel, finite_or_zero);
-  }
+  for (std::size_t v = 0; v < voxels; ++v)
+    to_convention(content, axes_from_ras, convention, turned.data() + v * components);
   std::vector<float> volume(voxels);
   for (std::size_t c = 0; c < components; ++c) {
     for (std::size_t v = 0; v < voxels; ++v) volume[v] = turned[v * components + c];
@@ -281,8 +199,9 @@ void write_nifti(Sink& sink, const UniformTopology& topology, ImageContent conte
 }
 
 void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent content,
-                std::span<const float> values, ImageSpace space) {
-  sink.write(nrrd_header(topology, stored_as(content), space));
+                std::span<const float> values, const ImageOrigin& origin) {
+  sink.write(nrrd_header(topology, stored_as(content), origin));
+  if (packs(origin)) sink.pack_from_here();
   if (content == ImageContent::kColor) {
     std::string bytes(values.size(), '\0');
     std::transform(values.begin(), values.end(), bytes.begin(),
@@ -299,7 +218,7 @@ void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent conten
       numbers.push_back(std::all_of(first, first + 6, [](float v) { return std::isfinite(v); }) ? 1.0F
                                                                                                 : 0.0F);
     }
-    numbers.push_back(finite_or_zero(values[i]));
+    numbers.push_back(values[i]);
   }
   sink.write({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)});
 }
@@ -356,7 +275,6 @@ void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content
         for (std::size_t c = 0; c < 6; ++c) numbers[v + c] = rows[order[c]];
       }
     }
-    std::transform(numbers.begin(), numbers.end(), numbers.begin(), finite_or_zero);
     bytes.assign(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
   }
   const std::uint64_t size = bytes.size();
@@ -391,36 +309,42 @@ void check_image_output(const std::filesystem::path& path, bool overwrite) {
   check_output(path, overwrite);
 }
 
-void write_image(const std::filesystem::path& path, const UniformTopology& topology, ImageContent content,
-                 std::span<const float> values, ImageConvention convention, bool overwrite,
-                 ImageSpace space) {
+std::vector<std::string> write_image(const std::filesystem::path& path, const UniformTopology& topology,
+                                     ImageContent content, std::span<const float> values,
+                                     ImageConvention convention, bool overwrite, const ImageOrigin& origin) {
   const std::size_t voxels = count_of(topology.points);
   PALPATE_CHECK(values.size() == voxels * as_size(component_count(content)));
   const Ending ending = ending_of(path);
   check_size(path, ending, topology.points);
+  std::vector<std::string> lost;
   Sink sink(path, overwrite, ending == Ending::kPackedNifti);
   if (ending == Ending::kNrrd) {
-    write_nrrd(sink, topology, content, values, space);
+    write_nrrd(sink, topology, content, values, origin);
   } else if (ending == Ending::kVti) {
     write_vti(sink, topology, content, values);
   } else {
-    write_nifti(sink, topology, content, values, convention, space);
+    write_nifti(sink, topology, content, values, convention, origin, lost);
   }
   sink.finish();
+  return lost;
 }
 
-void write_image(const std::filesystem::path& path, const UniformTopology& topology, const DataArray& values,
-                 bool overwrite, ImageSpace space) {
+std::vector<std::string> write_image(const std::filesystem::path& path, const UniformTopology& topology,
+                                     const DataArray& values, bool overwrite, const ImageOrigin& origin) {
   PALPATE_CHECK(values.tuples == count_of(topology.points) && !values.sparse);
   const bool colors = values.components == 3 || values.components == 4;
   PALPATE_CHECK(values.components == 1 || (colors && values.type == ScalarType::kUint8));
-  const Stored stored{colors ? ImageContent::kColor : ImageContent::kScalar, values.type, values.components};
+  Stored stored{.content = colors ? ImageContent::kColor : ImageContent::kScalar,
+                .type = values.type,
+                .components = values.components};
   const Ending ending = ending_of(path);
   check_size(path, ending, topology.points);
+  std::vector<std::string> lost;
   Sink sink(path, overwrite, ending == Ending::kPackedNifti);
   const std::string_view bytes(reinterpret_cast<const char*>(values.bytes.data()), values.bytes.size());
   if (ending == Ending::kNrrd) {
-    sink.write(nrrd_header(topology, stored, space));
+    sink.write(nrrd_header(topology, stored, origin));
+    if (packs(origin)) sink.pack_from_here();
     sink.write(bytes);
   } else if (ending == Ending::kVti) {
     const std::uint64_t size = bytes.size();
@@ -429,10 +353,33 @@ void write_image(const std::filesystem::path& path, const UniformTopology& topol
     sink.write(bytes);
     sink.write("\n</AppendedData>\n</VTKFile>\n");
   } else {
-    sink.write(nifti_header(topology, stored, space));
-    sink.write(bytes);
+    const ImageHeader header = header_of(origin);
+    const std::optional<DataArray> unscaled =
+        header.scaling ? stored_numbers(values, *header.scaling) : std::nullopt;
+    if (unscaled) {
+      stored.type = unscaled->type;
+      stored.slope = header.scaling->slope;
+      stored.intercept = header.scaling->intercept;
+    }
+    sink.write(nifti_head(topology, stored, header, with_description_of(header, {}), lost));
+    sink.write(unscaled ? std::string_view(reinterpret_cast<const char*>(unscaled->bytes.data()),
+                                           unscaled->bytes.size())
+                        : bytes);
   }
   sink.finish();
+  return lost;
+}
+
+void write_image(const std::filesystem::path& path, const UniformTopology& topology, ImageContent content,
+                 std::span<const float> values, ImageConvention convention, bool overwrite,
+                 ImageSpace space) {
+  write_image(path, topology, content, values, convention, overwrite,
+              ImageOrigin{.space = space, .header = {}});
+}
+
+void write_image(const std::filesystem::path& path, const UniformTopology& topology, const DataArray& values,
+                 bool overwrite, ImageSpace space) {
+  write_image(path, topology, values, overwrite, ImageOrigin{.space = space, .header = {}});
 }
 
 }  // namespace palpate

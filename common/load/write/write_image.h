@@ -39,7 +39,7 @@ enum class ImageSpace : std::uint8_t {
 /// @throws Error (usage, or work failed where the folder cannot be written).
 void check_image_output(const std::filesystem::path& path, bool overwrite);
 
-/// Voxels that are not finite are written as zeros; in NRRD, tensors have a mask that is zero there.
+/// Numbers that are not finite are written as they are; in NRRD, tensors have a mask that is zero there.
 /// @param values of all points of `topology`, component_count() numbers each.
 /// @throws Error as check_image_output(); (work failed) where the disk refuses; (usage) where the image is
 /// too large for NIfTI-1 along an axis.

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/field/grid/lattice_values.h"
+
 namespace palpate {
 namespace {
 
@@ -99,6 +101,52 @@ TEST(Resample, DoesNotDependOnThreadsAndHasNothingBesideMissingValues) {
   EXPECT_EQ(one.values, four.values);
   EXPECT_EQ(one.outside, four.outside);
   for (const float v : one.values) EXPECT_TRUE(v == 1.0F || v == -7.0F);
+}
+
+// Labels are those of the nearest voxel, with all their bits; a lattice on the voxels is known as such.
+TEST(NearestPoints, TakeVoxelsAsTheyAre) {
+  const UniformTopology image = aligned();
+  std::vector<std::int64_t> wide(120);
+  for (std::size_t i = 0; i < 120; ++i) wide[i] = (std::int64_t{1} << 60U) + static_cast<std::int64_t>(i);
+  DataArray all;
+  all.type = ScalarType::kInt64;
+  all.tuples = 120;
+  all.bytes = std::as_bytes(std::span(std::as_const(wide)));
+  const std::int64_t none = -1;
+  const auto beyond = std::as_bytes(std::span(&none, 1));
+  const auto on = plane_lattice(image, {Vec3(0.0, -1.0, 0.0), 0.0}, std::nullopt);
+  const NearestPoints there = nearest_points(image, *on);
+  EXPECT_TRUE(there.exact);
+  EXPECT_EQ(there.outside, 0U);
+  const DataArray slice = values_at(all, there, beyond);
+  ASSERT_EQ(slice.tuples, 20U);
+  EXPECT_EQ(std::memcmp(slice.bytes.data(), wide.data() + 40, 160), 0);
+
+  const auto oblique_plane = plane_lattice(image, {glm::normalize(Vec3(1.0, 2.0, 2.0)), 6.0}, 0.3);
+  const NearestPoints some = nearest_points(image, *oblique_plane);
+  EXPECT_FALSE(some.exact);
+  EXPECT_GT(some.outside, 0U);
+  const DataArray taken = values_at(all, some, beyond);
+  const Mat3 grid_from_data = glm::inverse(image.axes);
+  for (std::size_t i = 0; i < taken.tuples; ++i) {
+    std::int64_t value = 0;
+    std::memcpy(&value, taken.bytes.data() + 8 * i, 8);
+    if (value == none) continue;
+    const Vec3 g = glm::round(grid_from_data * (position(*oblique_plane, i) - image.origin));
+    EXPECT_EQ(value, wide[static_cast<std::size_t>(g.x + 4 * (g.y + 5 * g.z))]);
+  }
+  // In double precision, and missing beside what is missing.
+  std::vector<double> numbers(120, 1.0 / 3.0);
+  numbers[0] = std::nan("");
+  const DataArray values = make_array("s", Association::kPoint, 1, numbers);
+  std::size_t missing = 0;
+  for (const double value : values_on(image, values, 0, *oblique_plane, 1)) {
+    missing += std::isnan(value) ? 1 : 0;
+    if (!std::isnan(value)) {
+      EXPECT_NEAR(value, 1.0 / 3.0, 1e-15);
+    }
+  }
+  EXPECT_GE(missing, some.outside);
 }
 
 TEST(PointsIn, AreTheVoxelsOfABoxInTheirPlaces) {

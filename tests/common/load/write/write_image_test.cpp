@@ -1,10 +1,9 @@
 // Images as written, read back by their loaders: the same places, numbers, directions and tensors.
 
-#include "common/load/write/write_image.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <span>
@@ -16,6 +15,8 @@
 
 #include "common/base/error.h"
 #include "common/field/tensor/tensor_measure.h"
+#include "common/load/image_header.h"
+#include "common/load/write/image_origin.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"
 #include "tests/support/temp_folder.h"
@@ -89,7 +90,7 @@ TEST(WriteImage, TensorsComeBackInTheAxesOfTheCoordinates) {
   }
 }
 
-TEST(WriteImage, NumbersComeBackAndMissingOnesAreZero) {
+TEST(WriteImage, NumbersComeBackAndMissingOnesStayMissing) {
   const TempFolder folder;
   std::vector<float> values(kVoxels);
   for (std::size_t p = 0; p < kVoxels; ++p) values[p] = 0.01F * static_cast<float>(p);
@@ -100,24 +101,31 @@ TEST(WriteImage, NumbersComeBackAndMissingOnesAreZero) {
     Input input = open(folder.path(name), FieldKind::kScalar);
     const DataSet image = input.read({input.arrays().front().name}).front();
     expect_same_grid(image, grid(false));
-    for (std::size_t p = 0; p < kVoxels; ++p)
-      EXPECT_EQ(image.arrays.front().at(p), p == 7 ? 0.0 : static_cast<double>(values[p])) << name;
+    for (std::size_t p = 0; p < kVoxels; ++p) {
+      if (p == 7) {
+        EXPECT_TRUE(std::isnan(image.arrays.front().at(p))) << name;
+      } else {
+        EXPECT_EQ(image.arrays.front().at(p), static_cast<double>(values[p])) << name;
+      }
+    }
   }
 }
 
-// Of coordinates whose orientation nobody knows nothing is claimed, and they stay.
+// Of coordinates whose orientation nobody knows nothing is claimed, and they stay where the format has a place for them.
 TEST(WriteImage, ClaimsNoPatientWhereNoneIsKnown) {
   const TempFolder folder;
   const std::vector<float> values(kVoxels, 1.0F);
   for (const char* name : {"a.nrrd", "a.nii", "a.vti"}) {
     for (const ImageSpace space : {ImageSpace::kPatient, ImageSpace::kUnknown}) {
-      write_image(folder.path(name), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
-                  true, space);
+      const auto lost = write_image(folder.path(name), grid(false), ImageContent::kScalar, values,
+                                    ImageConvention::kMrtrix, true, {.space = space, .header = {}});
+      const bool placed = name != std::string("a.nii") || space == ImageSpace::kPatient;
+      EXPECT_EQ(lost.empty(), placed) << name;
       Input read = open(folder.path(name), FieldKind::kScalar);
-      if (name == std::string("a.nrrd")) {
+      if (name != std::string("a.vti")) {
         EXPECT_EQ(read.file()->anatomical, space == ImageSpace::kPatient);
       }
-      expect_same_grid(read.read({read.arrays().front().name}).front(), grid(false));
+      if (placed) expect_same_grid(read.read({read.arrays().front().name}).front(), grid(false));
     }
   }
   const std::string nrrd = read_file(folder.path("a.nrrd"));
@@ -126,7 +134,178 @@ TEST(WriteImage, ClaimsNoPatientWhereNoneIsKnown) {
   EXPECT_NE(nrrd.find("space dimension: 3"), std::string::npos);
   const std::string nifti = read_file(folder.path("a.nii"));
   EXPECT_EQ(nifti[123], 0) << "xyzt_units";
-  EXPECT_EQ(nifti[254], 2) << "sform_code";
+  EXPECT_EQ(nifti[252], 0) << "qform_code";
+  EXPECT_EQ(nifti[254], 0) << "sform_code";
+}
+
+/// A number of a header.
+template <typename T>
+T number_in(const std::string& bytes, std::size_t at) {
+  T value{};
+  std::memcpy(&value, bytes.data() + at, sizeof(T));
+  return value;
+}
+
+/// What nifti1.h says of a qform: the place of voxel `at` (method 2).
+Vec3 by_qform(const std::string& h, const Vec3& at) {
+  const double b = number_in<float>(h, 256), c = number_in<float>(h, 260), d = number_in<float>(h, 264);
+  const double a = std::sqrt(std::max(0.0, 1.0 - b * b - c * c - d * d));
+  Vec3 v;
+  for (int i = 0; i < 3; ++i)
+    v[i] = at[i] * static_cast<double>(number_in<float>(h, 80 + 4 * static_cast<std::size_t>(i)));
+  if (number_in<float>(h, 76) < 0.0F) v.z = -v.z;
+  return Vec3{(a * a + b * b - c * c - d * d) * v.x + 2.0 * (b * c - a * d) * v.y +
+                  2.0 * (b * d + a * c) * v.z,
+              2.0 * (b * c + a * d) * v.x + (a * a + c * c - b * b - d * d) * v.y +
+                  2.0 * (c * d - a * b) * v.z,
+              2.0 * (b * d - a * c) * v.x + 2.0 * (c * d + a * b) * v.y +
+                  (a * a + d * d - c * c - b * b) * v.z} +
+         Vec3{number_in<float>(h, 268), number_in<float>(h, 272), number_in<float>(h, 276)};
+}
+Vec3 by_sform(const std::string& h, const Vec3& at) {
+  Vec3 x;
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto number = [&](std::size_t c) {
+      return static_cast<double>(number_in<float>(h, 280 + 16 * row + 4 * c));
+    };
+    x[static_cast<int>(row)] = number(0) * at.x + number(1) * at.y + number(2) * at.z + number(3);
+  }
+  return x;
+}
+
+// Both forms with their codes, units, description, intent and range; where they disagree, each keeps its own places.
+TEST(WriteImage, TheHeaderOfAnImageIsSaidAgain) {
+  const TempFolder folder;
+  const std::vector<float> values(kVoxels, 1.0F);
+  // The sform's space is the qform's turned by a quarter about z and moved, in micrometres.
+  const Mat3 turn(Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, 0, 1));
+  for (const bool right_handed : {false, true}) {
+    ImageHeader header{
+        .description = "made by formula", .nifti = true, .units = 3 + 8, .sform_code = 4, .qform_code = 1};
+    header.qform_turn = turn;
+    header.qform_shift = {1.0, 2.0, 3.0};
+    header.intent = 3;
+    header.intent_parameters = {12.0F, 0.0F, 0.0F};
+    header.intent_name = "t test";
+    header.shown = {-1.0F, 2.0F};
+    header.time = {2.5F, 0.25F};
+    EXPECT_TRUE(write_image(folder.path("a.nii"), grid(right_handed), ImageContent::kScalar, values,
+                            ImageConvention::kMrtrix, true, {.space = ImageSpace::kPatient, .header = header})
+                    .empty());
+    const std::string h = read_file(folder.path("a.nii"));
+    EXPECT_EQ(number_in<std::int16_t>(h, 252), 1);
+    EXPECT_EQ(number_in<std::int16_t>(h, 254), 4);
+    EXPECT_EQ(h[123], 11);
+    EXPECT_STREQ(h.c_str() + 148, "made by formula");
+    EXPECT_EQ(number_in<std::int16_t>(h, 68), 3);
+    EXPECT_EQ(number_in<float>(h, 56), 12.0F);
+    EXPECT_STREQ(h.c_str() + 328, "t test");
+    EXPECT_EQ(number_in<float>(h, 124), 2.0F);
+    EXPECT_EQ(number_in<float>(h, 128), -1.0F);
+    EXPECT_EQ(number_in<float>(h, 92), 2.5F);
+    EXPECT_EQ(number_in<float>(h, 136), 0.25F);
+    for (const Vec3& at : {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(1, 2, 4)}) {
+      const Vec3 x = grid(right_handed).origin + grid(right_handed).axes * at;
+      EXPECT_LT(glm::distance(by_sform(h, at), 1e3 * x), 0.01);
+      EXPECT_LT(glm::distance(by_qform(h, at), 1e3 * (turn * x + header.qform_shift)), 0.02);
+    }
+    // What is read of it is what was said.
+    const auto read = read_image_header(folder.path("a.nii"));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->description, header.description);
+    EXPECT_EQ(read->units, header.units);
+    EXPECT_EQ(read->sform_code, 4);
+    EXPECT_EQ(read->qform_code, 1);
+    for (int c = 0; c < 3; ++c) EXPECT_LT(glm::distance(read->qform_turn[c], turn[c]), 1e-5);
+    EXPECT_LT(glm::distance(read->qform_shift, header.qform_shift), 1e-3);
+    EXPECT_EQ(read->intent, 3);
+    EXPECT_EQ(read->intent_name, "t test");
+    EXPECT_EQ(read->shown, header.shown);
+    EXPECT_EQ(read->time, header.time);
+    EXPECT_FALSE(read->scaling);
+    // Of other quantities at the same voxels: no intent and no range.
+    write_image(folder.path("b.nii"), grid(right_handed), ImageContent::kVector,
+                std::vector<float>(3 * kVoxels, 1.0F), ImageConvention::kMrtrix, true,
+                {.space = ImageSpace::kPatient, .header = header.of_others()});
+    const std::string other = read_file(folder.path("b.nii"));
+    EXPECT_EQ(number_in<std::int16_t>(other, 68), 0);
+    EXPECT_EQ(number_in<float>(other, 124), 0.0F);
+    EXPECT_EQ(std::string(other.c_str() + 148), "directions, frame=scanner (RAS+); made by formula");
+  }
+}
+
+// A file without an sform gets none, and one without any orientation states none.
+TEST(WriteImage, FormsAreThoseOfTheInput) {
+  const TempFolder folder;
+  const std::vector<float> values(kVoxels, 1.0F);
+  for (const int qform : {0, 2}) {
+    for (const int sform : {0, 3}) {
+      const ImageHeader header{
+          .description = "", .nifti = true, .units = 2, .sform_code = sform, .qform_code = qform};
+      write_image(folder.path("a.nii"), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
+                  true, {.space = ImageSpace::kPatient, .header = header});
+      const std::string h = read_file(folder.path("a.nii"));
+      EXPECT_EQ(number_in<std::int16_t>(h, 252), qform);
+      EXPECT_EQ(number_in<std::int16_t>(h, 254), sform);
+      EXPECT_EQ(open(folder.path("a.nii"), FieldKind::kScalar).file()->anatomical, qform + sform > 0);
+      if (qform == 0) continue;
+      const Vec3 at(1, 2, 4), x = grid(false).origin + grid(false).axes * at;
+      EXPECT_LT(glm::distance(by_qform(h, at), x), 1e-5);
+    }
+  }
+}
+
+// Numbers behind a slope are stored as they were, where that gives the same values; else as what they are.
+TEST(WriteImage, SlopesAreKeptWhereTheyLoseNothing) {
+  const TempFolder folder;
+  ImageHeader header{.description = "", .nifti = true, .units = 2, .sform_code = 1, .qform_code = 0};
+  header.scaling = ImageHeader::Scaling{ScalarType::kInt16, 0.1F, -7.0};
+  const double slope = header.scaling->slope;
+  std::vector<float> values(kVoxels);
+  for (std::size_t p = 0; p < kVoxels; ++p)
+    values[p] = static_cast<float>(slope * (37.0 * static_cast<double>(p) - 900.0) - 7.0);
+  for (const int change : {0, 1, 2, 3}) {
+    std::vector<float> written = values;
+    if (change == 1) written[5] = 0.123F;
+    if (change == 2) written[5] = kNaN;
+    if (change == 3) written[5] = 5000.0F;  // beyond 16 bits
+    const DataArray array = make_array("s", Association::kPoint, 1, std::span<const float>(written));
+    write_image(folder.path("a.nii"), grid(false), array, true,
+                {.space = ImageSpace::kPatient, .header = header});
+    const std::string h = read_file(folder.path("a.nii"));
+    EXPECT_EQ(number_in<std::int16_t>(h, 70), change == 0 ? 4 : 16) << change;
+    EXPECT_EQ(number_in<float>(h, 112), change == 0 ? 0.1F : 1.0F);
+    EXPECT_EQ(number_in<float>(h, 116), change == 0 ? -7.0F : 0.0F);
+    Input input = open(folder.path("a.nii"), FieldKind::kScalar);
+    const DataArray read = input.read({input.arrays().front().name}).front().arrays.front();
+    for (std::size_t p = 0; p < kVoxels; ++p) {
+      if (std::isnan(written[p])) {
+        EXPECT_TRUE(std::isnan(read.at(p)));
+      } else {
+        EXPECT_EQ(read.at(p), static_cast<double>(written[p]));
+      }
+    }
+  }
+}
+
+// NRRD files are packed where the input was, and keep its description.
+TEST(WriteImage, NrrdIsPackedAsTheInputWas) {
+  const TempFolder folder;
+  const std::vector<float> values(kVoxels, 0.5F);
+  for (const bool packed : {false, true}) {
+    const ImageHeader header{.description = "made\nby formula", .packed = packed};
+    write_image(folder.path("a.nrrd"), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
+                true, {.space = ImageSpace::kPatient, .header = header});
+    const std::string text = read_file(folder.path("a.nrrd"));
+    EXPECT_EQ(text.find("encoding: gzip") != std::string::npos, packed);
+    EXPECT_NE(text.find("content: made by formula\n"), std::string::npos);
+    Input input = open(folder.path("a.nrrd"), FieldKind::kScalar);
+    EXPECT_EQ(read_image_header(folder.path("a.nrrd"))->packed, packed);
+    EXPECT_EQ(read_image_header(folder.path("a.nrrd"))->description, "made by formula");
+    const DataSet image = input.read({input.arrays().front().name}).front();
+    expect_same_grid(image, grid(false));
+    EXPECT_EQ(image.arrays.front().at(kVoxels - 1), 0.5);
+  }
 }
 
 TEST(WriteImage, ColoursAreBytes) {
