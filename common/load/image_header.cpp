@@ -106,7 +106,8 @@ std::optional<ImageHeader> said_by_nifti(std::string_view bytes) {
     layout.second = size == static_cast<std::int32_t>(kSecond);
     layout.big_endian = big;
   }
-  if (!known) return std::nullopt;
+  const std::string_view mark = known ? bytes.substr(layout.second ? 4 : 344, 2) : std::string_view();
+  if (mark != "n+" && mark != "ni") return std::nullopt;
   ImageHeader header;
   header.nifti = true;
   header.units = (layout.second ? number_at<std::int32_t>(bytes, 500, layout.big_endian)

@@ -21,8 +21,11 @@ std::optional<UniformTopology> place_by(const NiftiQform& qform, const Index3& p
   const double squares = b * b + c * c + d * d;
   constexpr double kRounding = 1e-3;  // of writers in single precision
   if (!(squares <= 1.0 + kRounding)) return std::nullopt;
-  const double length = std::sqrt(std::max(1.0, squares));
-  const Quat rotation(std::sqrt(std::max(0.0, 1.0 - squares)), b / length, c / length, d / length);
+  // So near to one the rest is rounding, as niftilib has it: half a turn.
+  constexpr double kHalfTurn = 1e-7;
+  const bool half = 1.0 - squares < kHalfTurn;
+  const double length = half ? std::sqrt(squares) : 1.0;
+  const Quat rotation(half ? 0.0 : std::sqrt(1.0 - squares), b / length, c / length, d / length);
   UniformTopology place{.points = points};
   place.axes = glm::mat3_cast(rotation);
   for (int axis = 0; axis < 3; ++axis) {
@@ -47,7 +50,10 @@ std::optional<NiftiQform> qform_of(const Mat3& axes) noexcept {
     if (!(std::abs(glm::dot(unit[c], unit[(c + 1) % 3])) <= kSquare)) return std::nullopt;
   qform.steps[0] = glm::determinant(unit) < 0.0 ? -1.0 : 1.0;
   unit[2] *= qform.steps[0];
-  const Vec3 part = short_vector_part(glm::normalize(glm::quat_cast(unit)));
+  Vec3 part = short_vector_part(glm::normalize(glm::quat_cast(unit)));
+  // Of half a turn readers find the scalar part as the root of what single precision leaves of one: none is left.
+  constexpr double kRounded = 2.5e-4, kOverOne = 1.0 + 1.2e-7;
+  if (1.0 - glm::dot(part, part) < kRounded * kRounded) part *= kOverOne / glm::length(part);
   qform.quaternion = {part.x, part.y, part.z};
   return qform;
 }
