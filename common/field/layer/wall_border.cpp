@@ -95,15 +95,20 @@ WallBorder border_of(const TetMesh& mesh) {
 }
 
 std::vector<BorderPart> border_parts(const TetMesh& mesh, const WallBorder& border, double crease) {
-  const std::span<const Vec3> points = mesh.points();
-  DisjointSets groups(border.triangles.size());
   const double least_cosine = std::cos(crease);
-  for (const auto& [a, b] : border.joints) {
+  return border_parts(mesh, border, [&](std::size_t a, std::size_t b) {
     // A triangle without area has no normal and goes with its neighbours.
     const Vec3 m = border.normal(a), n = border.normal(b);
-    const bool flat = m == Vec3{0.0} || n == Vec3{0.0};
-    if (flat || glm::dot(m, n) > least_cosine) groups.unite(a, b);
-  }
+    return m == Vec3{0.0} || n == Vec3{0.0} || glm::dot(m, n) > least_cosine;
+  });
+}
+
+std::vector<BorderPart> border_parts(const TetMesh& mesh, const WallBorder& border,
+                                     const std::function<bool(std::size_t, std::size_t)>& one) {
+  const std::span<const Vec3> points = mesh.points();
+  DisjointSets groups(border.triangles.size());
+  for (const auto& [a, b] : border.joints)
+    if (one(a, b)) groups.unite(a, b);
   std::vector<BorderPart> parts;
   std::vector<std::int64_t> part_of_root(border.triangles.size(), -1);
   for (std::size_t t = 0; t < border.triangles.size(); ++t) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,9 @@ struct BorderPart {
 /// they share. Parts by falling area; all lengths in frame L.
 [[nodiscard]] std::vector<BorderPart> border_parts(const TetMesh& mesh, const WallBorder& border,
                                                    double crease);
+/// The same by what `one` says of two triangles that share an edge.
+[[nodiscard]] std::vector<BorderPart> border_parts(const TetMesh& mesh, const WallBorder& border,
+                                                   const std::function<bool(std::size_t, std::size_t)>& one);
 
 /// Where a straight way through the cells, from the middle of a triangle against its normal, leaves them: a
 /// triangle of the border, or the border's count where it is lost.

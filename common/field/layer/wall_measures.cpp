@@ -32,6 +32,22 @@ std::vector<bool> leads_to(const TetMesh& mesh, std::span<const double> depth,
   });
   std::vector<bool> leads(depth.size());
   for (const std::uint32_t p : order) leads[p] = surface[p] == end || (next[p] != p && leads[next[p]]);
+  // A corner of the other surface, as stairs have them, of which no edge leads into the wall.
+  std::vector<bool> corner(depth.size());
+  for (const std::uint32_t p : order) corner[p] = !leads[p] && surface[p] != WallSurface::kNone;
+  const auto each_edge = [&mesh](const auto& visit) {
+    for (const TetMesh::Tet& cell : mesh.cells())
+      for (const std::uint32_t p : cell)
+        for (const std::uint32_t q : cell) visit(p, q);
+  };
+  each_edge([&](std::uint32_t p, std::uint32_t q) {
+    if (surface[p] != surface[q]) corner[p] = false;
+  });
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round)
+    each_edge([&](std::uint32_t p, std::uint32_t q) {
+      if (corner[p] && leads[q]) leads[p] = true;
+    });
   return leads;
 }
 

@@ -10,7 +10,8 @@
 
 namespace palpate {
 
-/// The share of points from which the depth rises, edge by edge, to the outer surface and falls to an inner one.
+/// The share of points from which the depth rises, edge by edge, to the outer surface and falls to an inner one. Corners
+/// of a surface that no edge leads into the wall from go with those beside them.
 /// @param depth as for measure_wall().
 [[nodiscard]] double monotone_share(const FieldGrid& grid, const WallSurfaces& surfaces,
                                     std::span<const double> depth);

@@ -15,15 +15,16 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/layer/part_rims.h"
+#include "common/field/layer/surface_areas.h"
 #include "common/field/layer/tagged_surfaces.h"
 #include "common/field/layer/wall_border.h"
+#include "common/field/layer/wall_stairs.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kCreases[3] = {40.0 * kDegree, 30.0 * kDegree, 20.0 * kDegree};
-constexpr double kSmallPart = 0.01;    // of the border's area
 constexpr double kHasOpening = 0.05;   // mean normal of a surface that does not go all round
 constexpr double kLevel = 0.02;        // bulge of what is flat or a saddle; a half sphere has 0.13
 constexpr double kFacesUp = 0.3;       // mean of normal times axis of what does not lie along the wall
@@ -43,22 +44,25 @@ bool both(const std::vector<WallSurface>& of_point) {
 class BorderReading {
  public:
   BorderReading(const TetMesh& mesh, const WallBorder& border, double crease)
-      : mesh_(mesh),
-        border_(border),
-        parts_(border_parts(mesh, border, crease)),
-        part_of_(border.triangles.size()),
-        roles_(border.triangles.size(), BorderRole::kLeft) {
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      area_ += parts_[p].area;
-      for (const std::uint32_t t : parts_[p].triangles) part_of_[t] = p;
-    }
-    for (const auto& [a, b] : border.joints)
-      if (part_of_[a] != part_of_[b]) beside_.insert(std::minmax(part_of_[a], part_of_[b]));
-    rims_ = part_rims(mesh, border, part_of_, parts_.size());
-    part_roles_.assign(parts_.size(), BorderRole::kLeft);
+      : BorderReading(mesh, border, border_parts(mesh, border, crease)) {
     find_outer();
     if (outer_ == parts_.size()) return;
     find_base();
+    find_cavities();
+  }
+  /// Of a wall of voxels. @param border with the areas of `stairs`.
+  BorderReading(const TetMesh& mesh, const WallBorder& border, const WallStairs& stairs)
+      : BorderReading(mesh, border, border_parts(mesh, border, [&stairs](std::size_t a, std::size_t b) {
+                        return stairs.beside[a] == stairs.beside[b];
+                      })) {
+    for (std::size_t p = parts_.size(); p-- > 0;) {
+      const std::int32_t beside = stairs.beside[parts_[p].triangles.front()];
+      if (beside == WallStairs::kRim) part_roles_[p] = BorderRole::kBase;
+      if (beside != WallStairs::kOutside) continue;
+      part_roles_[p] = BorderRole::kOuter;
+      outer_ = p;  // at last the largest
+    }
+    find_axis();
     find_cavities();
   }
 
@@ -90,6 +94,23 @@ class BorderReading {
   }
 
  private:
+  BorderReading(const TetMesh& mesh, const WallBorder& border, std::vector<BorderPart> parts)
+      : mesh_(mesh),
+        border_(border),
+        parts_(std::move(parts)),
+        part_of_(border.triangles.size()),
+        roles_(border.triangles.size(), BorderRole::kLeft),
+        outer_(parts_.size()) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      area_ += parts_[p].area;
+      for (const std::uint32_t t : parts_[p].triangles) part_of_[t] = p;
+    }
+    for (const auto& [a, b] : border.joints)
+      if (part_of_[a] != part_of_[b]) beside_.insert(std::minmax(part_of_[a], part_of_[b]));
+    rims_ = part_rims(mesh, border, part_of_, parts_.size());
+    part_roles_.assign(parts_.size(), BorderRole::kLeft);
+  }
+
   using Cavity = std::vector<std::size_t>;  // parts
 
   [[nodiscard]] bool large(std::size_t part) const { return parts_[part].area >= kSmallPart * area_; }
@@ -162,8 +183,14 @@ class BorderReading {
                        " % of its rim, with no cut of the wall between: the rim of an opening may be in it");
   }
 
+  /// The way that the outer surface opens.
+  void find_axis() {
+    if (outer_ == parts_.size()) return;
+    const double length = glm::length(parts_[outer_].normal);
+    if (length > kHasOpening) axis_ = -parts_[outer_].normal / length;
+  }
+
   void find_outer() {
-    outer_ = parts_.size();
     const auto larger = [this](std::size_t p, double extent) {
       return large(p) && !parts_[p].flat() && parts_[p].bounds.diagonal() > extent;
     };
@@ -181,8 +208,7 @@ class BorderReading {
       if (larger(p, extent) && !ring(p) && parts_[p].bulge > kLevel) outer_ = p;
     }
     part_roles_[outer_] = BorderRole::kOuter;
-    const double length = glm::length(parts_[outer_].normal);
-    if (length > kHasOpening) axis_ = -parts_[outer_].normal / length;
+    find_axis();
   }
 
   void find_base() {
@@ -346,62 +372,10 @@ class BorderReading {
   std::vector<std::vector<PartRim>> rims_;                ///< of each part
   std::set<std::pair<std::size_t, std::size_t>> beside_;  ///< parts that share an edge, the lower first
   double area_ = 0.0;
-  std::size_t outer_ = 0;
+  std::size_t outer_;
   std::optional<Vec3> axis_;  ///< the way that the outer surface opens
   std::vector<Cavity> cavities_;
 };
-
-/// Areas, pieces and confidence of the roles.
-void measure(const FieldGrid& grid, const WallBorder& border, WallSurfaces& surfaces) {
-  const double scale = grid.frame.length_scale();
-  std::vector<std::vector<std::uint32_t>> beside(border.triangles.size());
-  for (const auto& [a, b] : border.joints) {
-    if (surfaces.roles[a] != surfaces.roles[b]) continue;
-    beside[a].push_back(b);
-    beside[b].push_back(a);
-  }
-  double total = 0.0;
-  for (const Vec3& area : border.areas) total += glm::length(area);
-  std::vector<bool> seen(border.triangles.size());
-  for (std::size_t t = 0; t < seen.size(); ++t) {
-    if (seen[t]) continue;
-    std::vector<std::uint32_t> piece{static_cast<std::uint32_t>(t)};
-    seen[t] = true;
-    double area = 0.0;
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const std::uint32_t from = piece[i];
-      area += glm::length(border.areas[from]);
-      for (const std::uint32_t b : beside[from]) {
-        if (seen[b]) continue;
-        seen[b] = true;
-        piece.push_back(b);
-      }
-    }
-    const std::size_t role = as_size(surfaces.roles[t]);
-    surfaces.areas[role] += area * scale * scale;
-    if (area >= kSmallPart * total) ++surfaces.pieces[role];
-  }
-  double left = 0.0;
-  for (std::size_t t = 0; t < border.areas.size(); ++t)
-    if (surfaces.roles[t] == BorderRole::kLeft) left += glm::length(border.areas[t]);
-  surfaces.confidence = total > 0.0 ? 1.0 - left / total : 0.0;
-}
-
-std::string list_of(const WallSurfaces& surfaces) {
-  std::string text;
-  for (const BorderRole role :
-       {BorderRole::kInner, BorderRole::kRight, BorderRole::kSeptum, BorderRole::kOuter, BorderRole::kBase}) {
-    const double area = surfaces.areas[as_size(role)];
-    if (!(area > 0.0)) continue;
-    const std::size_t pieces = surfaces.pieces[as_size(role)];
-    const bool several = surfaces.areas[as_size(BorderRole::kRight)] > 0.0 ||
-                         surfaces.areas[as_size(BorderRole::kSeptum)] > 0.0;
-    text += (text.empty() ? "" : ", ") +
-            std::string(role == BorderRole::kInner && !several ? "endocardium" : name_of(role)) + " (area " +
-            short_number(area) + (pieces > 1 ? ", " + counted(pieces, "piece") : "") + ")";
-  }
-  return text;
-}
 
 }  // namespace
 
@@ -428,7 +402,7 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
                        std::string("name them in a point array '") + kSurfaceArray + "': 1 inner, 2 outer"});
   };
   if (!grid.tets) refuse("is an image, whose border has no inner surface");
-  const WallBorder border = border_of(*grid.tets);
+  WallBorder border = border_of(*grid.tets);
   WallSurfaces surfaces;
   surfaces.triangles = border.triangles;
   if (const DataArray* array = mesh.find(kSurfaceArray, Association::kPoint)) {
@@ -436,13 +410,24 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
     surfaces.note = std::string("inner and outer surface from the array '") + kSurfaceArray + "'";
     if (!both(surfaces.of_point)) refuse(std::string("has not both in its array '") + kSurfaceArray + "'");
     surfaces.roles = tagged_roles(border, surfaces.of_point);
-    measure(grid, border, surfaces);
+    measure_surfaces(grid, border, surfaces);
     return surfaces;
   }
 
   std::optional<BorderReading> reading;
   double crease = 0.0;
+  // Shapes of a few boxes have creases; stairs have one at each step.
+  constexpr std::size_t kFewParts = 30;
+  std::optional<WallStairs> stairs;
+  if (border_parts(*grid.tets, border, kCreases[0]).size() > kFewParts)
+    stairs = find_wall_stairs(*grid.tets, border);
+  if (stairs) {
+    border.areas = stairs->areas;
+    crease = kCreases[0];
+    reading.emplace(*grid.tets, border, *stairs);
+  }
   for (const double each : kCreases) {
+    if (stairs) break;
     BorderReading next(*grid.tets, border, each);
     const bool tells = next.has(BorderRole::kInner) && next.has(BorderRole::kOuter);
     const bool whole = tells && (next.has(BorderRole::kBase) || !next.open());
@@ -456,7 +441,7 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
     refuse("has a border of " + counted(reading->part_count(), "smooth part") +
            ", none of them an inner surface");
   surfaces.roles = reading->roles(surfaces.doubts);
-  measure(grid, border, surfaces);
+  measure_surfaces(grid, border, surfaces);
   surfaces.of_point.assign(grid.point_count(), WallSurface::kNone);
   const auto mark = [&surfaces](BorderRole role, WallSurface surface) {
     for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
@@ -483,7 +468,10 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
     if (surfaces.pieces[as_size(role)] > 1)
       surfaces.doubts.push_back(std::string(name_of(role)) + " is of " +
                                 counted(surfaces.pieces[as_size(role)], "piece"));
-  surfaces.note = "found by the creases of the border: " + list_of(surfaces) + "; confidence " +
+  if (stairs) surfaces.doubts.push_back(doubt_stairs(grid, border, surfaces, stairs->step));
+  surfaces.note = std::string(stairs ? "found by closing the cavities of a wall of voxels: "
+                                     : "found by the creases of the border: ") +
+                  areas_text(surfaces) + "; confidence " +
                   short_number(std::round(100.0 * surfaces.confidence)) + " %";
   return surfaces;
 }

@@ -58,6 +58,8 @@ struct WallSurfaces {
 ///   ends in it, there is the septum, whose side counts as outer, so that the septum, too, runs from 0 to 1
 ///   (as Bayer et al., Ann Biomed Eng 40 (2012) 2243, and universal ventricular coordinates have it: Bayer
 ///   et al., Med Image Anal 45 (2018) 83).
+/// The border of voxels is stairs and has no such parts: wall_stairs.h says what cavities, rims and normals are, which is
+/// a doubt.
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".
 [[nodiscard]] WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh,
                                               const std::string& file);
