@@ -140,6 +140,15 @@ of the GNU Affero General Public License, version 3, <https://www.gnu.org/licens
 /usr/share/doc/libtet1.5/copyright has, too. Its own source is under these:
 ")
 endif()
+if(TARGET palpate)
+  palpate_debian(libpalpate SUMMARY "fields and lines of Palpate, as a library" SECTION libs DEPENDS "palpate-common ${same}")
+  palpate_debian(libpalpate-dev SUMMARY "fields and lines of Palpate, for programs of one's own" SECTION libdevel
+    DEPENDS "libpalpate ${same}")
+endif()
+if(TARGET palpate_python)
+  palpate_debian(python3-palpate SUMMARY "fields and lines of Palpate, in Python" SECTION python
+    DEPENDS "libpalpate ${same}, python3-numpy")
+endif()
 palpate_debian(palpate-doc SUMMARY "guides and reference pages of Palpate" SECTION doc DATA)
 list(JOIN all_apps ", " all_apps)
 palpate_debian(palpate SUMMARY "explore volumetric data with the eyes and the hand at once"
