@@ -317,7 +317,9 @@ TEST(OpenFoam, FieldsOfSomeTimesHaveNoDataAtTheOthersAndItIsSaid) {
       EXPECT_EQ(blocks[0].find("p", Association::kCell)->at(0), 0.5 * static_cast<double>(step));
       const bool there = std::string(lost) != (step == 0 ? "0/U" : "0.5/U");
       EXPECT_EQ(std::isnan(velocity->at(0, 0)), !there) << lost << step;
-      if (there) EXPECT_EQ(velocity->at(0, 0), step == 0 ? 1.0 : 4.0);
+      if (there) {
+        EXPECT_EQ(velocity->at(0, 0), step == 0 ? 1.0 : 4.0);
+      }
     }
   }
 }
