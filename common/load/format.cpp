@@ -43,6 +43,13 @@ bool line_starts(std::string_view text, std::string_view word) {
   return false;
 }
 
+/// Comments may stand before what says the format.
+bool is_gmsh(const FileHead& head, const FormatRow& /*row*/) {
+  const std::string_view text = text_of(head);
+  return text.starts_with("$MeshFormat") ||
+         (text.starts_with("$Comments") && line_starts(text, "$MeshFormat"));
+}
+
 bool has_ending(const FileHead& head, const FormatRow& row) { return names_ending(row, head.ending); }
 
 /// The value of an attribute of the first start tag `element`, or empty.
