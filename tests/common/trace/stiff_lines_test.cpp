@@ -278,7 +278,9 @@ TEST(StiffLines, StatedErrorsCoverWhatStepsDoNotContract) {
           }
         }
         // Those of the last two are of the solution that is not kept, and fall short where it is as good by chance.
-        const double most = integrator == Integrator::kBs32 ? 10.0 : integrator == Integrator::kRk4 ? 3.0 : 1.5;
+        const double most = integrator == Integrator::kBs32  ? 10.0
+                            : integrator == Integrator::kRk4 ? 3.0
+                                                             : 1.5;
         EXPECT_LT(worst, most) << name_of(integrator) << " rate " << rate << " tolerance " << tolerance;
       }
     }
