@@ -194,8 +194,8 @@ TEST_F(CardiacDegenerate, MissingFibresAndPotentials) {
   Element zero;
   zero.fibre.assign(12, 0.0);
   EXPECT_EQ(every_verb({vtu(zero)})["trace"], 1);
-  EXPECT_EQ(every_verb(carp("1\n0 0 0\n"))["trace"], 1);
-  EXPECT_EQ(every_verb(carp("1\nnan nan nan\n"))["trace"], 1);
+  EXPECT_EQ(every_verb(carp("1\n0 0 0\n"))["trace"], 3) << "a .lon without a direction is none";
+  EXPECT_EQ(every_verb(carp("1\nnan nan nan\n"))["trace"], 3);
 
   Element silent;
   silent.vm.assign(4, nan);
