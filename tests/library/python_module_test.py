@@ -166,7 +166,7 @@ class Lines(unittest.TestCase):
         ticker = threading.Thread(target=tick)
         ticker.start()
         started = time.monotonic()
-        palpate.trace(field, "random:2000", max_length=1000.0, threads=1)
+        palpate.trace(field, "random:20000", max_length=1000.0, threads=1)
         ended = time.monotonic()
         stop.set()
         ticker.join()
