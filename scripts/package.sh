@@ -6,12 +6,12 @@ cd "$(dirname "$0")/.."
 
 # shellcheck disable=SC2086 # the lists are meant to be split
 ensure_packages $packages_build $packages_drivers $packages_flow $packages_grid $packages_dtmri $packages_cardiac \
-  $packages_workbench dpkg-dev gzip cmark-gfm
+  $packages_workbench $packages_python dpkg-dev gzip cmark-gfm
 # shellcheck disable=SC2086
 configure release $apps
 say "Building the programs"
 # shellcheck disable=SC2086
-cmake --build build/release --target $apps
+cmake --build build/release --target $apps palpate palpate_python
 say "Packing"
 (cd build/release && rm -rf packages && cpack -G DEB -B packages && rm -rf packages/_CPack_Packages)
 ls -l build/release/packages
