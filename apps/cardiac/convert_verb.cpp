@@ -10,8 +10,8 @@
 
 #include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"

@@ -13,7 +13,7 @@
 #include "apps/cardiac/cardiac_verbs.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"

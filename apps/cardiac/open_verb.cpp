@@ -6,7 +6,7 @@
 #include "apps/cardiac/heart_scene.h"
 #include "common/cli/verb_open.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/window/open_window.h"
+#include "common/window/files/open_window.h"
 
 namespace palpate {
 

@@ -9,11 +9,11 @@
 
 #include "apps/dtmri/dtmri_model.h"
 #include "common/base/text.h"
-#include "common/window/panels/lens_panel.h"
 #include "common/window/panels/panel_parts.h"
-#include "common/window/panels/region_transfer_editor.h"
 #include "common/window/panels/time_panel.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/lens_panel.h"
+#include "common/window/panels/volume/region_transfer_editor.h"
+#include "common/window/panels/volume/volume_panel.h"
 
 namespace palpate {
 namespace {

@@ -7,7 +7,7 @@
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/window/open_window.h"
+#include "common/window/files/open_window.h"
 
 namespace palpate {
 

@@ -12,7 +12,7 @@
 #include "common/cli/verbs.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
-#include "common/scene/tensor_spec.h"
+#include "common/scene/tensor/tensor_spec.h"
 
 namespace palpate {
 namespace {

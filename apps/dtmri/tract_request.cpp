@@ -13,8 +13,8 @@
 #include "common/load/read_tractogram.h"
 #include "common/render/tract/tract_bundle.h"
 #include "common/scene/seeds.h"
-#include "common/scene/tensor_spec.h"
-#include "common/scene/voxel_seeds.h"
+#include "common/scene/tensor/tensor_spec.h"
+#include "common/scene/tensor/voxel_seeds.h"
 #include "common/trace/tract/tract_orientation.h"
 
 namespace palpate {

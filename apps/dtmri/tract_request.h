@@ -18,7 +18,7 @@
 #include "common/render/tensor/tensor_voxels.h"
 #include "common/render/tract/tract_bundle.h"
 #include "common/scene/document/document.h"
-#include "common/scene/read_mask.h"
+#include "common/scene/tensor/read_mask.h"
 #include "common/trace/tract/trace_tracts.h"
 
 namespace palpate {

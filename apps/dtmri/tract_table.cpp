@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/output_file.h"
 
 namespace palpate {
 namespace {

@@ -12,7 +12,7 @@
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/seed_panel.h"
 #include "common/window/panels/time_panel.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/volume_panel.h"
 
 namespace palpate {
 namespace {

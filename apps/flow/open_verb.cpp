@@ -8,7 +8,7 @@
 #include "common/compose/trace_options.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/scene/seeds.h"
-#include "common/window/open_window.h"
+#include "common/window/files/open_window.h"
 
 namespace palpate {
 Verb open_verb(std::vector<UsageExample> examples) {

@@ -7,8 +7,8 @@
 #include "common/compose/slice_panes_text.h"
 #include "common/compose/volume_scene.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/window/open_window.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/files/open_window.h"
+#include "common/window/panels/volume/volume_panel.h"
 
 namespace palpate {
 

@@ -9,7 +9,7 @@
 
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/device/tracked_hands.h"

@@ -10,7 +10,7 @@
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/figures.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/simulated_option.h"
 #include "common/servo/servo_loop.h"

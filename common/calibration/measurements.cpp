@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "common/base/csv_reader.h"
+#include "common/base/files/csv_reader.h"
 #include "common/base/text.h"
 
 namespace palpate {

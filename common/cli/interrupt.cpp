@@ -16,8 +16,8 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/files/output_file.h"
 #include "common/base/last_acts.h"
-#include "common/base/output_file.h"
 #include "common/servo/force_end.h"
 
 namespace palpate {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"

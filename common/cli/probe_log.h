@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/device/probe_path.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"

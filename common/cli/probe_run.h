@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/base/clock.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/cli/probe_log.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"

@@ -3,7 +3,7 @@
 #include <system_error>
 #include <utility>
 
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/ledger.h"
 #include "common/cli/verbs.h"
 #include "common/load/helper/helper_process.h"

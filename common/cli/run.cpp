@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/kept_files.h"
+#include "common/base/files/kept_files.h"
 #include "common/base/ledger.h"
 #include "common/cli/command_line.h"
 #include "common/cli/explorer.h"

@@ -10,7 +10,7 @@
 #include <dlfcn.h>
 
 #include "common/base/error.h"
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/ledger.h"
 #include "common/base/text.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "common/base/csv_reader.h"
+#include "common/base/files/csv_reader.h"
 
 namespace palpate {
 

@@ -6,12 +6,12 @@
 #include <optional>
 
 #include "common/base/index.h"
-#include "common/field/coincident_points.h"
-#include "common/field/curved_split.h"
+#include "common/field/cells/coincident_points.h"
+#include "common/field/cells/curved_split.h"
+#include "common/field/cells/thin_walls.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/tet_seams.h"
-#include "common/field/thin_walls.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 

@@ -9,9 +9,9 @@
 
 #include "common/base/error.h"
 #include "common/field/analytic/analytic_field.h"
-#include "common/field/boundary_values.h"
-#include "common/field/cell_values.h"
-#include "common/field/coincident_points.h"
+#include "common/field/cells/boundary_values.h"
+#include "common/field/cells/cell_values.h"
+#include "common/field/cells/coincident_points.h"
 #include "common/field/data_set_check.h"
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"

@@ -10,8 +10,8 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/kinematics/workbench_section.h"
 #include "common/math/lattice.h"

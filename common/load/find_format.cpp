@@ -12,8 +12,8 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/files/unique_fd.h"
 #include "common/base/index.h"
-#include "common/base/unique_fd.h"
 #include "common/load/gzip_head.h"
 #include "common/load/header_of_pair.h"
 #include "common/load/plot3d_layout.h"

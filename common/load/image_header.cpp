@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"

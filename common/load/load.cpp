@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/ledger.h"
 #include "common/base/memory.h"
 #include "common/load/find_format.h"

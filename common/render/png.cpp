@@ -13,7 +13,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 
 // Exported by the library; its header shows it only where the implementation is compiled.
 extern "C" unsigned char* stbi_write_png_to_mem(const unsigned char* pixels, int stride_bytes, int x, int y,

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/scene/sha256.h"
 

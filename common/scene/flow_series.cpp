@@ -11,7 +11,7 @@
 #include "common/base/text.h"
 #include "common/field/field_on_grid.h"
 #include "common/math/same_time.h"
-#include "common/scene/read_vectors.h"
+#include "common/scene/tensor/read_vectors.h"
 
 namespace palpate {
 namespace {

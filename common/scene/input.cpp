@@ -15,9 +15,9 @@
 #include "common/field/field_on_grid.h"
 #include "common/field/heart/tissue.h"
 #include "common/load/volume_block.h"
-#include "common/scene/layer_cache.h"
 #include "common/scene/raw_file.h"
-#include "common/scene/read_vectors.h"
+#include "common/scene/tensor/read_vectors.h"
+#include "common/scene/wall/layer_cache.h"
 
 namespace palpate {
 namespace {

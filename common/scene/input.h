@@ -21,7 +21,7 @@
 #include "common/field/vector_field.h"
 #include "common/load/load.h"
 #include "common/scene/document/input_options.h"
-#include "common/scene/tensor_image.h"
+#include "common/scene/tensor/tensor_image.h"
 
 namespace palpate {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <string_view>
 
-#include "common/base/csv_reader.h"
 #include "common/base/error.h"
+#include "common/base/files/csv_reader.h"
 #include "common/load/find_format.h"
 #include "common/load/load.h"
 #include "common/load/plot3d_layout.h"

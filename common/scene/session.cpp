@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/scene/sha256.h"
 
 namespace palpate {

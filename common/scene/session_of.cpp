@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 
 namespace palpate {
 

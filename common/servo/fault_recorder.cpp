@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/servo/recording.h"
 

@@ -10,8 +10,8 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/files/line_reader.h"
 #include "common/base/index.h"
-#include "common/base/line_reader.h"
 #include "common/haptics/settings_text.h"
 
 namespace palpate {

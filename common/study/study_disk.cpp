@@ -9,8 +9,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "common/base/files/unique_fd.h"
 #include "common/base/text.h"
-#include "common/base/unique_fd.h"
 
 namespace palpate {
 namespace {

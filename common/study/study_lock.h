@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace palpate {
 

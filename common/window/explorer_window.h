@@ -21,6 +21,7 @@
 #include "common/hand/workbench/workbench_display.h"
 #include "common/render/png.h"
 #include "common/window/controls/scene_controls.h"
+#include "common/window/files/window_files.h"
 #include "common/window/glfw_window.h"
 #include "common/window/gui.h"
 #include "common/window/hand_news.h"
@@ -33,7 +34,6 @@
 #include "common/window/scene_jobs.h"
 #include "common/window/shown_scene.h"
 #include "common/window/window.h"
-#include "common/window/window_files.h"
 
 namespace palpate {
 

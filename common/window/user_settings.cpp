@@ -9,7 +9,7 @@
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/compose/appearance.h"
 #include "common/scene/document/setting.h"
 

@@ -15,9 +15,9 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/scene_parts.h"
-#include "common/window/dropped_files.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
+#include "common/window/files/dropped_files.h"
 #include "common/window/keys.h"
 #include "common/window/panels/panes_panel.h"
 

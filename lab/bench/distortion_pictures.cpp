@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/field/analytic/analytic_field.h"

@@ -8,7 +8,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/scene/report_request.h"
 #include "lab/page/report.h"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/cardiac/packed_file.h"

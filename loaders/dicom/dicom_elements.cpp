@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/text.h"
 
 namespace palpate {

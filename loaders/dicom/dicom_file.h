@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 
 namespace palpate {
 

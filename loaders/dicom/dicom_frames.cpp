@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/text.h"
 #include "loaders/dicom/dicom_elements.h"
 #include "loaders/dicom/dicom_gradients.h"

@@ -11,8 +11,8 @@
 #include <gdcmTrace.h>
 
 #include "common/base/error.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
-#include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/dicom_mark.h"
 #include "common/load/volume_block.h"

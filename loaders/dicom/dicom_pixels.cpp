@@ -14,8 +14,8 @@
 #include <gdcmImageReader.h>
 
 #include "common/base/error.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
-#include "common/base/mapped_file.h"
 #include "common/load/voxel_bytes.h"
 
 namespace palpate {

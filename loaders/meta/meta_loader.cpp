@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
-#include "common/base/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/file_numbers.h"
+#include "common/base/files/mapped_file.h"
 #include "common/load/gzip_head.h"
 #include "common/load/voxel_bytes.h"
 

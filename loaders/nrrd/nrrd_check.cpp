@@ -18,7 +18,7 @@
 #endif
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"

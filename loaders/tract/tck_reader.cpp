@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/text.h"
 #include "common/load/mrtrix_header.h"
 #include "loaders/tract/tract_loader.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/geometry/tractogram.h"
 #include "loaders/tract/tck_reader.h"
 #include "loaders/tract/trk_reader.h"

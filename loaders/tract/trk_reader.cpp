@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
+#include "common/base/files/file_numbers.h"
 #include "common/base/text.h"
 #include "common/load/trk_header.h"
 #include "loaders/tract/tract_loader.h"

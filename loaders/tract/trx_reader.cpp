@@ -14,8 +14,8 @@
 #include <zip.h>
 
 #include "common/base/error.h"
-#include "common/base/file_numbers.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/file_numbers.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/gzip_head.h"
 

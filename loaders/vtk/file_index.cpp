@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/step_times.h"

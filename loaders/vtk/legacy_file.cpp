@@ -16,7 +16,7 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "loaders/vtk/legacy_check.h"
 
 namespace palpate {

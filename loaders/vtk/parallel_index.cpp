@@ -5,7 +5,7 @@
 #include <set>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 
 namespace palpate {

@@ -8,7 +8,7 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "loaders/vtk/memory_text.h"

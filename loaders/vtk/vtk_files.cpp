@@ -17,7 +17,7 @@
 #include <vtkVariant.h>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/voxel_bytes.h"

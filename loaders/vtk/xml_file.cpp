@@ -19,7 +19,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 
 #include "common/base/error.h"
-#include "common/base/mapped_file.h"
+#include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"

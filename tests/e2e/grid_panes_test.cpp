@@ -16,7 +16,7 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/render/slice/slice_panes.h"
 #include "common/window/panels/panel.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
 

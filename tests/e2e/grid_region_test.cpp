@@ -11,7 +11,7 @@
 #include "common/hand/technique/box_hold.h"
 #include "common/load/write/write_image.h"
 #include "common/window/controls/region_control.h"
-#include "common/window/saved_files.h"
+#include "common/window/files/saved_files.h"
 #include "tests/e2e/explorer_test.h"
 
 namespace palpate::test {

@@ -18,7 +18,7 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/render/render_image.h"
 #include "common/window/panels/panel.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"

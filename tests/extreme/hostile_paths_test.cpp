@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/e2e/explorer_test.h"
-#include "tests/e2e/probe_log.h"
+#include "tests/e2e/hand/probe_log.h"
 
 namespace palpate::test {
 namespace {

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/field/boundary_values.h"
+#include "common/field/cells/boundary_values.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/base/check.h"
-#include "common/base/csv_reader.h"
 #include "common/base/error.h"
+#include "common/base/files/csv_reader.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 

@@ -12,8 +12,8 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/files/line_reader.h"
 #include "common/base/index.h"
-#include "common/base/line_reader.h"
 #include "common/base/text.h"
 #include "common/field/transfer/color_transfer.h"
 

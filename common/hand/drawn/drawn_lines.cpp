@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "common/base/csv_reader.h"
+#include "common/base/files/csv_reader.h"
 
 namespace palpate {
 namespace {

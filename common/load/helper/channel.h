@@ -9,7 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 #include "common/load/helper/memory_file.h"
 
 namespace palpate {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <span>
 
-#include "common/base/unique_fd.h"
+#include "common/base/files/unique_fd.h"
 
 namespace palpate {
 

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/kept_files.h"
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/kept_files.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
 
 namespace palpate {

@@ -13,8 +13,8 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
+#include "common/base/files/output_file.h"
 #include "common/base/index.h"
-#include "common/base/output_file.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
 #include "common/load/write/image_origin.h"

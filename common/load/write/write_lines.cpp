@@ -10,7 +10,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/load/write/vtp_appendix.h"
 #include "common/load/write/write_tractogram.h"

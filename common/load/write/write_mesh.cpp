@@ -5,7 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/error.h"
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/load/load.h"
 #include "common/load/write/vtp_appendix.h"

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <string>
 
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/geometry/tractogram.h"
 
 namespace palpate {

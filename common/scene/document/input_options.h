@@ -9,7 +9,7 @@
 #include "common/load/raw_layout.h"
 #include "common/scene/document/field_kind.h"
 #include "common/scene/remesher.h"
-#include "common/scene/tensor_spec.h"
+#include "common/scene/tensor/tensor_spec.h"
 
 namespace palpate {
 

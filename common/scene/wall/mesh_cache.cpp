@@ -10,7 +10,7 @@
 #include "common/base/text.h"
 #include "common/load/helper/message_json.h"
 #include "common/load/helper/protocol.h"
-#include "common/scene/mesh_digest.h"
+#include "common/scene/wall/mesh_digest.h"
 
 namespace palpate {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/ledger.h"
 #include "common/base/memory.h"
 #include "common/load/helper/helper_process.h"

@@ -15,10 +15,10 @@
 #include "common/window/controls/seed_choice.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/live_picture.h"
-#include "common/window/panels/region_panel.h"
 #include "common/window/panels/series_panel.h"
 #include "common/window/panels/touch_panel.h"
-#include "common/window/panels/transfer_panel.h"
+#include "common/window/panels/volume/region_panel.h"
+#include "common/window/panels/volume/transfer_panel.h"
 
 namespace palpate {
 

@@ -15,11 +15,11 @@
 #include "common/base/text.h"
 #include "common/hand/servo_rows.h"
 #include "common/render/probe_view.h"
-#include "common/window/panels/curve_panel.h"
-#include "common/window/panels/isosurface_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/plane_panel.h"
 #include "common/window/panels/tensor_readout.h"
+#include "common/window/panels/volume/curve_panel.h"
+#include "common/window/panels/volume/isosurface_panel.h"
 
 namespace palpate {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/field/boundary_values.h"
+#include "common/field/cells/boundary_values.h"
 #include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {

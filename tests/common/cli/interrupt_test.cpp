@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/output_file.h"
+#include "common/base/files/output_file.h"
 #include "common/servo/force_end.h"
 #include "tests/support/temp_folder.h"
 

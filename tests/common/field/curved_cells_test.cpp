@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/field/curved_split.h"
+#include "common/field/cells/curved_split.h"
 #include "common/field/grid/curved_cell.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/grid/tet_seams.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "tests/support/project_folders.h"

@@ -6,7 +6,7 @@
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/symmetric3.h"
-#include "common/window/saved_files.h"
+#include "common/window/files/saved_files.h"
 #include "tests/common/render/tensor/sample_tensors.h"
 #include "tests/common/window/touch_window.h"
 

@@ -7,7 +7,7 @@
 #include "common/field/value_histogram.h"
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/volume_panel.h"
 #include "tests/common/window/touch_window.h"
 
 namespace palpate::test {

@@ -12,7 +12,7 @@
 #include "common/window/controls/region_control.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/picture_panels.h"
-#include "common/window/panels/volume_panel.h"
+#include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
 
 namespace palpate {

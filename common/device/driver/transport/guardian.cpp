@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 
 namespace palpate {
 namespace {

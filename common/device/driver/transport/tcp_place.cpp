@@ -10,8 +10,8 @@
 #include <poll.h>
 #include <sys/socket.h>
 
+#include "common/base/files/unique_fd.h"
 #include "common/base/index.h"
-#include "common/base/unique_fd.h"
 #include "common/device/driver/transport/serial_line.h"
 
 namespace palpate {

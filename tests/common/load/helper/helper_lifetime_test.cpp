@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/load/helper/helper_process.h"
 
 namespace palpate {

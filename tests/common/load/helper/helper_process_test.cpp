@@ -14,7 +14,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
-#include "common/base/find_helper.h"
+#include "common/base/files/find_helper.h"
 #include "common/base/sanitizers.h"
 #include "common/load/load.h"
 #include "tests/support/temp_folder.h"

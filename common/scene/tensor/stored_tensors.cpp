@@ -1,0 +1,241 @@
+#include "common/scene/tensor/stored_tensors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/orientation_check.h"
+#include "common/field/tensor/vector_frame.h"
+#include "common/math/symmetric3.h"
+
+namespace palpate {
+namespace {
+
+using Six = std::array<double, 6>;
+
+/// Stores a tensor turned by `axes`; NaN where it is zero or not finite.
+void store(const Six& tensor, const Mat3& axes, float* out) {
+  const bool zero = std::all_of(tensor.begin(), tensor.end(), [](double d) { return d == 0.0; });
+  const bool finite = std::all_of(tensor.begin(), tensor.end(), [](double d) { return std::isfinite(d); });
+  if (zero || !finite) {
+    std::fill_n(out, 6, std::numeric_limits<float>::quiet_NaN());
+    return;
+  }
+  const Six turned =
+      axes == Mat3{1.0} ? tensor : six_numbers(axes * symmetric_matrix(tensor) * glm::transpose(axes));
+  std::transform(turned.begin(), turned.end(), out, [](double value) { return static_cast<float>(value); });
+}
+
+/// All tensors of an array, turned by `axes`.
+std::vector<float> read_array(const DataArray& array, TensorOrder order, const Mat3& axes) {
+  std::vector<float> tensors(6 * array.tuples);
+  for (std::size_t p = 0; p < array.tuples; ++p) store(read_tensor(array, p, order), axes, &tensors[6 * p]);
+  return tensors;
+}
+
+/// An order that six numbers may have, and the axes that go with it.
+struct Reading {
+  StoredOrder order;
+  TensorOrder places;
+  const char* name;
+};
+constexpr std::array<Reading, 3> kReadings{
+    {{StoredOrder::kFsl, TensorOrder::kRows, "FSL's order (xx xy xz yy yz zz)"},
+     {StoredOrder::kMrtrix, TensorOrder::kDiagonal, "MRtrix's order (xx yy zz xy xz yz)"},
+     {StoredOrder::kNifti, TensorOrder::kLower, "NIfTI's order (xx xy yy xz yz zz)"}}};
+
+/// The part of the tensors that have no eigenvalue below zero, of those that are not zero.
+double positive_part(const DataArray& array, TensorOrder order) {
+  constexpr std::size_t kMostAsked = 20'000;
+  const std::size_t stride = std::max<std::size_t>(1, array.tuples / kMostAsked);
+  std::size_t asked = 0, positive = 0;
+  for (std::size_t p = 0; p < array.tuples; p += stride) {
+    const Six d = read_tensor(array, p, order);
+    if (!std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); })) continue;
+    if (std::all_of(d.begin(), d.end(), [](double x) { return x == 0.0; })) continue;
+    ++asked;
+    positive += symmetric_eigenvalues(symmetric_matrix(d))[2] >= 0.0 ? 1 : 0;
+  }
+  return asked > 0 ? static_cast<double>(positive) / static_cast<double>(asked) : 0.0;
+}
+
+/// Axes that tensors of that order may be along, the likeliest first.
+std::vector<VectorFrame> frames_of(StoredOrder order) {
+  if (order == StoredOrder::kFsl) return {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps};
+  if (order == StoredOrder::kMrtrix) return {VectorFrame::kScanner, VectorFrame::kImage, VectorFrame::kLps};
+  return {VectorFrame::kVoxel, VectorFrame::kScanner, VectorFrame::kImage, VectorFrame::kLps};
+}
+
+/// The frame of numbers as stored, and how well main directions line up in it.
+struct FrameChoice {
+  VectorFrame frame = VectorFrame::kScanner;
+  Coherence coherence;
+  std::string why;
+};
+
+/// What `wanted` and the file leave open.
+struct OpenFrame {
+  std::optional<VectorFrame> asked;
+  std::optional<VectorFrame> stated;
+};
+
+/// The one that is asked for, else that the file states, else of `likely`, the likeliest first, the one in which
+/// directions line up best.
+FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology& topology,
+                         const std::vector<VectorFrame>& likely, const OpenFrame& open, int threads) {
+  const DirectionMap map(stored, topology, threads);
+  std::vector<VectorFrame> frames = likely;
+  if (open.asked || open.stated) frames = {open.asked ? *open.asked : *open.stated};
+  std::vector<Mat3> matrices;
+  for (const VectorFrame frame : frames) matrices.push_back(matrix_of(frame, topology.axes));
+  const std::vector<Coherence> scores = map.coherence(matrices, threads);
+  FrameChoice choice{.frame = frames.front(),
+                     .coherence = scores.front(),
+                     .why = open.asked ? ", as asked for"
+                            : open.stated
+                                ? ", as the file states"
+                                : ": the file does not say, and nothing in the image speaks against it"};
+  if (frames.size() == 1) return choice;
+  if (map.size() < kLeastCoherent) {
+    choice.why = ": the file does not say, and the image has too few fibres to tell";
+    return choice;
+  }
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    if (!clearly_better(scores[f], choice.coherence)) continue;
+    choice = {.frame = frames[f],
+              .coherence = scores[f],
+              .why = ": the file does not say, and neighbouring directions line up best so"};
+  }
+  return choice;
+}
+
+void turn_stored(const Mat3& axes, std::vector<float>& tensors) {
+  for (std::size_t at = 0; at + 6 <= tensors.size(); at += 6) {
+    Six six{};
+    std::copy_n(tensors.begin() + static_cast<std::ptrdiff_t>(at), 6, six.begin());
+    store(six, axes, &tensors[at]);
+  }
+}
+
+/// Tensors of six numbers whose order or axes the file leaves open.
+std::vector<float> read_unstated(const DataArray& array, const UniformTopology& topology, StoredOrder wanted,
+                                 const OpenFrame& open, int threads, VectorFrame& frame,
+                                 std::vector<std::string>& notes, const std::string& file) {
+  std::array<double, 3> positive{};
+  for (std::size_t r = 0; r < kReadings.size(); ++r) positive[r] = positive_part(array, kReadings[r].places);
+  const double most = *std::max_element(positive.begin(), positive.end());
+  constexpr double kTensors = 0.5;
+  if (wanted == StoredOrder::kAuto && most < kTensors)
+    throw input_error(
+        {file, "", "has six volumes that are positive tensors in no known order", "tensors",
+         "name the gradients of a diffusion-weighted series (--bval, --bvec), or --tensor-order"});
+  constexpr double kAsGood = 0.02;
+  std::vector<float> best;
+  FrameChoice chosen;
+  std::string name;
+  for (std::size_t r = 0; r < kReadings.size(); ++r) {
+    const Reading& way = kReadings[r];
+    const bool taken = wanted == StoredOrder::kAuto ? positive[r] >= most - kAsGood : wanted == way.order;
+    if (!taken) continue;
+    std::vector<float> tensors = read_array(array, way.places, Mat3{1.0});
+    FrameChoice choice = choose_frame(tensors, topology, frames_of(way.order), open, threads);
+    if (!best.empty() && !clearly_better(choice.coherence, chosen.coherence)) continue;
+    best = std::move(tensors);
+    chosen = std::move(choice);
+    name = way.name;
+  }
+  frame = chosen.frame;
+  turn_stored(matrix_of(frame, topology.axes), best);
+  std::string parts;
+  for (std::size_t r = 0; r < kReadings.size(); ++r) {
+    parts += (r == 0 ? "" : ", ") + short_number(std::round(1000.0 * positive[r]) / 10.0) + " % in " +
+             kReadings[r].name;
+  }
+  notes.push_back("tensors taken in " + name + (wanted == StoredOrder::kAuto ? "" : ", as asked for") +
+                  "; without an eigenvalue below zero: " + parts + " (--tensor-order)");
+  notes.push_back("tensors taken along " + std::string(words_of(frame)) + chosen.why + " (--vectors)");
+  return best;
+}
+
+std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& source) {
+  std::array<const DataArray*, 6> arrays{};  // V1 V2 V3 L1 L2 L3
+  for (std::size_t a = 0; a < arrays.size(); ++a)
+    arrays[a] = image.find(source.arrays[a], Association::kPoint);
+  std::vector<float> tensors(6 * image.point_count());
+  for (std::size_t p = 0; p < image.point_count(); ++p) {
+    Mat3 sum{0.0};
+    for (std::size_t e = 0; e < 3; ++e) {
+      const Vec3 v{arrays[e]->at(p, 0), arrays[e]->at(p, 1), arrays[e]->at(p, 2)};
+      sum += arrays[e + 3]->at(p) * glm::outerProduct(v, v);
+    }
+    store(six_numbers(sum), Mat3{1.0}, &tensors[6 * p]);
+  }
+  return tensors;
+}
+
+/// A mean diffusivity that white and grey matter have [mm^2/s].
+constexpr double kMeanDiffusivity = 0.7e-3;
+
+/// With eigenvalues MD (1 + 2 t), MD (1 - t) twice, FA = sqrt(3 t^2 / (1 + 2 t^2)).
+std::vector<float> from_directions(const DataSet& image, const TensorSource& source) {
+  const DataArray& directions = *image.find(source.arrays[0], Association::kPoint);
+  const DataArray& anisotropies = *image.find(source.arrays[1], Association::kPoint);
+  std::vector<float> tensors(6 * image.point_count());
+  for (std::size_t p = 0; p < image.point_count(); ++p) {
+    const Vec3 v{directions.at(p, 0), directions.at(p, 1), directions.at(p, 2)};
+    const double length = glm::length(v);
+    Mat3 tensor{0.0};
+    if (length > 0.0 && std::isfinite(length)) {
+      const double fa = std::clamp(anisotropies.at(p), 0.0, 1.0);
+      const double t = fa / std::sqrt(3.0 - 2.0 * fa * fa);
+      const Vec3 unit = v / length;
+      tensor = kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
+    }
+    store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
+  }
+  return tensors;
+}
+
+}  // namespace
+
+TensorOrder order_of_size(int components) noexcept {
+  if (components == 9) return TensorOrder::kFull;
+  return components == 7 ? TensorOrder::kMask : TensorOrder::kRows;
+}
+
+std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
+                                       const TensorSource& source, const DiffusionInfo& diffusion,
+                                       const TensorReading& reading, int threads, VectorFrame& frame,
+                                       std::vector<std::string>& notes, const std::string& file) {
+  const OpenFrame open{.asked = reading.frame, .stated = diffusion.frame};
+  if (source.kind == TensorSource::Kind::kEigenSet || source.kind == TensorSource::Kind::kDirections) {
+    const bool set = source.kind == TensorSource::Kind::kEigenSet;
+    std::vector<float> tensors = set ? from_eigen_set(image, source) : from_directions(image, source);
+    const FrameChoice choice = choose_frame(
+        tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, open, threads);
+    frame = choice.frame;
+    turn_stored(matrix_of(frame, topology.axes), tensors);
+    notes.push_back((set ? "tensors put together from eigenvectors and eigenvalues"
+                         : "V1 and FA alone do not determine tensors: taken as alike across V1, with a mean "
+                           "diffusivity of 0.0007 mm^2/s") +
+                    std::string(", along ") + std::string(words_of(frame)) + choice.why + " (--vectors)");
+    return tensors;
+  }
+  const DataArray& array = *image.find(source.arrays.front(), Association::kPoint);
+  if (diffusion.layout == TensorLayout::kData) {
+    frame = reading.frame.value_or(VectorFrame::kScanner);
+    if (reading.frame)
+      notes.push_back("tensors taken along " + std::string(words_of(frame)) + ", as asked for (--vectors)");
+    return read_array(array, order_of_size(array.components), matrix_of(frame, topology.axes));
+  }
+  StoredOrder order = reading.order;
+  if (order == StoredOrder::kAuto && diffusion.layout == TensorLayout::kLower) order = StoredOrder::kNifti;
+  return read_unstated(array, topology, order, open, threads, frame, notes, file);
+}
+
+}  // namespace palpate

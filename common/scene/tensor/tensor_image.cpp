@@ -1,0 +1,172 @@
+#include "common/scene/tensor/tensor_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/field/tensor/gradient_table.h"
+#include "common/math/symmetric3.h"
+#include "common/scene/tensor/fit_image.h"
+#include "common/scene/tensor/stored_tensors.h"
+
+namespace palpate {
+namespace {
+
+/// D becomes T D T^T at every point.
+void turn_tensors(const Mat3& turn, std::vector<float>& tensors) {
+  for (std::size_t at = 0; at + 6 <= tensors.size(); at += 6) {
+    float* const d = tensors.data() + at;
+    const Mat3 turned = turn * Mat3{Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}} *
+                        glm::transpose(turn);
+    const std::array<double, 6> six{turned[0][0], turned[1][0], turned[2][0],
+                                    turned[1][1], turned[2][1], turned[2][2]};
+    std::transform(six.begin(), six.end(), d, [](double value) { return static_cast<float>(value); });
+  }
+}
+
+DataArray array_of(std::vector<float> tensors) {
+  const auto values = std::make_shared<std::vector<float>>(std::move(tensors));
+  DataArray array;
+  array.name = "tensors";
+  array.components = 6;
+  array.tuples = values->size() / 6;
+  array.bytes = std::as_bytes(std::span(std::as_const(*values)));
+  array.owner = values;
+  return array;
+}
+
+/// The block that has all arrays of the source.
+DataSet block_of(std::vector<DataSet> blocks, const TensorInput& input) {
+  for (DataSet& block : blocks) {
+    const auto& names = input.source.arrays;
+    if (std::all_of(names.begin(), names.end(), [&block](const std::string& name) {
+          return block.find(name, Association::kPoint) != nullptr;
+        })) {
+      return std::move(block);
+    }
+  }
+  throw input_error({input.file, "", "no block has the arrays of '" + input.source.label + "'", "", ""});
+}
+
+const UniformTopology& uniform(const DataSet& block, const TensorInput& input) {
+  const auto* topology = std::get_if<UniformTopology>(&block.topology);
+  if (topology == nullptr) {
+    throw input_error(
+        {input.file, "", "'" + input.source.label + "' does not lie on a uniform grid", "an image", ""});
+  }
+  return *topology;
+}
+
+std::string turn_text(const AxisTurn& turn) {
+  return turn.words() + ": tensors turned along the image's axes, as asked for";
+}
+
+void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
+                         std::vector<std::string>& notes) {
+  if (!verdict.suspicious) return;
+  std::string warning = "WARNING: neighbouring main directions line up " +
+                        short_number(std::round(1000.0 * (verdict.gain - 1.0)) / 10.0) +
+                        " % better in other axes: gradients, vectors or tensors may have a wrong axis; ";
+  // What would leave a rotation behind is no advice: it would only hide what is wrong.
+  if (verdict.rotated) {
+    warning +=
+        "but even in the best ones (" + verdict.advice +
+        ") they line up better still rotated by 10 degrees, which no option mends: was the image turned "
+        "without its table?";
+  } else {
+    warning +=
+        "try " + verdict.advice + (turn.is_identity() ? "" : " in addition to the turn that was asked for");
+  }
+  notes.push_back(std::move(warning));
+}
+
+/// How many of the tensors have an eigenvalue below zero, of at most 20000 that are asked.
+void count_negative(const std::vector<float>& tensors, std::vector<std::string>& notes) {
+  constexpr std::size_t kMostAsked = 20'000;
+  const std::size_t count = tensors.size() / 6, stride = std::max<std::size_t>(1, count / kMostAsked);
+  std::size_t asked = 0, negative = 0;
+  for (std::size_t p = 0; p < count; p += stride) {
+    const float* const d = tensors.data() + 6 * p;
+    if (!std::all_of(d, d + 6, [](float x) { return std::isfinite(x); })) continue;
+    ++asked;
+    const Vec3 values =
+        symmetric_eigenvalues({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
+    // A zero of single precision may come out below zero.
+    constexpr double kRounding = 1e-6;
+    negative += values[2] < -kRounding * values[0] ? 1 : 0;
+  }
+  say_negative(negative, asked, notes);
+}
+
+}  // namespace
+
+TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& input,
+                              const TensorReading& reading, int threads, Progress* progress) {
+  if (progress != nullptr) progress->check();
+  TensorImage result;
+  result.image = block_of(std::move(blocks), input);
+  const auto* const topology = std::get_if<UniformTopology>(&result.image.topology);
+  const bool as_stored =
+      input.source.kind == TensorSource::Kind::kArray && input.diffusion.layout == TensorLayout::kData;
+  const bool turned = !reading.turn.is_identity() || reading.frame;
+  // The file's own numbers, in their own precision.
+  const auto keep_stored = [&] {
+    const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
+    result.choice = {array.name, order_of_size(array.components), reading.interpolation};
+  };
+  if (as_stored && !turned && (!topology || !input.measured)) {
+    keep_stored();
+    return result;
+  }
+  const UniformTopology& grid = uniform(result.image, input);
+  std::vector<float> tensors;
+  Orientation taken{.turn = reading.turn};
+  bool doubtful = false;
+  if (input.source.kind == TensorSource::Kind::kSignals) {
+    const DataArray& signals = *result.image.find(kSignalArray, Association::kPoint);
+    FittedImage fitted = fit_image(signals, grid, *input.diffusion.gradients, reading, input.file, threads,
+                                   result.notes, progress);
+    tensors = std::exchange(fitted.fit.tensors, {});
+    result.fit = std::move(fitted.fit);
+    doubtful = fitted.doubtful;
+    result.gradients = std::move(fitted.gradients.table);
+    const VectorFrame read = input.diffusion.gradient_frame;
+    taken.frame = reading.frame.value_or(read);
+    if (reading.frame) {
+      turn_tensors(matrix_of(taken.frame, grid.axes) * glm::transpose(matrix_of(read, grid.axes)), tensors);
+      result.notes.push_back("gradients taken along " + std::string(words_of(taken.frame)) +
+                             ", as asked for (--vectors)");
+    }
+  } else {
+    tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion, reading, threads,
+                                  taken.frame, result.notes, input.file);
+    count_negative(tensors, result.notes);
+  }
+  if (!reading.turn.is_identity()) {
+    const Mat3 image = image_axes(grid.axes);
+    turn_tensors(image * reading.turn.matrix() * glm::transpose(image), tensors);
+    result.notes.push_back(turn_text(reading.turn));
+  }
+  // Of directions that are noise nothing can be learnt.
+  if (doubtful) {
+    result.notes.emplace_back(
+        "axes are not checked against the anatomy: the table does not determine directions");
+  } else {
+    result.orientation = check_orientation(DirectionMap(tensors, grid, threads), grid, taken, threads);
+    warn_of_orientation(result.orientation, reading.turn, result.notes);
+  }
+  if (as_stored && !turned) {
+    keep_stored();
+    return result;
+  }
+  result.image.arrays = {array_of(std::move(tensors))};
+  result.choice = {"tensors", TensorOrder::kRows, reading.interpolation};
+  return result;
+}
+
+}  // namespace palpate

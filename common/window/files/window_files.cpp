@@ -1,0 +1,128 @@
+#include "common/window/files/window_files.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <utility>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "common/scene/session_of.h"
+
+namespace palpate {
+
+bool WindowFiles::attempt(const std::function<std::string()>& save) {
+  try {
+    state_.say("saved " + save());
+    return true;
+  } catch (const std::exception& error) {
+    state_.fail(error.what());
+    return false;
+  }
+}
+
+const DrawnLines& WindowFiles::all_lines() {
+  if (!touch_.trail().drawn().empty()) (void)touch_.trail().keep_line();
+  return touch_.trail().drawn_lines();
+}
+
+std::string WindowFiles::write_lines() {
+  const DrawnLines& lines = all_lines();
+  if (lines.entries().empty())
+    throw work_error(touch_.data().has_tensors() ? "no tract is drawn; press G, then drag along one"
+                                                 : "no line is kept; grab the probe (G), then K keeps one");
+  return saved_.save_lines(lines, state_.lines_file).string();
+}
+
+void WindowFiles::save_session(WindowModel& model, Document document) {
+  const bool done = attempt([&] {
+    const DrawnLines& lines = all_lines();
+    std::filesystem::path& file = document.touch.drawn_lines;
+    file.clear();
+    if (lines.entries().empty()) return model.save_session(document);
+    file = session_path(document, program_).replace_extension(".lines.csv");
+    lines.save(file, true);
+    const std::string session = model.save_session(document);
+    saved_.note_saved(lines);
+    return session + " with " +
+           counted(lines.entries().size(), touch_.data().has_tensors() ? "tract" : "line");
+  });
+  if (done) saved_notes_ = touch_.notes().entries();
+}
+
+void WindowFiles::save_lines() {
+  attempt([this] { return write_lines(); });
+}
+
+void WindowFiles::save_picture(const Image& image, const std::vector<PngText>& texts) {
+  attempt([&] { return saved_.save_picture(image, texts).string(); });
+}
+
+void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
+                             const std::optional<Box>& region) {
+  if (actions.save_transfer && view.volume) {
+    attempt([&] {
+      Lens context;
+      context.transfer = view.volume->transfer;
+      context.regions = view.volume->regions;
+      return saved_.save_transfer(state_.transfer_file, context).string();
+    });
+  }
+  if (actions.save_focus && state_.scene != nullptr)
+    attempt([&] { return saved_.save_transfer(state_.focus_file, state_.scene->look(0)).string(); });
+  if (!actions.touch.save_notes.empty()) attempt([&] { return write_notes(actions.touch.save_notes); });
+  if (!actions.region.crop.empty()) {
+    attempt([&] {
+      const SavedFiles::SavedRegion saved =
+          saved_.save_region(*view.volume->image, *region, actions.region.crop,
+                             view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown);
+      return saved.file.string() +
+             (saved.exact ? "" : " (to seven digits, as pictures have them; the command clip keeps all)");
+    });
+  }
+}
+
+std::string WindowFiles::write_notes(const std::string& ending) {
+  std::string file = saved_.save_annotations(touch_.notes().entries(), ending).string();
+  saved_notes_ = touch_.notes().entries();
+  return file;
+}
+
+std::size_t WindowFiles::unsaved_lines() const {
+  const auto whole = [](const DrawnTract& tract) { return tract.line.points.size() > 1; };
+  return saved_.unsaved(touch_.trail().drawn_lines()) +
+         static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
+}
+
+std::size_t WindowFiles::unsaved_notes() const {
+  const auto unsaved = [&](const Annotation& note) {
+    return std::ranges::find(saved_notes_, note) == saved_notes_.end();
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(touch_.notes().entries(), unsaved));
+}
+
+bool WindowFiles::ask(std::optional<InputFiles> opens) {
+  const std::size_t lines = unsaved_lines(), notes = unsaved_notes(), count = lines + notes;
+  if (count == 0 || touch_.servo().replaying()) return false;
+  std::string what;
+  if (lines > 0) what = counted(lines, touch_.data().has_tensors() ? "tract" : "line");
+  if (notes > 0) what += (what.empty() ? "" : " and ") + counted(notes, "annotation");
+  question_.ask(what + (count == 1 ? " is" : " are") + " not saved." +
+                    (opens ? " Opening another input in place of this one forgets " +
+                                 std::string(count == 1 ? "it." : "them.")
+                           : " Save before the window closes?"),
+                std::move(opens));
+  return true;
+}
+
+std::optional<WindowFiles::Leave> WindowFiles::answer() {
+  const auto answer = question_.draw();
+  if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel)
+    return std::nullopt;
+  const bool saves = answer == UnsavedQuestion::Answer::kSave;
+  if (saves && unsaved_lines() > 0 && !attempt([this] { return write_lines(); })) return std::nullopt;
+  if (saves && unsaved_notes() > 0 && !attempt([this] { return write_notes(".csv"); })) return std::nullopt;
+  return Leave{.opens = question_.opens()};
+}
+
+}  // namespace palpate
