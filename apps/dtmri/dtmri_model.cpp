@@ -124,7 +124,8 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
 std::optional<Document> DtmriModel::join(const InputFiles& files, const Document& now,
                                          Progress& progress) const {
   if (files.files.size() != 1 || files.solution) return std::nullopt;
-  InputOptions asked{.files = files.files};
+  InputOptions asked;
+  asked.files = files.files;
   asked.kind = FieldKind::kTensor;
   const Input input = Input::open(asked, &progress);
   Document with = now;

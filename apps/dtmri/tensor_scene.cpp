@@ -60,7 +60,8 @@ Document with_input_role(Document options, const Input& input) {
 }
 
 Underlay load_underlay(const Document& document, Progress* progress) {
-  InputOptions spec{.files = {document.tensors.underlay}};
+  InputOptions spec;
+  spec.files = {document.tensors.underlay};
   spec.tensor.handedness = document.input.tensor.handedness;
   spec.kind = FieldKind::kScalar;
   Input input = Input::open(spec, progress);

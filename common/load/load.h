@@ -29,6 +29,7 @@ struct DiffusionRequest {
   [[nodiscard]] bool names_gradients() const { return !bval.empty() || !bvec.empty(); }
 };
 
+/// What a reader is told. A document's InputOptions are one, with words beside it.
 struct LoadRequest {
   std::vector<std::filesystem::path> files;       ///< several: blocks to be joined, or a numbered time series
   std::optional<std::filesystem::path> solution;  ///< PLOT3D solution file

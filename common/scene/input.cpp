@@ -223,11 +223,8 @@ void Input::part_fields() {
 }
 
 void Input::open_files(Progress* progress) {
-  LoadRequest request{.files = spec_.files, .solution = spec_.solution, .refine = spec_.refine};
-  request.series = spec_.series;
-  request.allow_gaps = spec_.allow_gaps;
-  request.surface_markers = spec_.surface_markers;
-  request.raw = raw_layout_of(spec_.files.front(), spec_.raw, raw_note_);
+  LoadRequest request = spec_;
+  request.raw = raw_layout_of(spec_.files.front(), spec_.raw_words, raw_note_);
   request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
   if (spec_.kind == FieldKind::kTensor) {
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};

@@ -48,7 +48,8 @@ Scene example_scene(const std::string& name) {
 }
 
 std::optional<Scene> file_scene(const std::string& file, const std::string& solution = "") {
-  InputOptions spec{.files = {shared_data(file)}};
+  InputOptions spec;
+  spec.files = {shared_data(file)};
   if (spec.files[0].empty()) return std::nullopt;
   Scene scene{file, {spec.files[0].string()}, nullptr};
   if (!solution.empty()) {
