@@ -18,34 +18,6 @@
 namespace palpate {
 namespace {
 
-/// Calls `f` with a number of the type.
-template <typename F>
-auto with_type(ScalarType type, const F& f) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return f(std::int8_t{});
-    case ScalarType::kUint8:
-      return f(std::uint8_t{});
-    case ScalarType::kInt16:
-      return f(std::int16_t{});
-    case ScalarType::kUint16:
-      return f(std::uint16_t{});
-    case ScalarType::kInt32:
-      return f(std::int32_t{});
-    case ScalarType::kUint32:
-      return f(std::uint32_t{});
-    case ScalarType::kInt64:
-      return f(std::int64_t{});
-    case ScalarType::kUint64:
-      return f(std::uint64_t{});
-    case ScalarType::kFloat32:
-      return f(float{});
-    case ScalarType::kFloat64:
-      break;
-  }
-  return f(double{});
-}
-
 template <typename T>
 bool holds(double value) noexcept {
   if constexpr (std::is_integral_v<T>) {

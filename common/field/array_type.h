@@ -2,11 +2,40 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "common/field/data_set.h"
 
 namespace palpate {
+
+/// Calls `f` with a zero of the type; what it returns is of one type for all.
+template <typename F>
+auto with_type(ScalarType type, const F& f) {
+  switch (type) {
+    case ScalarType::kInt8:
+      return f(std::int8_t{});
+    case ScalarType::kUint8:
+      return f(std::uint8_t{});
+    case ScalarType::kInt16:
+      return f(std::int16_t{});
+    case ScalarType::kUint16:
+      return f(std::uint16_t{});
+    case ScalarType::kInt32:
+      return f(std::int32_t{});
+    case ScalarType::kUint32:
+      return f(std::uint32_t{});
+    case ScalarType::kInt64:
+      return f(std::int64_t{});
+    case ScalarType::kUint64:
+      return f(std::uint64_t{});
+    case ScalarType::kFloat32:
+      return f(float{});
+    case ScalarType::kFloat64:
+      break;
+  }
+  return f(double{});
+}
 
 /// Whether its numbers are whole.
 [[nodiscard]] bool is_whole(ScalarType type) noexcept;

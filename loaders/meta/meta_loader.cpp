@@ -13,6 +13,7 @@
 #include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/array_type.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/volume_block.h"
@@ -39,33 +40,6 @@ std::optional<T> text_number(std::string_view word) {
     if (!held) return std::nullopt;
   }
   return static_cast<T>(*found);
-}
-
-/// Calls `use` with a number of the type.
-template <typename Use>
-void with_type(ScalarType type, const Use& use) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return use(std::int8_t{});
-    case ScalarType::kUint8:
-      return use(std::uint8_t{});
-    case ScalarType::kInt16:
-      return use(std::int16_t{});
-    case ScalarType::kUint16:
-      return use(std::uint16_t{});
-    case ScalarType::kInt32:
-      return use(std::int32_t{});
-    case ScalarType::kUint32:
-      return use(std::uint32_t{});
-    case ScalarType::kInt64:
-      return use(std::int64_t{});
-    case ScalarType::kUint64:
-      return use(std::uint64_t{});
-    case ScalarType::kFloat32:
-      return use(float{});
-    case ScalarType::kFloat64:
-      return use(double{});
-  }
 }
 
 class MetaLoader : public Loader {

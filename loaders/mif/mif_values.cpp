@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
 #include "common/base/files/mapped_file.h"
+#include "common/field/array_type.h"
 #include "common/load/gzip_head.h"
 #include "common/load/voxel_bytes.h"
 
@@ -66,34 +67,6 @@ DataArray array_of(std::shared_ptr<std::vector<T>> values, ScalarType type, std:
   array.bytes = std::as_bytes(std::span(std::as_const(*values)));
   array.owner = std::move(values);
   return array;
-}
-
-/// Calls `use` with a value of the type that is stored.
-template <typename Use>
-DataArray with_type(ScalarType type, const Use& use) {
-  switch (type) {
-    case ScalarType::kInt8:
-      return use(std::int8_t{});
-    case ScalarType::kUint8:
-      return use(std::uint8_t{});
-    case ScalarType::kInt16:
-      return use(std::int16_t{});
-    case ScalarType::kUint16:
-      return use(std::uint16_t{});
-    case ScalarType::kInt32:
-      return use(std::int32_t{});
-    case ScalarType::kUint32:
-      return use(std::uint32_t{});
-    case ScalarType::kInt64:
-      return use(std::int64_t{});
-    case ScalarType::kUint64:
-      return use(std::uint64_t{});
-    case ScalarType::kFloat32:
-      return use(float{});
-    case ScalarType::kFloat64:
-      break;
-  }
-  return use(double{});
 }
 
 }  // namespace
