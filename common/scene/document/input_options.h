@@ -11,10 +11,10 @@
 
 namespace palpate {
 
-/// What is opened. `raw`, `diffusion` and `left_handed` of the request are made from the words below when it is.
-struct InputOptions : LoadRequest {
+/// What is chosen of what is opened, and what a reader's request is made of besides.
+struct InputWords {
   std::string example;  ///< in place of files
-  /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `beside`.
+  /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `secondary`.
   std::string field;
   std::vector<std::string> secondary;   ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
   std::string time;                     ///< first, last or a time; empty: the verb's default, the first
@@ -28,5 +28,8 @@ struct InputOptions : LoadRequest {
   Remesher remesher;            ///< fills hearts by these two; empty: the file's cells are taken
   std::string cache = "auto";   ///< keeping_from_name()
 };
+
+/// What is opened. `raw`, `diffusion` and `left_handed` of the request are made from the words when it is.
+struct InputOptions : LoadRequest, InputWords {};
 
 }  // namespace palpate

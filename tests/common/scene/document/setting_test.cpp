@@ -41,15 +41,18 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("common", a, b, c, d, e, f, g);
   }
   {
-    const auto& [files, solution, example, field, secondary, time, kind, refine, raw, tensor, series, gaps,
-                 cells, directions, mesher, volume, remesher, cache, markers] = document.input;
-    expect("input", files, solution, example, field, time, refine, series, gaps, cells, directions, mesher,
-           volume, cache, markers);
+    const auto& [files, solution, layout, diffusion, refine, series, gaps, left_handed, markers] =
+        static_cast<const LoadRequest&>(document.input);
+    expect("request", files, solution, refine, series, gaps, markers);
+    const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, mesher, volume,
+                 remesher, cache] = static_cast<const InputWords&>(document.input);
+    expect("input", example, field, time, cells, directions, mesher, volume, cache);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
     expect("tensor", m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1);
-    (void)secondary, (void)kind, (void)remesher;  // what the program makes of the others
+    (void)layout, (void)diffusion, (void)left_handed, (void)secondary, (void)kind,
+        (void)remesher;  // what the program makes of the others
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.tracing;
