@@ -124,10 +124,7 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
 std::optional<Document> DtmriModel::join(const InputFiles& files, const Document& now,
                                          Progress& progress) const {
   if (files.files.size() != 1 || files.solution) return std::nullopt;
-  InputOptions asked;
-  asked.files = files.files;
-  asked.kind = FieldKind::kTensor;
-  const Input input = Input::open(asked, &progress);
+  const Input input = Input::open(input_of(files.files, FieldKind::kTensor), &progress);
   Document with = now;
   switch (role_of(input)) {
     case FileRole::kTracts:

@@ -23,13 +23,6 @@ ImageConvention convention_of(const Document& options) {
   throw usage_error("--convention " + options.output.convention + ": mrtrix, fsl are known");
 }
 
-WestinScale westin_of(const Document& options) {
-  for (const WestinScale scale : {WestinScale::kTrace, WestinScale::kLargest}) {
-    if (options.output.westin == name_of(scale)) return scale;
-  }
-  throw usage_error("--westin " + options.output.westin + ": trace, largest are known");
-}
-
 /// What can be refused before any work is done.
 void check_request(const Document& options, const std::string& verb, const std::string& example) {
   if (options.output.file.empty()) throw usage_error(verb + " needs an output: try --out " + example);
@@ -153,7 +146,7 @@ ExitCode run_fit(const Document& options, const VerbContext& context) {
 ExitCode run_measure(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const TensorMeasure measure = measure_from_name(options.output.measure);
-  const WestinScale westin = westin_of(options);
+  const WestinScale westin = westin_from_name(options.output.westin);
   check_request(options, "measure", options.output.measure + ".nii.gz");
   Input input = open_input(options, context);
   const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);

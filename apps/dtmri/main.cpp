@@ -75,11 +75,14 @@ int main(int argc, char** argv) {
                     "a page: directions against b-value and noise at these gradients, tracts against time"},
                    {"dtmri report --example helix --quick --out report",
                     "without a file, in a few seconds"}}),
-              tracts_verb({{"dtmri tracts dwi.nii.gz --tracts bundle.trk", "do they fit the image?"},
-                           {"dtmri tracts tensor.nii.gz --tracts bundle.tck --turn=-x,-y,z --out ras.tck",
-                            "from LPS to RAS"},
-                           {"dtmri tracts tensor.nii.gz --tracts bundle.trx --out bundle.trk",
-                            "the same lines in another format"}}),
+              tracts_verb(
+                  {{"dtmri tracts dwi.nii.gz --tracts bundle.trk", "do they fit the image?"},
+                   {"dtmri tracts tensor.nii.gz --tracts bundle.tck --turn=-x,-y,z --out ras.tck",
+                    "from LPS to RAS"},
+                   {"dtmri tracts tensor.nii.gz --tracts bundle.trx --out bundle.trk",
+                    "the same lines in another format"},
+                   {"dtmri tracts tensor.nii.gz --tracts bundle.tck --profile fa.csv --density count.nii.gz",
+                    "FA along the bundle, and the voxels that it passes"}}),
           },
   };
   return run_explorer(dtmri, argc, argv);

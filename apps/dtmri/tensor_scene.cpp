@@ -60,10 +60,8 @@ Document with_input_role(Document options, const Input& input) {
 }
 
 Underlay load_underlay(const Document& document, Progress* progress) {
-  InputOptions spec;
-  spec.files = {document.tensors.underlay};
+  InputOptions spec = input_of({document.tensors.underlay}, FieldKind::kScalar);
   spec.tensor.handedness = document.input.tensor.handedness;
-  spec.kind = FieldKind::kScalar;
   Input input = Input::open(spec, progress);
   Underlay underlay{load_volume(input, progress), input.notes()};
   if (input.times().size() > 1)

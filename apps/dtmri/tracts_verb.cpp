@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/dtmri/bundle_tables.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -23,10 +24,13 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (turn && options.output.file.empty())
     throw usage_error("--turn needs a file that the turned tracts are written to: try --out turned.tck");
   if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
+  check_bundle_options(options);
 
   TractogramFile file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
-  const auto field = input.load_tensor(options.common.threads, &context.progress);
+  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
+  const auto field =
+      make_tensor_field(made.image, made.choice, input.title(), options.common.threads, made.notes);
   context.progress.begin("comparing", 0);
 
   TractFitSummary summary;
@@ -51,6 +55,7 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
     write_tractogram(options.output.file, file.lines, options.common.force);
     summary.output = options.output.file.string();
   }
+  write_bundle(options, context, input, made, *field, file.lines, summary.notes);
   for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
   context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
                         counted(summary.lines.lines, "line") + ", " + counted(summary.lines.points, "point") +
@@ -62,11 +67,13 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
 }  // namespace
 
 Verb tracts_verb(std::vector<UsageExample> examples) {
-  return {.name = "tracts",
-          .summary = "hold tracts against an image, turn them on request, and write them in another format",
-          .groups = {Group::kInput, Group::kOut, Group::kTurn},
-          .examples = std::move(examples),
-          .run = run_tracts};
+  return {
+      .name = "tracts",
+      .summary =
+          "hold tracts against an image, measure along them, turn them on request, and write them in another format",
+      .groups = {Group::kInput, Group::kOut, Group::kTurn},
+      .examples = std::move(examples),
+      .run = run_tracts};
 }
 
 }  // namespace palpate

@@ -54,8 +54,9 @@ void check_file_field(const std::string& name, const std::string& option,
 std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress) {
   const std::optional<FileField> from = file_field(name);
   if (!from) throw input_error({name, "", "no such file", "a volume", ""});
-  Input input =
-      Input::open({.files = {from->file}, .field = from->scalar, .kind = FieldKind::kScalar}, progress);
+  InputOptions options = input_of({from->file}, FieldKind::kScalar);
+  options.field = from->scalar;
+  Input input = Input::open(options, progress);
   return load_volume(input, progress);
 }
 

@@ -208,8 +208,7 @@ int main_of(int argc, char** argv) {
   }
   for (const std::string& file : files) {
     const std::size_t comma = file.find(',');
-    InputOptions spec;
-    spec.files = {file.substr(0, comma)};
+    InputOptions spec = input_of({file.substr(0, comma)});
     if (comma != std::string::npos) spec.solution = file.substr(comma + 1);
     Input input = Input::open(spec);
     run(input.title(), input.load_field(0), steps);

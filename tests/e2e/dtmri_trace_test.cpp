@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -205,6 +206,47 @@ TEST_F(DtmriTrace, TractsAreHeldAgainstTheImageAndTurnedOnRequest) {
   EXPECT_NEAR(about["tracts"]["length_max"].get<double>(), 200.0, 1.0);
   EXPECT_EQ(about["format"], "TrackVis tracks");
   EXPECT_EQ(about["orientation"][0], "RAS+ mm");
+}
+
+TEST_F(DtmriTrace, MeasuresAlongABundleAndCountsItsVoxels) {
+  (void)json(
+      {"trace", "--example", "helix", "--seeds", "sphere:20,0,0,2", "--max-length", "60", "--out", "b.tck"});
+  const std::vector<std::string> on_image{"tracts", "--example", "helix", "--tracts", "b.tck"};
+  const auto with = [&on_image](std::vector<std::string> more) {
+    more.insert(more.begin(), on_image.begin(), on_image.end());
+    return more;
+  };
+  const Json about = json(with({"--profile", "p.csv", "--nodes", "7", "--density", "d.nrrd"}));
+  EXPECT_NE(about["notes"].dump().find("fa along"), std::string::npos) << about;
+  EXPECT_NE(about["notes"].dump().find("mm^3"), std::string::npos) << about;
+  const auto table = [this](const std::string& file) {
+    std::vector<std::vector<double>> rows;
+    std::istringstream in(read_file(folder_.path(file)));
+    std::string row;
+    std::getline(in, row);
+    EXPECT_EQ(row, "node,part,x,y,z,lines,valueless,mean,deviation,lower,median,upper");
+    while (std::getline(in, row)) {
+      std::replace(row.begin(), row.end(), ',', ' ');
+      std::istringstream numbers(row);
+      rows.emplace_back(std::istream_iterator<double>(numbers), std::istream_iterator<double>());
+      EXPECT_EQ(rows.back().size(), 12U);
+    }
+    return rows;
+  };
+  const auto rows = table("p.csv");
+  ASSERT_EQ(rows.size(), 7U);
+  EXPECT_EQ(rows.back()[1], 1.0);
+  // The image of the same measure, sampled along the same lines, gives the same numbers.
+  (void)json({"measure", "--example", "helix", "--measure", "fa", "--out", "fa.nrrd"});
+  (void)json(with({"--profile", "q.csv", "--nodes", "7", "--profile-image", "fa.nrrd"}));
+  const auto again = table("q.csv");
+  for (std::size_t n = 0; n < 7; ++n) {
+    EXPECT_GT(rows[n][7], 0.3);
+    EXPECT_NEAR(again.at(n)[7], rows[n][7], 1e-6) << n;
+  }
+  EXPECT_EQ(run(with({"--profile", "p.txt"})).exit_code, 2);
+  EXPECT_EQ(run(with({"--profile", "v.csv", "--measure", "v1"})).exit_code, 2);
+  EXPECT_EQ(run(with({"--profile-image", "fa.nrrd"})).exit_code, 2);
 }
 
 }  // namespace

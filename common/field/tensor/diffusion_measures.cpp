@@ -1,5 +1,9 @@
 #include "common/field/tensor/diffusion_measures.h"
 
+#include <string>
+
+#include "common/base/error.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +31,13 @@ Anisotropy anisotropy(const Vec3& eigenvalues) noexcept {
 
 std::string_view name_of(WestinScale scale) noexcept {
   return scale == WestinScale::kTrace ? "trace" : "largest";
+}
+
+WestinScale westin_from_name(std::string_view name) {
+  for (const WestinScale scale : {WestinScale::kTrace, WestinScale::kLargest}) {
+    if (name == name_of(scale)) return scale;
+  }
+  throw usage_error("--westin " + std::string(name) + ": trace, largest are known");
 }
 
 Anisotropy anisotropy(const Vec3& eigenvalues, WestinScale scale) noexcept {

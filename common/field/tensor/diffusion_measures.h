@@ -29,6 +29,8 @@ enum class WestinScale : std::uint8_t {
 };
 /// "trace", "largest".
 [[nodiscard]] std::string_view name_of(WestinScale scale) noexcept;
+/// @throws Error (usage) that lists the known ones.
+[[nodiscard]] WestinScale westin_from_name(std::string_view name);
 [[nodiscard]] Anisotropy anisotropy(const Vec3& eigenvalues, WestinScale scale) noexcept;
 
 /// FA (Basser and Pierpaoli 1996), in [0, 1].

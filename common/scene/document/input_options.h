@@ -1,7 +1,9 @@
 /// What is opened, and how it is read.
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/load/load.h"
@@ -31,5 +33,14 @@ struct InputWords {
 
 /// What is opened. `raw`, `diffusion` and `left_handed` of the request are made from the words when it is.
 struct InputOptions : LoadRequest, InputWords {};
+
+/// Files, of which `kind` is taken.
+[[nodiscard]] inline InputOptions input_of(std::vector<std::filesystem::path> files,
+                                           FieldKind kind = FieldKind::kVector) {
+  InputOptions input;
+  input.files = std::move(files);
+  input.kind = kind;
+  return input;
+}
 
 }  // namespace palpate

@@ -198,7 +198,7 @@ BundleDensity bundle_density(const Tractogram& lines, const TractogramImage& ima
   return density;
 }
 
-BundleProfile bundle_profile(const Tractogram& lines, int nodes, const ValueAt& value) {
+BundleProfile bundle_profile(const Tractogram& lines, int nodes, const PlaceValue& value) {
   constexpr std::size_t kMostCandidates = 200;
   BundleProfile profile;
   std::vector<Shape> candidates;

@@ -42,13 +42,13 @@ struct BundleProfile {
 };
 
 /// The value at a place in mm; NaN: none.
-using ValueAt = std::function<double(const Vec3&)>;
+using PlaceValue = std::function<double(const Vec3&)>;
 
 /// Lines are stored from either end. They are put in one direction by the middle line: the one of up to 200, spread
 /// evenly over the file, that lies nearest to the others (the smaller mean distance of 12 places on each, as they are
 /// and turned: Garyfallidis, Brett, Correia, Williams and Nimmo-Smith 2012). Node 0 lies at that end of it which has
 /// the smaller coordinate on the axis along which its ends differ most: to the left, the back or the feet.
 /// @param nodes at least 2.
-[[nodiscard]] BundleProfile bundle_profile(const Tractogram& lines, int nodes, const ValueAt& value);
+[[nodiscard]] BundleProfile bundle_profile(const Tractogram& lines, int nodes, const PlaceValue& value);
 
 }  // namespace palpate

@@ -20,7 +20,7 @@ constexpr int kWidth = 480, kHeight = 360;
 
 /// Seen from above: right on the right, front at the top.
 SceneView head_from_above(const std::filesystem::path& file, const Document& options) {
-  Input input = Input::open({.files = {file}, .kind = FieldKind::kTensor});
+  Input input = Input::open(input_of({file}, FieldKind::kTensor));
   auto voxels = make_tensor_voxels(input.load_tensor(2), input.title(), 2);
   SceneView view = make_tensor_scene(
       input, {.tensors = make_tensor_view(std::move(voxels), options.tensors), .tracts = {}}, options,

@@ -49,7 +49,9 @@ TEST(Input, WantsOneOfFilesAndExample) {
 }
 
 TEST(Input, MakesTheFieldOfAnExample) {
-  Input input = Input::open({.example = "abc"});
+  InputOptions options;
+  options.example = "abc";
+  Input input = Input::open(options);
   EXPECT_EQ(input.title(), "example abc");
   EXPECT_EQ(input.file(), nullptr);
   EXPECT_NE(input.load_field(1)->analytic(), nullptr);
@@ -160,7 +162,7 @@ TEST(FlowSeries, MakesAnotherGridWherePointsMove) {
     (void)folder.write(name, text);
     list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
   }
-  Input input = Input::open({.files = {folder.write("m.pvd", list + "</Collection></VTKFile>")}});
+  Input input = Input::open(input_of({folder.write("m.pvd", list + "</Collection></VTKFile>")}));
   FlowSeries series(input, 1);
   const auto first = series.read(0), second = series.read(1);
   EXPECT_NE(first->grid(), second->grid());
@@ -181,7 +183,7 @@ TEST(FlowSeries, MakesAnotherGridWhereValuesHaveASayInIt) {
     (void)folder.write(name, text);
     list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
   }
-  Input input = Input::open({.files = {folder.write("j.pvd", list + "</Collection></VTKFile>")}});
+  Input input = Input::open(input_of({folder.write("j.pvd", list + "</Collection></VTKFile>")}));
   FlowSeries series(input, 1);
   const auto first = series.read(0), second = series.read(1);
   EXPECT_NE(first->grid(), second->grid());

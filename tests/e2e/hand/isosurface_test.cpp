@@ -99,11 +99,11 @@ TEST_F(IsosurfaceMode, FollowsItsOptions) {
 
 TEST_F(IsosurfaceMode, HoldsOnUniformDataAndOnTetrahedra) {
   PALPATE_NEED_DATA(carotid, "flow/carotid/carotid.vtk");
-  const auto field = Input::open({.files = {carotid}}).load_field(1);
+  const auto field = Input::open(input_of({carotid})).load_field(1);
   check(feel({carotid.string()}, field->bounds()), *make_speed_field(field));
 
   PALPATE_NEED_DATA(disk, "flow/disk/disk_out_ref.ex2");
-  Input input = Input::open({.files = {disk}});
+  Input input = Input::open(input_of({disk}));
   const auto flow = input.load_field(1);
   const auto temperature = make_scalar_field(*flow, input.read({"Temp"}), {"Temp"}, disk.string(), 1);
   const Felt felt = feel({disk.string()}, flow->bounds(), {"--scalar", "Temp", "--force"});

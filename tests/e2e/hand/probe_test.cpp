@@ -48,8 +48,7 @@ Scene example_scene(const std::string& name) {
 }
 
 std::optional<Scene> file_scene(const std::string& file, const std::string& solution = "") {
-  InputOptions spec;
-  spec.files = {shared_data(file)};
+  InputOptions spec = input_of({shared_data(file)});
   if (spec.files[0].empty()) return std::nullopt;
   Scene scene{file, {spec.files[0].string()}, nullptr};
   if (!solution.empty()) {
@@ -360,7 +359,7 @@ TEST_F(Probe, KeepsItsForcesUnderPowersOfTwo) {
     return text.str() + "\nPOINT_DATA 729\nVECTORS velocity double\n" + vectors.str() + "\n";
   };
   folder_.write("one.vtk", file(1.0, 1.0));
-  Scene scene{"one.vtk", {"one.vtk"}, Input::open({.files = {folder_.path("one.vtk")}}).load_field(1)};
+  Scene scene{"one.vtk", {"one.vtk"}, Input::open(input_of({folder_.path("one.vtk")})).load_field(1)};
   const auto path = path_on(scene, PathKind::kRough, 1200);
   ASSERT_FALSE(path.empty());
   constexpr double kScale = 0.0625;

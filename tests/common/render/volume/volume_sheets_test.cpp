@@ -300,7 +300,7 @@ class VolumeSheets : public testing::Test {
   }
 
   static Subject read(const std::filesystem::path& file) {
-    Input input = Input::open({.files = {file}, .kind = FieldKind::kScalar});
+    Input input = Input::open(input_of({file}, FieldKind::kScalar));
     const ScalarChoice choice = input.scalar_choice();
     Subject subject;
     subject.image = make_volume_image(volume_source(input.read({choice.array}), choice, file.string()),

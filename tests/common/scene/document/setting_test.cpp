@@ -112,8 +112,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("hand", a, b, c, d, e, f);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j] = document.output;
-    expect("output", a, b, c, d, e, f, g, h, i, j);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.output;
+    expect("output", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j] = document.calibration;
