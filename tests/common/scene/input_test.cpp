@@ -9,6 +9,14 @@
 namespace palpate::test {
 namespace {
 
+InputOptions made(const std::string& example, const std::string& field = "", const std::string& time = "") {
+  InputOptions options;
+  options.example = example;
+  options.field = field;
+  options.time = time;
+  return options;
+}
+
 ExitCode code_of(const InputOptions& spec) {
   try {
     (void)Input::open(spec);
@@ -41,17 +49,17 @@ TEST(ChooseTime, RefusesTimesFarOutsideAndWordsThatAreNone) {
 
 TEST(Input, WantsOneOfFilesAndExample) {
   EXPECT_EQ(code_of({}), ExitCode::kUsage);
-  EXPECT_EQ(code_of({.files = {"a.vtk"}, .example = "abc"}), ExitCode::kUsage);
-  EXPECT_EQ(code_of({.example = "no-such-example"}), ExitCode::kUsage);
-  EXPECT_EQ(code_of({.example = "abc", .field = "pressure"}), ExitCode::kUsage);
-  EXPECT_EQ(code_of({.example = "abc", .time = "3"}), ExitCode::kUsage);
-  EXPECT_EQ(code_of({.files = {"/no/such/file.vtk"}}), ExitCode::kBadInput);
+  InputOptions both = made("abc");
+  both.files = {"a.vtk"};
+  EXPECT_EQ(code_of(both), ExitCode::kUsage);
+  EXPECT_EQ(code_of(made("no-such-example")), ExitCode::kUsage);
+  EXPECT_EQ(code_of(made("abc", "pressure")), ExitCode::kUsage);
+  EXPECT_EQ(code_of(made("abc", "", "3")), ExitCode::kUsage);
+  EXPECT_EQ(code_of(input_of({"/no/such/file.vtk"})), ExitCode::kBadInput);
 }
 
 TEST(Input, MakesTheFieldOfAnExample) {
-  InputOptions options;
-  options.example = "abc";
-  Input input = Input::open(options);
+  Input input = Input::open(made("abc"));
   EXPECT_EQ(input.title(), "example abc");
   EXPECT_EQ(input.file(), nullptr);
   EXPECT_NE(input.load_field(1)->analytic(), nullptr);
@@ -83,7 +91,7 @@ InputOptions transient(const TempFolder& folder, const std::vector<double>& spee
     (void)folder.write(name, text);
     list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
   }
-  return {.files = {folder.write("t.pvd", list + "</Collection></VTKFile>")}};
+  return input_of({folder.write("t.pvd", list + "</Collection></VTKFile>")});
 }
 
 double opened_at(const Input& input) { return input.times()[input.time().step]; }
