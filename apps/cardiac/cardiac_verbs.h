@@ -16,6 +16,6 @@ namespace palpate {
 [[nodiscard]] Verb map_angles_verb(std::vector<UsageExample> examples);
 [[nodiscard]] Verb render_layers_verb(std::vector<UsageExample> examples);
 /// The window.
-[[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb open_heart_verb(std::vector<UsageExample> examples);
 
 }  // namespace palpate

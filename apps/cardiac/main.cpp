@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
                          {{"cardiac study make trial-study",
                            "an experiment in which people follow fibres, with guidance and without"},
                           {"cardiac study simulate trial-study", "simulated participants in all places"}}),
-              open_verb({{"cardiac heart.exelem.gz", "a file in the window"},
+              open_heart_verb({{"cardiac heart.exelem.gz", "a file in the window"},
                          {"cardiac --example ventricle", "a built-in heart"},
                          {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",
                           "on the tetrahedra of 'mesh', which are kept for the next opening"},

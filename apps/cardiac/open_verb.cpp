@@ -10,7 +10,7 @@
 
 namespace palpate {
 
-Verb open_verb(std::vector<UsageExample> examples) {
+Verb open_heart_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at layers and fibres in a window, and feel them (the verb that FILE alone stands for)",

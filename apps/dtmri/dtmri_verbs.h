@@ -19,6 +19,6 @@ namespace palpate {
 /// `tracts IMAGE --tracts tracts.trk --turn=-x,-y,z --out turned.tck`.
 [[nodiscard]] Verb tracts_verb(std::vector<UsageExample> examples);
 /// The window.
-[[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb open_tensors_verb(std::vector<UsageExample> examples);
 
 }  // namespace palpate

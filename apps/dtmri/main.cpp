@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
                          {{"dtmri study make trial-study",
                            "an experiment in which people trace bundles, with guidance and without"},
                           {"dtmri study simulate trial-study", "simulated participants in all places"}}),
-              open_verb({{"dtmri helix-DTI.nhdr", "a file in the window"},
+              open_tensors_verb({{"dtmri helix-DTI.nhdr", "a file in the window"},
                          {"dtmri --example helix", "a built-in data set"},
                          {"dtmri open --session dwi.palpate.toml", "what Ctrl+S saved"}}),
               trace_tracts_verb(

@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-Verb open_verb(std::vector<UsageExample> examples) {
+Verb open_tensors_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",

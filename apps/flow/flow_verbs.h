@@ -13,6 +13,6 @@ namespace palpate {
 /// A picture of lines and volume. @param modes the program's, the default one first.
 [[nodiscard]] Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> examples);
 /// The window.
-[[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb open_lines_verb(std::vector<UsageExample> examples);
 
 }  // namespace palpate

@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
                {"flow study run trial-study --device simulated", "the window of the next participant"},
                {"flow study simulate trial-study", "simulated participants in all places"},
                {"flow study analyse trial-study", "then open trial-study/analysis/index.html"}}),
-          open_verb({{"flow carotid.vtk", "a file in the window"},
+          open_lines_verb({{"flow carotid.vtk", "a file in the window"},
                      {"flow --example abc", "a built-in data set"},
                      {"flow open --session carotid.palpate.toml", "what Ctrl+S saved"}}),
       }};

@@ -11,7 +11,7 @@
 #include "common/window/files/open_window.h"
 
 namespace palpate {
-Verb open_verb(std::vector<UsageExample> examples) {
+Verb open_lines_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at lines in a window (the verb that FILE alone stands for)",
        .groups = {Group::kInput, Group::kLines, Group::kView, Group::kTouch, Group::kRecord, Group::kReplay,

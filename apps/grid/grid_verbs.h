@@ -23,6 +23,6 @@ namespace palpate {
 /// A part, cut by a box and planes, as a picture or an image.
 [[nodiscard]] Verb clip_verb(std::vector<UsageExample> examples);
 /// The window.
-[[nodiscard]] Verb open_verb(std::vector<UsageExample> examples);
+[[nodiscard]] Verb open_volume_verb(std::vector<UsageExample> examples);
 
 }  // namespace palpate

@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-Verb open_verb(std::vector<UsageExample> examples) {
+Verb open_volume_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary = "look at a volume in a window, and feel it (the verb that FILE alone stands for)",
        .groups = {Group::kInput, Group::kView, Group::kPanes, Group::kTouch, Group::kRecord, Group::kReplay,

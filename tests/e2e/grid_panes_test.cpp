@@ -96,7 +96,7 @@ class GridPanes : public ExplorerTest {
 
   static constexpr int kWidth = 1000, kHeight = 760;
   static constexpr float kTextHeight = 14.0F;
-  const Explorer explorer_{.name = "grid", .kind = FieldKind::kScalar, .verbs = {open_verb({})}};
+  const Explorer explorer_{.name = "grid", .kind = FieldKind::kScalar, .verbs = {open_volume_verb({})}};
   std::vector<ScriptedEvent> script_;
   int next_ = 4;
 };

@@ -113,7 +113,7 @@ class GridWindow : public ExplorerTest {
 
   static constexpr int kWidth = 900, kHeight = 800;
   static constexpr float kTextHeight = 14.0F;
-  const Explorer explorer_{.name = "grid", .kind = FieldKind::kScalar, .verbs = {open_verb({})}};
+  const Explorer explorer_{.name = "grid", .kind = FieldKind::kScalar, .verbs = {open_volume_verb({})}};
   Vec3 middle_{0.0};
   std::vector<ScriptedEvent> script_;
   int next_ = 4;

@@ -162,6 +162,15 @@ void hint(const char* format, ...) {
 }
 
 void explain(const char* setting_name) {
+  // Behind a list that is open, its words were drawn last.
+  std::vector<DrawnControl>& now = drawn().now;
+  const std::string label = label_of(setting(setting_name));
+  const auto own = std::find_if(now.rbegin(), now.rend(),
+                                [&label](const DrawnControl& control) { return control.label == label; });
+  if (own != now.rend())
+    own->setting = setting_name;
+  else if (!now.empty())
+    now.back().setting = setting_name;
   if (!ImGui::IsItemHovered()) return;
   constexpr float kWidth = 28.0F;  // heights of the text
   ImGui::BeginTooltip();

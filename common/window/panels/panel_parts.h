@@ -40,6 +40,7 @@ void note_control(const char* label, const ImVec2& corner, const ImVec2& size);
 struct DrawnControl {
   std::string label;
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  ///< in the window [pixels]
+  std::string setting = {};  ///< the row that it edits, by edit_setting() or explain(); empty: none
 };
 /// Those of the last frame that was complete, in the order in which they were drawn.
 [[nodiscard]] const std::vector<DrawnControl>& drawn_controls() noexcept;
@@ -50,7 +51,8 @@ void begin_controls();
 /// What the control that was drawn last is for, shown while the mouse is over it. printf's format.
 void hint(const char* format, ...) IM_FMTARGS(1);
 
-/// The same from the table of settings: its help, with range and default. @pre there is a setting of that name.
+/// The same from the table of settings: its help, with range and default. The control is noted as that of the setting.
+/// @pre there is a setting of that name.
 void explain(const char* setting_name);
 
 /// @name Controls of settings
