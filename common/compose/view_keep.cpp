@@ -12,13 +12,12 @@
 #include "common/compose/plane_image_text.h"
 #include "common/compose/slice_panes_text.h"
 #include "common/math/vec_text.h"
-#include "common/scene/session_of.h"
 
 namespace palpate {
 
 void keep_camera(const SceneView& view, Document& document) {
   const Camera& camera = view.camera;
-  document.view.camera = camera_text(camera, view.bounds, kSessionAspect);
+  document.view.camera = camera_text(camera, view.bounds, view.aspect);
   document.view.focal =
       camera.focal_point == view.bounds.center() ? std::string() : exact_text(camera.focal_point);
   document.volume.projection =

@@ -9,7 +9,7 @@
 
 namespace palpate {
 
-/// Direction, zoom for a picture of kSessionAspect, focal point, and how the camera projects.
+/// Direction, zoom (1 fits the data into a picture of the view's shape), focal point, and how the camera projects.
 void keep_camera(const SceneView& view, Document& document);
 
 /// What apply_appearance() takes, but for the quantity or array that colours lines. @pre document.input.kind is

@@ -69,6 +69,8 @@ struct SceneView {
   std::string title;     ///< top left; empty: none
   std::string subtitle;  ///< smaller, below it
   Camera camera;
+  double aspect =
+      1.5;  ///< width / height of the window's picture, for one eye, for which a kept zoom is stated
   StereoView stereo;  ///< of a perspective camera; an orthographic one has one eye
   std::optional<ProbeView> probe;
   std::vector<SurfaceView> surfaces;

@@ -11,9 +11,6 @@
 
 namespace palpate {
 
-/// Saved angles hold for any window; the zoom is stated for a picture of this shape (width / height).
-inline constexpr double kSessionAspect = 1.5;
-
 /// The settings that sessions keep and that differ from their defaults, by name. Files that they name are
 /// named by their full paths.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> saved_settings(const Document& document);

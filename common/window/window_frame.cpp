@@ -131,9 +131,7 @@ void ExplorerWindow::reset_camera() {
     view_.camera = workbench_->camera(view_.bounds, options_.touch.workspace_scale);
     return;
   }
-  view_.camera =
-      make_camera(view_.bounds, options_.angles,
-                  eye_aspect(view_.stereo.mode, picture_.width, picture_.height), view_.camera.projection);
+  view_.camera = make_camera(view_.bounds, options_.angles, view_.aspect, view_.camera.projection);
   // Of the first view alone: a reset shows all there is.
   view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
 }
@@ -170,6 +168,7 @@ void ExplorerWindow::place_picture() {
     picture_ = {panes_.left + pane.left, panes_.top + pane.top, static_cast<double>(pane.width),
                 static_cast<double>(pane.height)};
   }
+  view_.aspect = eye_aspect(view_.stereo.mode, picture_.width, picture_.height);
 }
 
 void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {

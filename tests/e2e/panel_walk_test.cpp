@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -96,7 +97,8 @@ class PanelWalk : public ExplorerTest {
     const Document start = parse_command_line(explorer, arguments).options;
     const WindowResult before = open(program, start, context, {}, 12);
     std::set<std::string> shown;
-    for (const DrawnControl& control : drawn_controls()) {
+    const std::vector<DrawnControl> controls = drawn_controls();
+    for (const DrawnControl& control : controls) {
       if (control.setting.empty() || !shown.insert(control.setting).second) continue;
       press(program, before.document, context, control, words);
     }
@@ -113,21 +115,29 @@ class PanelWalk : public ExplorerTest {
     const std::string was = value_text(*row, start);
     WindowResult made;
     // A value may be the one that is there already: another place then.
-    for (const double across : {0.83, 0.27}) {
-      made = open(program, start, context, events(*row, control, was, across), 60);
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      made = open(program, start, context, events(*row, control, was, attempt), 60);
       if (value_text(*row, made.document) != was) break;
     }
     EXPECT_TRUE(made.missing.empty()) << name;
     EXPECT_NE(value_text(*row, made.document), was) << name << " is as it was";
     if (!row->saved) return;
     const auto picture_before = picture();
+    if (const char* folder = std::getenv("PALPATE_PICTURES"))
+      std::filesystem::copy(folder_.path("window.png"),
+                            std::filesystem::path(folder) / (control.setting + "_made.png"),
+                            std::filesystem::copy_options::overwrite_existing);
     Document again = start;
     again.given.clear();
     const Session session = session_of(made.document, program.name);
     take_into(again, session, program.kind);
     EXPECT_EQ(value_text(*row, again), value_text(*row, made.document)) << name << " is not in the session";
-    (void)open(program, again, context, {}, 12);
+    (void)open(program, again, context, {}, 60);
     const auto picture_after = picture();
+    if (const char* folder = std::getenv("PALPATE_PICTURES"))
+      std::filesystem::copy(folder_.path("window.png"),
+                            std::filesystem::path(folder) / (control.setting + "_again.png"),
+                            std::filesystem::copy_options::overwrite_existing);
     ASSERT_EQ(picture_before.size(), picture_after.size());
     int worst = 0;
     for (std::size_t i = 0; i < picture_before.size(); ++i)
@@ -143,25 +153,32 @@ class PanelWalk : public ExplorerTest {
     }
   }
 
+  /// Lists whose entries are other words than those of the setting, and what is typed into fields.
+  static std::vector<std::string> entries_of(const Setting& row, const std::string& was) {
+    static const std::map<std::string, std::vector<std::string>> kEntries{
+        {"integrator", {"rk4", "bs32"}}, {"color", {"time", "length"}}, {"background", {"light"}}};
+    if (const auto found = kEntries.find(std::string(row.name)); found != kEntries.end())
+      return found->second;
+    std::vector<std::string> entries;
+    for (const std::string_view word : row.word_list()) {
+      if (word != was) entries.emplace_back(word);
+    }
+    return entries;
+  }
+
   static std::vector<ScriptedEvent> events(const Setting& row, const DrawnControl& control,
-                                           const std::string& was, double across) {
+                                           const std::string& was, int attempt) {
     std::vector<ScriptedEvent> script;
     int frame = 4;
-    const auto at = [&](InputKind kind, const std::string& label, double x) {
-      script.push_back({.frame = frame += 3, .event = {.kind = kind}, .control = label, .across = x});
+    const auto click = [&](const std::string& label, double across) {
+      for (const InputKind kind : {InputKind::kMove, InputKind::kPress, InputKind::kRelease})
+        script.push_back({.frame = frame += 3, .event = {.kind = kind}, .control = label, .across = across});
     };
     const bool box = std::holds_alternative<ValueAt<bool>>(row.place) ||
                      std::holds_alternative<ValueAt<std::optional<bool>>>(row.place);
-    at(InputKind::kMove, control.label, box ? 0.5 : across);
-    at(InputKind::kPress, control.label, box ? 0.5 : across);
-    at(InputKind::kRelease, control.label, box ? 0.5 : across);
-    const std::vector<std::string_view> words = row.word_list();
-    const auto other =
-        std::find_if(words.begin(), words.end(), [&](std::string_view word) { return word != was; });
-    if (!box && other != words.end()) {
-      for (const InputKind kind : {InputKind::kMove, InputKind::kPress, InputKind::kRelease})
-        at(kind, std::string(*other), 0.5);
-    }
+    click(control.label, box ? 0.5 : attempt == 0 ? 0.83 : 0.27);
+    const std::vector<std::string> entries = entries_of(row, was);
+    if (!box && !entries.empty()) click(attempt == 0 ? entries.front() : entries.back(), 0.5);
     return script;
   }
 
@@ -174,10 +191,29 @@ std::function<std::unique_ptr<WindowModel>(const Document&)> model_of(const std:
   return [name](const Document& document) { return std::make_unique<Model>(document, name); };
 }
 
+/// Sets that together are all settings that the panel has shown.
 TEST_F(PanelWalk, Flow) {
   const Program flow{"flow", FieldKind::kVector, flow_panels(), model_of<FlowModel>("flow")};
   const auto shown = walk(flow, {"--example", "abc", "--seeds", "random:4"});
   for (const std::string& one : shown) std::printf("flow shows %s\n", one.c_str());
+}
+
+TEST_F(PanelWalk, Grid) {
+  const Program grid{"grid", FieldKind::kScalar, {draw_volume}, model_of<GridModel>("grid")};
+  const auto shown = walk(grid, {"--example", "marschner-lobb", "--layout", "4", "--slab", "0.1"});
+  for (const std::string& one : shown) std::printf("grid shows %s\n", one.c_str());
+}
+
+TEST_F(PanelWalk, Dtmri) {
+  const Program dtmri{"dtmri", FieldKind::kTensor, dtmri_panels(), model_of<DtmriModel>("dtmri")};
+  const auto shown = walk(dtmri, {"--example", "helix", "--seeds", "point:20,0,0"});
+  for (const std::string& one : shown) std::printf("dtmri shows %s\n", one.c_str());
+}
+
+TEST_F(PanelWalk, Cardiac) {
+  const Program cardiac{"cardiac", FieldKind::kFibre, cardiac_panels(), model_of<CardiacModel>("cardiac")};
+  const auto shown = walk(cardiac, {"--example", "ventricle", "--seeds", "random:4"});
+  for (const std::string& one : shown) std::printf("cardiac shows %s\n", one.c_str());
 }
 
 }  // namespace
