@@ -56,9 +56,13 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
   angles.roll =
       -degrees(std::atan2(glm::dot(camera.axes[0], level.axes[1]), glm::dot(camera.axes[0], level.axes[0])));
   angles.zoom = level.view_height / camera.view_height;
-  const auto rounded = [](double value) { return short_number(std::round(value * 1e3) / 1e3 + 0.0); };
-  return rounded(angles.azimuth) + "," + rounded(angles.elevation) + "," + rounded(angles.roll) + "," +
-         short_number(angles.zoom);
+  // Finer than any picture shows, and free of what rounding leaves of round numbers.
+  const auto rounded = [](double value, double parts) {
+    return exact_number(std::round(value * parts) / parts + 0.0);
+  };
+  constexpr double kOfDegree = 1e6, kOfZoom = 1e9;
+  return rounded(angles.azimuth, kOfDegree) + "," + rounded(angles.elevation, kOfDegree) + "," +
+         rounded(angles.roll, kOfDegree) + "," + rounded(angles.zoom, kOfZoom);
 }
 
 SceneView make_line_view(const Input& input, const VectorField& field,

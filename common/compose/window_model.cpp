@@ -21,9 +21,7 @@ std::string color_array_of(const Document& document) {
 auto scene_of(const Document& d) {
   // Volumes of tensors are made of them: their transfer functions are a matter of drawing alone.
   const bool scalars = d.input.kind != FieldKind::kTensor;
-  return std::tuple(d.input.field, d.input.secondary, d.input.time, d.tracing.seeds, d.tracing.direction,
-                    d.tracing.integrator, d.tracing.tolerance, d.tracing.step, d.tracing.max_length,
-                    d.common.seed, d.tracts.seeds, d.tracts.seeds_per_voxel, d.tracts.cutoff,
+  return std::tuple(d.input.field, d.input.secondary, d.input.time, d.tracing, d.common.seed, d.tracts,
                     d.tract_appearance.file, d.tensors.underlay, color_array_of(d), d.volume.scalar,
                     d.volume.resample, scalars ? d.volume.transfer : std::string(),
                     scalars ? d.volume.focus : std::string(), d.heart.layer, d.heart.angle, d.heart.cut,

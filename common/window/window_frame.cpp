@@ -213,6 +213,9 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
   state_.picture = live_->figures();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
+  // What a hint or a banner has left between the pictures.
+  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT);
   live_->show(static_cast<int>(picture_.left), height - static_cast<int>(picture_.top) - h);
   if (slices_) slices_->show(static_cast<int>(panes_.left), static_cast<int>(panes_.top), height);
 }

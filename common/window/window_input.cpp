@@ -235,7 +235,7 @@ void ExplorerWindow::work_in_space() {
 void ExplorerWindow::keep_document() {
   if (!scene_ || needs_camera_) return;
   Document& document = state_.document;
-  if (!same_picture(view_, kept_)) {
+  if (!same_picture(view_, kept_) || view_.aspect != kept_.aspect) {
     model_.keep(view_, document);
     kept_ = view_;
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <regex>
 #include <set>
 #include <string>
 #include <thread>
@@ -22,6 +23,7 @@
 #include "apps/grid/grid_model.h"
 #include "common/cli/command_line.h"
 #include "common/cli/window_touch.h"
+#include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/scene/session_of.h"
@@ -30,6 +32,7 @@
 #include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
+#include "tests/support/project_folders.h"
 
 namespace palpate::test {
 namespace {
@@ -50,15 +53,23 @@ class PanelWalk : public ExplorerTest {
 
   WindowResult open(const Program& program, const Document& document, const VerbContext& context,
                     std::vector<ScriptedEvent> script, int frames) {
+    SceneView view;
+    apply_appearance(document, view);
+    // Away from all controls, whose hints may reach into the picture.
+    script.push_back(
+        {.frame = frames - 6, .event = {.kind = InputKind::kMove, .x = 20.0, .y = kHeight - 50.0}});
     WindowOptions window{.program = program.name,
                          .width = kWidth,
                          .height = kHeight,
+                         .view = std::move(view),
                          .frame_budget = 1e6,
                          .angles = camera_angles(document.view.camera),
                          .focal_point = focal_point_of(document.view),
                          .picture_folder = folder_.path(),
                          .touch = window_touch(modes_of(program.kind), document, context),
                          .panels = program.panels,
+                         .plotted = document.series.plot,
+                         .play_rate = document.view.play_rate,
                          .script = std::move(script),
                          .frames = frames,
                          .screenshot = folder_.path("window.png"),
@@ -74,14 +85,16 @@ class PanelWalk : public ExplorerTest {
     if (pixels == nullptr) return {};
     const auto left = static_cast<int>(layout(kWidth, kHeight, kTextHeight).picture.left) + 2;
     std::vector<unsigned char> bytes;
-    for (int y = 0; y < height; ++y)
+    constexpr int kWords = 160;  // times, banners and notes at the lower end
+    for (int y = 0; y < height - kWords; ++y)
       bytes.insert(bytes.end(), pixels + 3 * (y * width + left), pixels + 3 * (y + 1) * width);
     stbi_image_free(pixels);
     return bytes;
   }
 
-  /// @param arguments of the command line that the window begins with. @return the settings that the panel has shown.
-  std::set<std::string> walk(const Program& program, const std::vector<std::string>& arguments) {
+  /// Presses what no walk before has. @param arguments of the command line that the window begins with.
+  void walk(const Program& program, const std::vector<std::string>& source,
+            std::vector<std::string> arguments) {
     const Explorer explorer{
         .name = program.name,
         .kind = program.kind,
@@ -94,20 +107,64 @@ class PanelWalk : public ExplorerTest {
     const VerbContext context{explorer, progress, interrupt, console, program.name};
     std::string words;
     for (const std::string& word : arguments) words += " " + word;
-    const Document start = parse_command_line(explorer, arguments).options;
+    std::vector<std::string> line{"open"};
+    line.insert(line.end(), source.begin(), source.end());
+    const Document plain = parse_command_line(explorer, line).options;
+    line.insert(line.end(), arguments.begin(), arguments.end());
+    const Document start = parse_command_line(explorer, line).options;
     const WindowResult before = open(program, start, context, {}, 12);
-    std::set<std::string> shown;
     const std::vector<DrawnControl> controls = drawn_controls();
     for (const DrawnControl& control : controls) {
-      if (control.setting.empty() || !shown.insert(control.setting).second) continue;
-      press(program, before.document, context, control, words);
+      if (control.setting.empty() || !walked_.insert({program.name, control.setting}).second) continue;
+      press(program, plain, before.document, context, control, words);
     }
-    return shown;
+  }
+
+  /// A turn that grows from step to step; the path of its list.
+  std::string moving_flow() const {
+    std::string list = "<VTKFile type=\"Collection\"><Collection>";
+    for (int step = 0; step < 3; ++step) {
+      std::string text =
+          "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 3 3 3\nORIGIN -1 -1 -1\n"
+          "SPACING 1 1 1\nPOINT_DATA 27\nVECTORS v double\n";
+      for (int p = 0; p < 27; ++p)
+        text += std::to_string(-(step + 1) * (p / 3 % 3 - 1)) + " " +
+                std::to_string((step + 1) * (p % 3 - 1)) + " 0\n";
+      const std::string name = "t" + std::to_string(step) + ".vtk";
+      folder_.write(name, text);
+      list += "<DataSet timestep=\"" + std::to_string(step) + "\" file=\"" + name + "\"/>";
+    }
+    return folder_.write("turn.pvd", list + "</Collection></VTKFile>").string();
+  }
+
+  /// A ramp with a place in a patient.
+  std::string patient_image(const std::string& name) const {
+    std::string text =
+        "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 8 8 8\nencoding: raw\nspace: right-anterior-superior\n"
+        "space directions: (2,0,0) (0,2,0) (0,0,2)\nspace origin: (-8,-8,-8)\n\n";
+    for (int v = 0; v < 512; ++v) text += static_cast<char>(25 * (v % 8) + v / 64);
+    return folder_.write(name, text).string();
+  }
+
+  /// Every setting that the sources of these panels name was walked.
+  void expect_whole(const std::vector<std::string>& folders) const {
+    const std::regex naming("(edit_setting|explain|edit_word)\\(\"([a-z-]+)\"");
+    std::set<std::string> seen;
+    for (const auto& [program, setting] : walked_) seen.insert(setting);
+    for (const std::string& folder : folders) {
+      for (const auto& file : std::filesystem::recursive_directory_iterator(source_folder() / folder)) {
+        if (file.path().extension() != ".cpp") continue;
+        const std::string text = read_file(file.path());
+        for (std::sregex_iterator at(text.begin(), text.end(), naming), end; at != end; ++at)
+          EXPECT_TRUE(seen.contains((*at)[2]))
+              << file.path() << " names " << (*at)[2] << ", which no walk saw";
+      }
+    }
   }
 
  private:
   /// The setting of `control` alone is edited.
-  void press(const Program& program, const Document& start, const VerbContext& context,
+  void press(const Program& program, const Document& plain, const Document& start, const VerbContext& context,
              const DrawnControl& control, const std::string& words) {
     const Setting* const row = find_setting(control.setting, program.kind);
     ASSERT_NE(row, nullptr) << control.setting;
@@ -116,7 +173,7 @@ class PanelWalk : public ExplorerTest {
     WindowResult made;
     // A value may be the one that is there already: another place then.
     for (int attempt = 0; attempt < 2; ++attempt) {
-      made = open(program, start, context, events(*row, control, was, attempt), 60);
+      made = open(program, start, context, events(*row, control, was, attempt), 44);
       if (value_text(*row, made.document) != was) break;
     }
     EXPECT_TRUE(made.missing.empty()) << name;
@@ -127,12 +184,11 @@ class PanelWalk : public ExplorerTest {
       std::filesystem::copy(folder_.path("window.png"),
                             std::filesystem::path(folder) / (control.setting + "_made.png"),
                             std::filesystem::copy_options::overwrite_existing);
-    Document again = start;
-    again.given.clear();
+    Document again = plain;
     const Session session = session_of(made.document, program.name);
     take_into(again, session, program.kind);
     EXPECT_EQ(value_text(*row, again), value_text(*row, made.document)) << name << " is not in the session";
-    (void)open(program, again, context, {}, 60);
+    (void)open(program, again, context, {}, 44);
     const auto picture_after = picture();
     if (const char* folder = std::getenv("PALPATE_PICTURES"))
       std::filesystem::copy(folder_.path("window.png"),
@@ -155,8 +211,10 @@ class PanelWalk : public ExplorerTest {
 
   /// Lists whose entries are other words than those of the setting, and what is typed into fields.
   static std::vector<std::string> entries_of(const Setting& row, const std::string& was) {
-    static const std::map<std::string, std::vector<std::string>> kEntries{
-        {"integrator", {"rk4", "bs32"}}, {"color", {"time", "length"}}, {"background", {"light"}}};
+    static const std::map<std::string, std::vector<std::string>> kEntries{{"integrator", {"rk4", "bs32"}},
+                                                                          {"color", {"time", "length"}},
+                                                                          {"background", {"light"}},
+                                                                          {"angle", {"transverse"}}};
     if (const auto found = kEntries.find(std::string(row.name)); found != kEntries.end())
       return found->second;
     std::vector<std::string> entries;
@@ -175,14 +233,34 @@ class PanelWalk : public ExplorerTest {
         script.push_back({.frame = frame += 3, .event = {.kind = kind}, .control = label, .across = across});
     };
     const bool box = std::holds_alternative<ValueAt<bool>>(row.place) ||
-                     std::holds_alternative<ValueAt<std::optional<bool>>>(row.place);
+                     std::holds_alternative<ValueAt<std::optional<bool>>>(row.place) ||
+                     row.name == "grid-switch";
     click(control.label, box ? 0.5 : attempt == 0 ? 0.83 : 0.27);
+    static const std::map<std::string, std::string> kTyped{
+        {"cross", "0.25"}, {"contour-spacing", "5"}, {"range", "1.5"}, {"resample", "24"}};
+    if (const auto typed = kTyped.find(std::string(row.name)); typed != kTyped.end()) {
+      // Twice: a double click takes the whole of the field.
+      click(control.label, 0.1);
+      script.push_back(
+          {.frame = frame, .event = {.kind = InputKind::kPress}, .control = control.label, .across = 0.1});
+      script.push_back({.frame = frame += 1,
+                        .event = {.kind = InputKind::kRelease},
+                        .control = control.label,
+                        .across = 0.1});
+      for (const char letter : typed->second)
+        script.push_back({.frame = frame += 2, .event = {.kind = InputKind::kText, .key = letter}});
+      for (const InputKind kind : {InputKind::kKeyDown, InputKind::kKeyUp})
+        script.push_back({.frame = frame += 2, .event = {.kind = kind, .key = kEnter}});
+      return script;
+    }
     const std::vector<std::string> entries = entries_of(row, was);
     if (!box && !entries.empty()) click(attempt == 0 ? entries.front() : entries.back(), 0.5);
     return script;
   }
 
-  static constexpr int kWidth = 620, kHeight = 3000;
+  std::set<std::pair<std::string, std::string>> walked_;  // by the program
+  static constexpr int kEnter = 257;                      // GLFW's
+  static constexpr int kWidth = 700, kHeight = 1900;
   static constexpr float kTextHeight = 14.0F;
 };
 
@@ -191,29 +269,29 @@ std::function<std::unique_ptr<WindowModel>(const Document&)> model_of(const std:
   return [name](const Document& document) { return std::make_unique<Model>(document, name); };
 }
 
-/// Sets that together are all settings that the panel has shown.
-TEST_F(PanelWalk, Flow) {
+TEST_F(PanelWalk, EveryControlOfASettingIsInTheSessionAndThePictureAgain) {
   const Program flow{"flow", FieldKind::kVector, flow_panels(), model_of<FlowModel>("flow")};
-  const auto shown = walk(flow, {"--example", "abc", "--seeds", "random:4"});
-  for (const std::string& one : shown) std::printf("flow shows %s\n", one.c_str());
-}
-
-TEST_F(PanelWalk, Grid) {
   const Program grid{"grid", FieldKind::kScalar, {draw_volume}, model_of<GridModel>("grid")};
-  const auto shown = walk(grid, {"--example", "marschner-lobb", "--layout", "4", "--slab", "0.1"});
-  for (const std::string& one : shown) std::printf("grid shows %s\n", one.c_str());
-}
-
-TEST_F(PanelWalk, Dtmri) {
   const Program dtmri{"dtmri", FieldKind::kTensor, dtmri_panels(), model_of<DtmriModel>("dtmri")};
-  const auto shown = walk(dtmri, {"--example", "helix", "--seeds", "point:20,0,0"});
-  for (const std::string& one : shown) std::printf("dtmri shows %s\n", one.c_str());
-}
-
-TEST_F(PanelWalk, Cardiac) {
   const Program cardiac{"cardiac", FieldKind::kFibre, cardiac_panels(), model_of<CardiacModel>("cardiac")};
-  const auto shown = walk(cardiac, {"--example", "ventricle", "--seeds", "random:4"});
-  for (const std::string& one : shown) std::printf("cardiac shows %s\n", one.c_str());
+  const std::vector<std::string> abc{"--example", "abc"}, lobb{"--example", "marschner-lobb"},
+      helix{"--example", "helix"}, ventricle{"--example", "ventricle"};
+  walk(flow, abc, {"--seeds", "random:4", "--ticks", "auto"});
+  for (const HapticMode& mode : modes_of(FieldKind::kVector))
+    walk(flow, abc, {"--seeds", "random:4", "--mode", mode.name, "--volume", "speed", "--resample", "16"});
+  walk(flow, abc, {"--seeds", "random:4", "--integrator", "rk4", "--range", "0,2"});
+  walk(flow, {moving_flow()}, {"--seeds", "point:0.5,0,0", "--lines", "pathlines"});
+  walk(grid, lobb, {"--layout", "4", "--slab", "0.1"});
+  walk(grid, lobb, {"--layout", "2"});
+  for (const HapticMode& mode : modes_of(FieldKind::kScalar)) walk(grid, lobb, {"--mode", mode.name});
+  walk(grid, {patient_image("a.nrrd")}, {"--layout", "4", "--field", "scalars," + patient_image("b.nrrd")});
+  walk(dtmri, helix,
+       {"--seeds", "point:20,0,0", "--glyphs", "ellipsoid", "--underlay", patient_image("t1.nrrd")});
+  for (const HapticMode& mode : modes_of(FieldKind::kTensor)) walk(dtmri, helix, {"--mode", mode.name});
+  walk(cardiac, ventricle, {"--seeds", "random:4"});
+  for (const HapticMode& mode : modes_of(FieldKind::kFibre))
+    walk(cardiac, ventricle, {"--seeds", "random:4", "--mode", mode.name});
+  expect_whole({"common/window", "apps"});
 }
 
 }  // namespace
