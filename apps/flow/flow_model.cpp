@@ -111,7 +111,8 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
   VolumeView view = make_volume_view(voxels, document);
   if (has_regions(view)) state.volume_notes.emplace_back(kRegionsNote);
   // Another time step keeps its colours, or a film would flicker.
-  if (shown != nullptr && before->volume_label == names.front() && shown->transfer == asked.transfer) {
+  if (shown != nullptr && before->volume_label == names.front() && shown->transfer == asked.transfer &&
+      shown->resample == asked.resample) {
     view.transfer = before->volume->transfer;
     view.regions = before->volume->regions;
   }
