@@ -31,6 +31,7 @@
 #include "common/trace/walk/error_transport.h"
 #include "common/trace/walk/line_walk.h"
 #include "common/trace/walk/method.h"
+#include "common/trace/walk/two_steps.h"
 
 namespace palpate {
 
@@ -54,6 +55,7 @@ class FaceWalk final : public LineWalk {
     standing_ = 0;
     stiff_steps_ = 0;
     stepped_ = false;
+    two_steps_.restart();
     method_.restart();
     control_ = StepControl(method_.power());
     y_ = Pack4{seed, 0.0};
@@ -78,6 +80,7 @@ class FaceWalk final : public LineWalk {
         pending_face_ = -1;
         if (!domain_.cross(face, y_, entry_)) return End::kLeftDomain;
         fresh_ = true;
+        two_steps_.restart();
         if constexpr (requires { domain_.crossed_seam(); }) {
           if (domain_.crossed_seam()) go_on_behind_seam();
         }
@@ -442,7 +445,9 @@ class FaceWalk final : public LineWalk {
     const auto stepped = [&](const Mat3& j, const Vec3& e) { return method_.stepped(j, e, length); };
     error_.advance(apply, matrix, stepped, length);
     local_ = local;
-    error_.add(local + kUlp * domain_.size(), n);
+    if constexpr (Method::kLookedAtTwice)
+      local_ = std::max(local, two_steps_.add(y_, k_, y_end, k_end, length));
+    error_.add(local_ + kUlp * domain_.size(), n);
     y_ = y_end;
     k_ = k_end;
     pending_face_ = face;
@@ -470,6 +475,7 @@ class FaceWalk final : public LineWalk {
   /// An estimate of the error of the very solution that is kept has nothing in reserve: no direction that
   /// the error may take can be left out then. That of a lower order exceeds the error of the solution kept.
   std::conditional_t<Method::kEstimatesKept, ErrorEllipse, ErrorAcross> error_;
+  TwoSteps two_steps_;
   double near_ = 0.05;
   Pack4 y_, k_, bend_, piece_start_;
   mutable decltype(std::declval<const Method&>().dense()) dense_;  ///< of the last piece, once asked for

@@ -34,6 +34,8 @@ class ExplicitMethod {
   /// Whether error() is that of the solution kept, to leading order, rather than one of lower order.
   static constexpr bool kEstimatesKept =
       kAdaptive ? Tableau::kOrder < Tableau::kEmbeddedOrder : Tableau::kOrder == 1;
+  /// Whether TwoSteps is of the order of the error of the solution kept, or higher. Beside dp54 it would be the larger.
+  static constexpr bool kLookedAtTwice = !kEstimatesKept && Tableau::kOrder <= 4;
   /// Order of the error per unit step.
   [[nodiscard]] static constexpr int power() {
     return kAdaptive ? std::min(Tableau::kOrder, Tableau::kEmbeddedOrder) : 1;
@@ -95,7 +97,7 @@ class ExplicitMethod {
 class RodasMethod {
  public:
   static constexpr bool kAdaptive = true;
-  static constexpr bool kEstimatesKept = false;
+  static constexpr bool kEstimatesKept = false, kLookedAtTwice = false;
   [[nodiscard]] static constexpr int power() { return 3; }
   [[nodiscard]] static constexpr bool stiff() { return true; }
   static constexpr void restart() {}
@@ -181,7 +183,7 @@ class RodasMethod {
 class SwitchingMethod {
  public:
   static constexpr bool kAdaptive = true;
-  static constexpr bool kEstimatesKept = false;
+  static constexpr bool kEstimatesKept = false, kLookedAtTwice = false;
   [[nodiscard]] int power() const { return stiff_ ? RodasMethod::power() : Explicit::power(); }
   [[nodiscard]] bool stiff() const { return stiff_; }
   /// Forgets what the last line was like.

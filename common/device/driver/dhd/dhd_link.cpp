@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/base/files/shared_library.h"
 #include "common/base/text.h"
-#include "common/device/driver/vendor_library.h"
 
 namespace palpate {
 namespace {
@@ -41,7 +41,7 @@ constexpr int kUnsetSerial = 0;
 }  // namespace
 
 DhdFunctions open_dhd_library(const std::string& file) {
-  const VendorLibrary library(file, kDhdNames, kDhdRemedy);
+  const SharedLibrary library(file, kDhdNames, kDhdRemedy);
   DhdFunctions dhd;
   library.require(dhd.version, "dhdGetSDKVersion");
   int major = 0, minor = 0, release = 0, revision = 0;

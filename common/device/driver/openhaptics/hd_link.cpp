@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/device/driver/vendor_library.h"
+#include "common/base/files/shared_library.h"
 
 namespace palpate {
 namespace {
@@ -35,7 +35,7 @@ constexpr unsigned kHdWarm = 0x0200, kHdTooFast = 0x0203, kHdDeviceFault = 0x030
 }  // namespace
 
 HdFunctions open_hd_library(const std::string& file) {
-  const VendorLibrary library(file, kHdNames, kHdRemedy);
+  const SharedLibrary library(file, kHdNames, kHdRemedy);
   HdFunctions hd;
   library.require(hd.init, "hdInitDevice");
   library.require(hd.disable_device, "hdDisableDevice");

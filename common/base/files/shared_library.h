@@ -1,4 +1,4 @@
-/// A library of a maker, opened at run time: this suite needs neither its headers nor the library to build.
+/// A library that is opened at run time, when something of it is called for: what does not ask for it maps none of it.
 #pragma once
 
 #include <span>
@@ -6,13 +6,13 @@
 
 namespace palpate {
 
-class VendorLibrary {
+class SharedLibrary {
  public:
   /// Opens `asked`, or the first of `names` that there is where that is empty. It is never closed: what it
   /// has started may still run.
   /// @param remedy what to install, for the line that says that there is none.
   /// @throws Error (work failed).
-  VendorLibrary(const std::string& asked, std::span<const char* const> names, const std::string& remedy);
+  SharedLibrary(const std::string& asked, std::span<const char* const> names, const std::string& remedy);
 
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
 

@@ -1,4 +1,4 @@
-#include "common/device/driver/vendor_library.h"
+#include "common/base/files/shared_library.h"
 
 #include <dlfcn.h>
 
@@ -14,7 +14,7 @@ std::string last_dl_error() {
 
 }  // namespace
 
-VendorLibrary::VendorLibrary(const std::string& asked, std::span<const char* const> names,
+SharedLibrary::SharedLibrary(const std::string& asked, std::span<const char* const> names,
                              const std::string& remedy)
     : remedy_(remedy) {
   const auto try_to_open = [this](const std::string& file) {
@@ -34,9 +34,9 @@ VendorLibrary::VendorLibrary(const std::string& asked, std::span<const char* con
   throw work_error("none of " + tried + " was found; " + remedy);
 }
 
-void* VendorLibrary::find(const char* name) const { return ::dlsym(library_, name); }
+void* SharedLibrary::find(const char* name) const { return ::dlsym(library_, name); }
 
-void VendorLibrary::refuse(const char* name) const {
+void SharedLibrary::refuse(const char* name) const {
   throw work_error(file_ + " has no function " + name + ": it is another library, or of another version; " +
                    remedy_);
 }
