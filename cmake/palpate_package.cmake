@@ -112,8 +112,8 @@ function(palpate_debian name)
 endfunction()
 
 set(same "(= ${PROJECT_VERSION})")
-# What dpkg-shlibdeps cannot see: the typeface of the labels and a software rasteriser.
-set(drawn "palpate-common ${same}, fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri")
+# What dpkg-shlibdeps cannot see: the typeface of the labels, a software rasteriser, and what is opened where a window is.
+set(drawn "palpate-common ${same}, fonts-dejavu-core, libegl1, libgl1, libgl1-mesa-dri, libglfw3")
 set(summary_flow "explorer of flow fields, with streamlines that state their error")
 set(summary_grid "explorer of scalar volumes, through lenses and cuts")
 set(summary_cardiac "explorer of hearts, the layers of their walls and fibres")

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -11,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/e2e/program.h"
-#include "tests/support/project_folders.h"
+#include "tests/e2e/watched_program.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -20,52 +18,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Seen {
-  std::map<std::string, std::set<std::string>> opened;  ///< by program: files of the folder at work
-  std::map<std::string, std::set<std::string>> mapped;  ///< by program: names of libraries
-  std::size_t shaders = 0;                              ///< programs linked, those that are the same once
+struct Seen : Watched {
+  std::size_t shaders = 0;  ///< programs linked, those that are the same once
   nlohmann::json explain;
 };
 
 /// Runs a command in `folder` with --explain, under watch.
 Seen watch(const TempFolder& folder, std::vector<std::string> command) {
-  const fs::path program = build_folder() / "bin" / command[0];
-  command[0] = program;
   for (const char* option : {"--json", "--explain", "--quiet"}) command.emplace_back(option);
   const TempFolder aside;
-  const fs::path logs = aside.path("watch");
   const fs::path shaders = aside.path("shaders");
-  fs::create_directory(logs);
   fs::create_directory(shaders);
-  Program watched(
-      command, folder.path(),
-      {"LD_PRELOAD=" + (build_folder() / "tests/libpalpate_open_watch.so").string(),
-       "PALPATE_OPEN_WATCH=" + (logs / "log").string(), "MESA_SHADER_CAPTURE_PATH=" + shaders.string(),
-       "MESA_SHADER_CACHE_DISABLE=true", "DISPLAY=", "WAYLAND_DISPLAY="});
-  const ProgramResult result = watched.finish();
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  Seen seen;
-  if (result.exit_code != 0) return seen;
-  seen.explain = nlohmann::json::parse(result.out).at("explain");
+  Seen seen{watched(std::move(command), folder.path(),
+                    {"MESA_SHADER_CAPTURE_PATH=" + shaders.string(), "MESA_SHADER_CACHE_DISABLE=true",
+                     "DISPLAY=", "WAYLAND_DISPLAY="})};
+  if (seen.result.exit_code != 0) return seen;
+  seen.explain = nlohmann::json::parse(seen.result.out).at("explain");
   // Contexts that draw the same link the same: those that differ count.
   std::set<std::string> linked;
   for (const auto& entry : fs::directory_iterator(shaders)) linked.insert(read_file(entry.path()));
   seen.shaders = linked.size();
-  for (const auto& entry : fs::directory_iterator(logs)) {
-    std::ifstream in(entry.path());
-    std::set<std::string> opened;
-    std::set<std::string> mapped;
-    std::string self;
-    for (std::string word, path; in >> word && std::getline(in >> std::ws, path);) {
-      const fs::path whole = (folder.path() / path).lexically_normal();
-      if (word == "opens" && whole.parent_path() == folder.path() && whole.has_filename())
-        opened.insert(whole.filename());
-      if (word == "self") self = fs::path(path).filename();
-      if (word == "maps" && path.find(".so") != std::string::npos) mapped.insert(fs::path(path).filename());
-    }
-    seen.opened[self].merge(opened);
-    seen.mapped[self].merge(mapped);
-  }
   return seen;
 }
 

@@ -1,5 +1,5 @@
 // `flow` and `grid` stay small: whatever file it opens, no library of a reader, mesher or device is mapped
-// into them, and a NRRD file does not even start the helper that knows VTK.
+// into them, and a NRRD file does not even start the helper that knows VTK. What opens no window maps no window system.
 
 #include <fstream>
 #include <set>
@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/e2e/program.h"
+#include "tests/e2e/watched_program.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
@@ -157,6 +158,67 @@ TEST(MappedLibraries, NrrdStartsNoVtkHelper) {
       Program({folder.path("bin/flow").string(), "info", "v.vtk"}, folder.path()).finish();
   EXPECT_NE(vtk.exit_code, 0);
   EXPECT_NE(vtk.err.find("palpate-load-vtk"), std::string::npos) << vtk.err;
+}
+
+/// Command lines of verbs without a window, and whether OpenGL draws for them.
+struct Headless {
+  std::vector<std::string> command;
+  bool draws = false;
+};
+
+std::vector<Headless> headless() {
+  return {
+      {{"flow", "info", "--example", "abc"}},
+      {{"flow", "trace", "--example", "abc", "--seeds", "grid:2,2,2", "--out", "a.vtp"}},
+      {{"flow", "probe", "--example", "abc", "--path", "path.csv", "--out", "a.csv"}},
+      {{"flow", "render", "--example", "abc", "--size", "64x48", "--out", "a.png"}, true},
+      {{"grid", "info", "--example", "shells"}},
+      {{"grid", "slice", "--example", "shells", "--out", "a.png"}},
+      {{"grid", "clip", "--example", "shells", "--clip", "1,0,0,0", "--out", "a.nrrd"}},
+      {{"grid", "probe", "--example", "shells", "--path", "path.csv", "--out", "a.csv"}},
+      {{"grid", "render", "--example", "shells", "--size", "64x48", "--out", "a.png"}, true},
+      {{"cardiac", "info", "--example", "ventricle"}},
+      {{"cardiac", "trace", "--example", "ventricle", "--layer", "0.5", "--seeds", "random:4", "--out",
+        "a.vtp"}},
+      {{"cardiac", "map", "--example", "ventricle", "--angle", "helix", "--out", "a.vtu"}},
+      {{"cardiac", "convert", "--example", "ventricle", "--out", "a.pts"}},
+      {{"cardiac", "probe", "--example", "ventricle", "--path", "path.csv", "--out", "a.csv"}},
+      {{"cardiac", "render", "--example", "ventricle", "--size", "64x48", "--out", "a.png"}, true},
+      {{"dtmri", "info", "--example", "helix"}},
+      {{"dtmri", "trace", "--example", "helix", "--seeds", "fa:0.5", "--out", "a.tck"}},
+      {{"dtmri", "measure", "--example", "helix", "--measure", "fa", "--out", "a.nrrd"}},
+      {{"dtmri", "probe", "--example", "helix", "--path", "path.csv", "--out", "a.csv"}},
+      {{"dtmri", "render", "--example", "helix", "--size", "64x48", "--out", "a.png"}, true},
+      {{"workbench", "example", "arm", "--out", "a.csv"}},
+      {{"workbench", "calibrate", "pivot", "--example"}},
+      {{"workbench", "screen"}},
+      {{"workbench", "devices"}},
+      {{"workbench", "controls", "hands.csv"}},
+  };
+}
+
+// With a display at hand or not: the environment is that of the test. What draws off screen maps what OpenGL's own libraries
+// need (libepoxy opens libGL.so.1, which needs libX11), but no window system of ours.
+TEST(MappedLibraries, WithoutAWindowAreOfNoWindowSystem) {
+  for (const Headless& verb : headless()) {
+    const TempFolder folder;
+    folder.write("path.csv", "t,x,y,z\n0,0.1,0.1,0.1\n0.001,0.11,0.1,0.1\n");
+    folder.write("hands.csv", "t,x,y,z,qw,qx,qy,qz,b0\n0,0,0,0,1,0,0,0,0\n0.01,0,0,0,1,0,0,0,0\n");
+    std::vector<std::string> command = verb.command;
+    command.emplace_back("--quiet");
+    const Watched seen = watched(command, folder.path());
+    const auto mapped = seen.mapped.find(verb.command[0]);
+    ASSERT_TRUE(mapped != seen.mapped.end()) << verb.command[0];
+    EXPECT_FALSE(mapped->second.empty());
+    std::vector<std::string> unwanted{"libglfw", "liblapack", "libblas", "libceres"};
+    if (!verb.draws)
+      unwanted.insert(unwanted.end(), {"libX", "libxcb", "libwayland", "libGL", "libEGL", "libOpenGL"});
+    for (const std::string& library : mapped->second) {
+      for (const std::string& name : unwanted)
+        EXPECT_FALSE(library.starts_with(name))
+            << verb.command[0] << " " << verb.command[1] << " maps " << library;
+    }
+  }
 }
 
 }  // namespace

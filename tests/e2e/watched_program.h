@@ -1,0 +1,57 @@
+/// Runs a program, and those that it starts, under tests/support/open_watch.cpp: what each opened, and what was mapped into it when
+/// it ended.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/e2e/program.h"
+#include "tests/support/project_folders.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+
+struct Watched {
+  std::map<std::string, std::set<std::string>> opened;  ///< by program: files of the folder at work
+  std::map<std::string, std::set<std::string>> mapped;  ///< by program: names of libraries
+  ProgramResult result;
+};
+
+/// @param command its first word is a program of build/…/bin.  @param folder where it works.
+inline Watched watched(std::vector<std::string> command, const std::filesystem::path& folder,
+                       std::vector<std::string> environment = {}) {
+  namespace fs = std::filesystem;
+  command[0] = build_folder() / "bin" / command[0];
+  const TempFolder aside;
+  const fs::path logs = aside.path("watch");
+  fs::create_directory(logs);
+  environment.push_back("LD_PRELOAD=" + (build_folder() / "tests/libpalpate_open_watch.so").string());
+  environment.push_back("PALPATE_OPEN_WATCH=" + (logs / "log").string());
+  Watched seen;
+  seen.result = Program(command, folder, environment).finish();
+  EXPECT_EQ(seen.result.exit_code, 0) << command[0] << " " << command[1] << ": " << seen.result.err;
+  for (const auto& entry : fs::directory_iterator(logs)) {
+    std::ifstream in(entry.path());
+    std::set<std::string> opened;
+    std::set<std::string> mapped;
+    std::string self;
+    for (std::string word, path; in >> word && std::getline(in >> std::ws, path);) {
+      const fs::path whole = (folder / path).lexically_normal();
+      if (word == "opens" && whole.parent_path() == folder && whole.has_filename())
+        opened.insert(whole.filename());
+      if (word == "self") self = fs::path(path).filename();
+      if (word == "maps" && path.find(".so") != std::string::npos) mapped.insert(fs::path(path).filename());
+    }
+    seen.opened[self].merge(opened);
+    seen.mapped[self].merge(mapped);
+  }
+  return seen;
+}
+
+}  // namespace palpate::test
