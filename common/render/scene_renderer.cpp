@@ -64,7 +64,9 @@ struct SceneRenderer::State {
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
   bool keeps_for_error = false;
-  PictureEstimates estimates;  // of the last picture
+  RenderTarget sharp;  // of the same size as pictures that are kept, which have fewer pixels
+  std::optional<BehindSharp> behind_sharp;  // for the next of these
+  PictureEstimates estimates;               // of the last picture
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<VolumeSlicePass> slice;
   std::unique_ptr<TensorPass> tensors;
@@ -228,7 +230,8 @@ struct SceneRenderer::State {
     update_volume(view);
     const std::uint32_t opaque_depth = target.copy_depth();
     if (!keeps_for_error) return volume->draw(opaque_depth, block, stop);
-    StillPicture kept{.behind = read_picture(), .opaque_depth = opaque_depth};
+    StillPicture kept{
+        .behind = read_picture(), .opaque_depth = opaque_depth, .sharp = std::exchange(behind_sharp, {})};
     volume->draw(opaque_depth, block, stop);
     kept.shown = read_picture();
     kept.resolution = static_cast<double>(block.size.y) / kept.shown.height;
@@ -237,6 +240,20 @@ struct SceneRenderer::State {
     kept.block.size.y = static_cast<float>(kept.shown.height);
     kept.block.size.z = static_cast<float>(block.size.z * kept.resolution);
     estimates.keep(std::move(kept), frame);
+  }
+
+  // What lies behind the volume, in all pixels of a picture that has fewer: errors are against it. Transparent lines lie in
+  // the volume, and stay as they are drawn.
+  void keep_behind_sharp(SceneView view, int width, int height, double tract_milliseconds) {
+    view.volume->shown = false;
+    view.labels.clear();
+    const bool keeps = std::exchange(keeps_for_error, false);
+    std::swap(target, sharp);
+    draw_eye(view, width, height, 1.0, tract_milliseconds);
+    behind_sharp = BehindSharp{.behind = read_picture(), .opaque_depth = target.copy_depth()};
+    std::swap(target, sharp);
+    keeps_for_error = keeps;
+    still.reset();
   }
 
   // What draws nothing of a picture, but asks for rays.
@@ -395,6 +412,8 @@ bool SceneRenderer::draw(const SceneView& view, int width, int height, double re
     s.stereo.reset();
     s.stop = stop;
     try {
+      if (s.keeps_for_error && resolution < 1.0 && shows_volume(view) && !is_transparent(view))
+        s.keep_behind_sharp(view, width, height, tract_milliseconds);
       s.draw_eye(view, width, height, resolution, tract_milliseconds);
     } catch (const DrawingStopped&) {
       s.still.reset();

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/text.h"
 #include "lab/data/made_data.h"
 #include "lab/hand/probe_run.h"
 
@@ -18,6 +19,7 @@ using FieldPtr = std::shared_ptr<const VectorField>;
 constexpr std::size_t kSteps = 3000;  // of each path
 constexpr std::size_t kPaths = 4;     // on each field
 constexpr int kScalingExponent = 20;
+constexpr double kBeyondCap = 4.0;  // what the coupling asks for before the line is let go, of the cap
 
 Workspace workspace_of(const VectorField& field) {
   return {Workspace::default_scale(field.diagonal()), field.frame()};
@@ -111,7 +113,10 @@ std::vector<Vec3> spread_seeds(const VectorField& field) {
 Tally tally_on(const FieldPtr& field, std::vector<Vec3> seeds, int threads, Progress* progress) {
   Tally tally;
   const Workspace workspace = workspace_of(*field);
-  ProbeRun run(field, workspace, threads);
+  // So firm that the cap has something to hold: by default the line is let go at half of it.
+  ChainSettings firm;
+  firm.stiffness = kBeyondCap * DeviceLimits{}.force_cap / firm.streamline.release_distance;
+  ProbeRun run(field, workspace, threads, firm);
   seeds.resize(std::min(seeds.size(), kPaths));
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (progress) progress->check();
@@ -183,8 +188,11 @@ void add_cases(const std::string& where, const Tally& tally, std::vector<Stabili
                             "steps whose force, proxy or residual is not finite; " + rows));
   cases.push_back(make_case("hand " + where + ": faults", tally.forces_on_faults, 0.0, "steps",
                             "bad rows (NaN, infinity, time standing or running backwards) that had a force"));
-  cases.push_back(make_case("hand " + where + ": force", tally.force, 1.0 + 1e-12, "of the cap",
-                            "largest force, through jumps of a metre in a millisecond"));
+  cases.push_back(make_case(
+      "hand " + where + ": force", tally.force, 1.0 + 1e-12, "of the cap",
+      "largest force, through jumps of a metre in a millisecond, where the coupling is so stiff that it "
+      "asks for " +
+          short_number(kBeyondCap) + " times the cap"));
   cases.push_back(make_case("hand " + where + ": slew", tally.slew, 1.0, "of the limit",
                             "fastest change of the force, but for drops to zero"));
   cases.push_back(make_case("hand " + where + ": residual", tally.residual, kResidualLimit, "of the diagonal",

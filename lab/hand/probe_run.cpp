@@ -34,14 +34,15 @@ double thread_microseconds() noexcept {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-ProbeRun::ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads)
+ProbeRun::ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
+                   const ChainSettings& settings)
     : workspace_(workspace) {
   auto constraint = std::make_unique<StreamlineConstraint>(
       std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, threads), workspace);
   constraint_ = constraint.get();
   std::vector<std::unique_ptr<Constraint>> links;
   links.push_back(std::move(constraint));
-  auto chain = std::make_unique<ProxyChain>(std::move(links), ChainSettings{});
+  auto chain = std::make_unique<ProxyChain>(std::move(links), settings);
   chain_ = chain.get();
   stepper_ = std::make_unique<HandStepper>(std::move(chain), DeviceLimits{});
 }

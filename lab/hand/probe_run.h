@@ -28,8 +28,9 @@ struct RunStep {
 
 class ProbeRun {
  public:
-  /// With the settings and limits that are default.
-  ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads);
+  /// With limits that are default.
+  ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
+           const ChainSettings& settings = {});
 
   [[nodiscard]] const ChainSettings& settings() const noexcept { return chain_->settings(); }
   [[nodiscard]] const DeviceLimits& limits() const noexcept { return stepper_->limits(); }

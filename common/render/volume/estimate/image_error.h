@@ -7,7 +7,8 @@
 ///
 /// spread is the standard error of rms, as of pixels taken at random. Rounds of larger and larger k look at
 /// other pixels, all but a few. A converged pixel is that of converged_view() along the same ray over the
-/// same opaque things, rounded as the picture is: of a picture that is converged the error is zero. Its voxels
+/// same opaque things, with all pixels where the picture has fewer, rounded as the picture is: of a picture that is converged the
+/// error is zero. Its voxels
 /// are those that were asked for, also where the picture is of coarser ones, as its memory holds no finer ones
 /// (finest_rays.h).
 #pragma once

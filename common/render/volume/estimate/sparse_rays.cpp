@@ -42,7 +42,8 @@ std::vector<std::uint8_t> drawn_pixels(const StillPicture& picture, const PixelL
   const FramebufferGuard before;
   const GlTexture pixels =
       make_picture_texture(GL_RGBA8, lattice.columns, lattice.rows, "pixels looked at again");
-  std::vector<std::uint8_t> bytes = pixels_of(picture.behind, lattice);
+  const auto& sharp = picture.sharp;
+  std::vector<std::uint8_t> bytes = pixels_of(sharp ? sharp->behind : picture.behind, lattice);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTextureSubImage2D(pixels.name(), 0, 0, 0, lattice.columns, lattice.rows, GL_RGBA, GL_UNSIGNED_BYTE,
                       bytes.data());
@@ -61,7 +62,8 @@ std::vector<std::uint8_t> drawn_pixels(const StillPicture& picture, const PixelL
   larger.size.z *= step;
   const GlBuffer block = volume_shader::make_block_buffer(larger);
   glBindBufferBase(GL_UNIFORM_BUFFER, volume_shader::kFrameBlock, block.name());
-  draw(picture.opaque_depth, static_cast<float>(lattice.step * picture.resolution));
+  draw(sharp ? sharp->opaque_depth : picture.opaque_depth,
+       static_cast<float>(lattice.step * (sharp ? 1.0 : picture.resolution)));
 
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, lattice.columns, lattice.rows, GL_RGBA, GL_UNSIGNED_BYTE, bytes.data());

@@ -13,19 +13,26 @@
 
 namespace palpate {
 
+/// What lies behind a volume, with all pixels of its picture.
+struct BehindSharp {
+  Image behind;
+  std::uint32_t opaque_depth = 0;
+};
+
 /// A picture, and what its volume was drawn over, of one size.
 struct StillPicture {
   Image behind, shown;
   FrameBlock block;  ///< of this size
   double resolution =
       1.0;  ///< the frame that the volume was drawn in has so many of its pixels along an edge
-  std::uint32_t opaque_depth = 0;  ///< of that frame, as VolumePass::draw() was given it
+  std::uint32_t opaque_depth = 0;    ///< of that frame, as VolumePass::draw() was given it
+  std::optional<BehindSharp> sharp;  ///< where that frame has fewer pixels
 };
 
 /// RGBA of the pixels of a lattice, rows from the bottom.
 [[nodiscard]] std::vector<std::uint8_t> pixels_of(const Image& image, const PixelLattice& lattice);
 
-/// The same pixels with rays over what lies behind as `as` has them (VolumePass::draw_as()). Waits for them.
+/// The same pixels with rays over what lies behind, sharp, as `as` has them (VolumePass::draw_as()). Waits for them.
 /// Keeps the framebuffer and viewport; another frame's uniform block is bound to 0 then.
 /// @param pass that drew the volume of `picture` last.
 [[nodiscard]] std::vector<std::uint8_t> cast_sparse_rays(VolumePass& pass, const VolumeView& as,
