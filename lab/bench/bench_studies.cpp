@@ -1,5 +1,6 @@
 #include "lab/bench/bench_studies.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -16,6 +17,7 @@
 #include "lab/bench/fit_text.h"
 #include "lab/bench/head_errors.h"
 #include "lab/hand/wall/stability_sweep.h"
+#include "lab/hand/wall/wall_extremes.h"
 
 namespace palpate {
 namespace {
@@ -57,6 +59,12 @@ std::vector<ReportSection> sections_of(const Study& study, const Calibrated& don
   }
   sections.push_back(distortion_section(std::move(drawn), trouble));
   return sections;
+}
+
+std::vector<StabilityCase> extreme_walls() {
+  std::vector<StabilityCase> cases;
+  for (WallExtreme& row : wall_extremes()) cases.push_back(std::move(row.held));
+  return cases;
 }
 
 std::string column(const std::string& text) {
@@ -130,8 +138,13 @@ ReportAnswer study_made_calibrations(const Study& study) {
   // Larger errors than a calibrated tracker's, so that they are seen in the picture.
   sections.push_back(
       head_error_section(head_error_setup({.position_error = "60,60", .orientation_error = 8.0})));
-  write_sections(study, folder, "made calibrations", std::move(sections), {}, watch.seconds());
-  return {.text = std::move(text), .json = text_of({{"out", folder.string()}, {"seconds", watch.seconds()}})};
+  const std::vector<StabilityCase> cases = extreme_walls();
+  text += cases_text(cases);
+  const auto failed = std::ranges::count_if(cases, [](const StabilityCase& c) { return !c.row.holds; });
+  write_sections(study, folder, "made calibrations", std::move(sections), cases, watch.seconds());
+  return {.text = std::move(text),
+          .json = text_of(
+              {{"out", folder.string()}, {"stability_cases_failed", failed}, {"seconds", watch.seconds()}})};
 }
 
 ReportAnswer study_head_errors(const Study& study) {
@@ -175,7 +188,8 @@ ReportAnswer study_walls(const Study& study) {
   const fs::path& folder = study.document().output.file;
   check_report_folder(folder, study.document().common.force);
   const auto device = described_device(study.document().trial.model);
-  const WallStability wall = run_wall_stability(study.threads(), study.progress(), device->profile);
+  WallStability wall = run_wall_stability(study.threads(), study.progress(), device->profile);
+  append(extreme_walls(), wall.cases);
   write_sections(study, folder, "stability", wall_sections(wall), wall.cases, watch.seconds());
   std::string text = "stability of walls on " + std::string(wall.swept.title) + " -> " +
                      (folder / "index.html").string() + "\n" + cases_text(wall.cases);

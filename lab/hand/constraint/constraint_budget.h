@@ -27,9 +27,13 @@ namespace palpate {
 /// Where the proxy of a probe would be with unlimited work; remembers the probes before, as constraints do.
 using IdealProxy = std::function<Vec3(const Vec3& probe)>;
 
+/// With which nothing lets go, and all is caught.
+[[nodiscard]] ChainSettings budget_settings();
+
 /// A constraint to sweep. Workspace frame.
 struct BudgetSubject {
-  std::string name;                                   ///< "isosurface"
+  std::string name;  ///< "isosurface"
+  ChainSettings settings = budget_settings();
   std::function<std::unique_ptr<Constraint>()> make;  ///< with its settings applied
   std::function<IdealProxy()> make_ideal;
   std::function<double(const Vec3&)> off_feature;  ///< distance from the feature [m]; null: nothing to be off

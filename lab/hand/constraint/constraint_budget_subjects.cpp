@@ -28,22 +28,9 @@ constexpr double kFar = 0.04;     // m: no hand here is pulled that far off
 const Vec3 kPlaneNormal = glm::normalize(Vec3{0.31, 0.47, 0.83});
 constexpr double kPlaneOffset = 0.0137;  // units of data, from the origin
 
-/// Nothing lets go, and all is caught.
-ChainSettings settings() {
-  ChainSettings all;
-  all.streamline.release_distance = kFar;
-  all.shape = {.snap_distance = kFar, .release_distance = 2.0 * kFar};
-  all.isosurface.isovalues.count = 1;
-  all.isosurface.isovalues.value[0] = 0.0;
-  all.isosurface.hold = IsosurfaceHold::kLayer;
-  all.isosurface.depth = all.isosurface.snap_distance = kFar;
-  all.grid_axis.threshold = kFar;
-  all.ticks.interval = 0.1;
-  return all;
-}
-
 template <typename Made>
-std::unique_ptr<Constraint> ready(std::unique_ptr<Made> constraint, const ChainSettings& all = settings()) {
+std::unique_ptr<Constraint> ready(std::unique_ptr<Made> constraint,
+                                  const ChainSettings& all = budget_settings()) {
   constraint->apply(all);
   return constraint;
 }
@@ -118,7 +105,7 @@ class MarkedStreamline final : public Constraint {
 };
 
 BudgetSubject tick_marks() {
-  const double interval = settings().ticks.interval;  // one radian a unit of time
+  const double interval = budget_settings().ticks.interval;  // one radian a unit of time
   return {.name = "tick marks",
           .make = [] { return ready(std::make_unique<MarkedStreamline>()); },
           .make_ideal =
@@ -217,18 +204,33 @@ BudgetSubject isosurface_in_tetrahedra() {
                         }));
 }
 
+ChainSettings line_settings() {
+  ChainSettings all = budget_settings();
+  all.linear.axes[1].rule = all.linear.axes[2].rule = AxisRule::kFixed;
+  return all;
+}
+
+constexpr std::array kTau{0.001, 0.002, 0.003};  // m
+ChainSettings drag_settings() {
+  ChainSettings all = budget_settings();
+  for (std::size_t a = 0; a < kTau.size(); ++a) {
+    all.linear.axes[a].rule = AxisRule::kDrag;
+    all.linear.axes[a].tau = kTau[a];
+  }
+  return all;
+}
+
 /// Held across the flow of circles, free along it.
 BudgetSubject linear_line() {
   const auto along = [](const Vec3& p) { return glm::normalize(Vec3{-p.y, p.x, 0.0}); };
   return {.name = "linear, line",
+          .settings = line_settings(),
           .make =
               [] {
                 const auto field = turning_flow(0.0);
-                ChainSettings all = settings();
-                all.linear.axes[1].rule = all.linear.axes[2].rule = AxisRule::kFixed;
                 return ready(std::make_unique<LinearConstraint>(
                                  std::make_unique<FlowFrame>(field, Workspace(kRadius, field->frame()))),
-                             all);
+                             line_settings());
               },
           .make_ideal =
               [along] {
@@ -245,21 +247,16 @@ BudgetSubject linear_line() {
 
 /// Dragged along three fixed axes at once, each at its own threshold.
 BudgetSubject linear_drag() {
-  constexpr std::array kTau{0.001, 0.002, 0.003};  // m
   return {.name = "linear, drag",
+          .settings = drag_settings(),
           .make =
-              [kTau] {
-                ChainSettings all = settings();
-                for (std::size_t a = 0; a < kTau.size(); ++a) {
-                  all.linear.axes[a].rule = AxisRule::kDrag;
-                  all.linear.axes[a].tau = kTau[a];
-                }
+              [] {
                 return ready(std::make_unique<LinearConstraint>(std::make_unique<FixedFrame>(Mat3{1.0})),
-                             all);
+                             drag_settings());
               },
           .make_ideal =
-              [kTau] {
-                return [kTau, p = Vec3{kRadius, 0.0, 0.0}](const Vec3& x) mutable {
+              [] {
+                return [p = Vec3{kRadius, 0.0, 0.0}](const Vec3& x) mutable {
                   // The point of the ellipsoid about x that is nearest to p, by the same formula as above.
                   const Vec3 tau{kTau[0], kTau[1], kTau[2]}, y = p - x, inside = y / tau;
                   if (glm::dot(inside, inside) <= 1.0) return p;
@@ -279,7 +276,7 @@ BudgetSubject linear_drag() {
 }
 
 BudgetSubject isotropic_drag() {
-  const double tau = settings().drag.threshold;
+  const double tau = budget_settings().drag.threshold;
   return {.name = "isotropic drag",
           .make = [] { return ready(std::make_unique<IsotropicDrag>()); },
           .make_ideal =
@@ -358,6 +355,19 @@ BudgetSubject grid_axis() {
 }
 
 }  // namespace
+
+ChainSettings budget_settings() {
+  ChainSettings all;
+  all.streamline.release_distance = kFar;
+  all.shape = {.snap_distance = kFar, .release_distance = 2.0 * kFar};
+  all.isosurface.isovalues.count = 1;
+  all.isosurface.isovalues.value[0] = 0.0;
+  all.isosurface.hold = IsosurfaceHold::kLayer;
+  all.isosurface.depth = all.isosurface.snap_distance = kFar;
+  all.grid_axis.threshold = kFar;
+  all.ticks.interval = 0.1;
+  return all;
+}
 
 std::vector<BudgetSubject> budget_subjects() {
   return {streamline(),  tick_marks(),  isosurface(), isosurface_in_boxes(), isosurface_in_tetrahedra(),
