@@ -1,5 +1,6 @@
 // What `--explain` says, against what the system saw: files opened and libraries mapped (by a library that is preloaded),
-// programs started, shaders compiled (by Mesa, which writes each that it links).
+// programs started, shaders compiled (by Mesa, which writes each that it links),
+// textures allocated.
 
 #include <algorithm>
 #include <fstream>
@@ -70,6 +71,9 @@ void expect_true(const Seen& seen, const std::string& program) {
   for (const std::string& helper : rows(seen, "helper ", false))
     EXPECT_FALSE(started.contains(helper)) << helper;
   EXPECT_EQ(rows(seen, "program ", true).size(), seen.shaders) << seen.explain.dump(1);
+  std::set<std::string> textures = rows(seen, "texture ", true);
+  textures.erase("of labels and panels");  // Dear ImGui's, which does not go through libepoxy
+  EXPECT_EQ(textures, seen.textures.at(program)) << seen.explain.dump(1);
   for (const std::string& library : seen.mapped.at(program)) {
     for (const char* foreign : {"libvtk", "libteem", "libopenvdb", "libniftiio", "libgdcm", "libCGAL",
                                 "libtet", "liblapack", "libblas", "libceres", "libusb"})

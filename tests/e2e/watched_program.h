@@ -1,5 +1,5 @@
-/// Runs a program, and those that it starts, under tests/support/open_watch.cpp: what each opened, and what was mapped into it when
-/// it ended.
+/// Runs a program, and those that it starts, under tests/support/open_watch.cpp: what each opened, what was mapped into it when
+/// it ended, and what textures it allocated.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,9 @@
 namespace palpate::test {
 
 struct Watched {
-  std::map<std::string, std::set<std::string>> opened;  ///< by program: files of the folder at work
-  std::map<std::string, std::set<std::string>> mapped;  ///< by program: names of libraries
+  std::map<std::string, std::set<std::string>> opened;    ///< by program: files of the folder at work
+  std::map<std::string, std::set<std::string>> mapped;    ///< by program: names of libraries
+  std::map<std::string, std::set<std::string>> textures;  ///< by program: labels of those allocated
   ProgramResult result;
 };
 
@@ -40,16 +41,19 @@ inline Watched watched(std::vector<std::string> command, const std::filesystem::
     std::ifstream in(entry.path());
     std::set<std::string> opened;
     std::set<std::string> mapped;
+    std::set<std::string> textures;
     std::string self;
     for (std::string word, path; in >> word && std::getline(in >> std::ws, path);) {
       const fs::path whole = (folder / path).lexically_normal();
       if (word == "opens" && whole.parent_path() == folder && whole.has_filename())
         opened.insert(whole.filename());
+      if (word == "texture") textures.insert(path);
       if (word == "self") self = fs::path(path).filename();
       if (word == "maps" && path.find(".so") != std::string::npos) mapped.insert(fs::path(path).filename());
     }
     seen.opened[self].merge(opened);
     seen.mapped[self].merge(mapped);
+    seen.textures[self].merge(textures);
   }
   return seen;
 }

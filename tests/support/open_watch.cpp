@@ -1,5 +1,5 @@
-// Preloaded into a program: writes the name of each file that it opens, and at its end of each that is mapped into it, to
-// $PALPATE_OPEN_WATCH.<process>.
+// Preloaded into a program: writes the name of each file that it opens, at its end of each that is mapped into it, and the label
+// of each texture that it allocates through libepoxy, to $PALPATE_OPEN_WATCH.<process>.
 
 #include <cstdarg>
 #include <cstdio>
@@ -61,6 +61,46 @@ __attribute__((destructor)) void note_maps() noexcept {
   }
   std::fclose(maps);
 }
+
+constexpr unsigned kTexture = 0x1702;  // GL_TEXTURE
+constexpr unsigned kMostTextures = 4096;
+char texture_labels[kMostTextures][64];
+
+void keep_label(unsigned kind, unsigned name, int size, const char* text) noexcept {
+  if (kind == kTexture && name < kMostTextures)
+    std::snprintf(texture_labels[name], sizeof texture_labels[name], "%.*s", size, text);
+}
+
+void note_texture(unsigned name) noexcept {
+  note("texture",
+       name < kMostTextures && texture_labels[name][0] != 0 ? texture_labels[name] : "without label");
+}
+
+// libepoxy calls OpenGL by pointers that it shows, and looks up each when it is first called: it writes the pointer then.
+#define PALPATE_WATCH_GL(name, what_is_noted, parameters, arguments)                           \
+  void(**name##_place) parameters = nullptr;                                                   \
+  void(*name##_next) parameters = nullptr;                                                     \
+  void name##_watched parameters {                                                             \
+    what_is_noted;                                                                             \
+    *name##_place = name##_next;                                                               \
+    name##_next arguments;                                                                     \
+    name##_next = *name##_place;                                                               \
+    *name##_place = name##_watched;                                                            \
+  }                                                                                            \
+  __attribute__((constructor)) void watch_##name() noexcept {                                  \
+    name##_place = reinterpret_cast<void(**) parameters>(dlsym(RTLD_DEFAULT, "epoxy_" #name)); \
+    if (name##_place == nullptr) return;                                                       \
+    name##_next = *name##_place;                                                               \
+    *name##_place = name##_watched;                                                            \
+  }
+PALPATE_WATCH_GL(glObjectLabel, keep_label(kind, name, size, text),
+                 (unsigned kind, unsigned name, int size, const char* text), (kind, name, size, text))
+PALPATE_WATCH_GL(glTextureStorage2D, note_texture(name),
+                 (unsigned name, int levels, unsigned format, int width, int height),
+                 (name, levels, format, width, height))
+PALPATE_WATCH_GL(glTextureStorage3D, note_texture(name),
+                 (unsigned name, int levels, unsigned format, int width, int height, int depth),
+                 (name, levels, format, width, height, depth))
 
 }  // namespace
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include <epoxy/gl.h>
 #include <glm/mat4x4.hpp>
 
 #include "common/base/index.h"
+#include "common/base/ledger.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/target.h"
 #include "common/render/volume/volume_bindings.h"
@@ -40,8 +42,11 @@ template <typename Draw>
 std::vector<std::uint8_t> drawn_pixels(const StillPicture& picture, const PixelLattice& lattice,
                                        const Draw& draw) {
   const FramebufferGuard before;
-  const GlTexture pixels =
-      make_picture_texture(GL_RGBA8, lattice.columns, lattice.rows, "pixels looked at again");
+  constexpr const char* kPixels = "pixels looked at again";
+  const GlTexture pixels = make_picture_texture(GL_RGBA8, lattice.columns, lattice.rows, kPixels);
+  // It is gone before the objects of the picture are counted.
+  Ledger::enter(std::string("texture ") + kPixels, "the error of the picture", 0.0,
+                4 * as_size(lattice.columns) * as_size(lattice.rows));
   const auto& sharp = picture.sharp;
   std::vector<std::uint8_t> bytes = pixels_of(sharp ? sharp->behind : picture.behind, lattice);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
