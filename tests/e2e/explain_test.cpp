@@ -3,6 +3,7 @@
 // textures allocated.
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <string>
@@ -25,15 +26,17 @@ struct Seen : Watched {
 };
 
 /// Runs a command in `folder` with --explain, under watch.
-Seen watch(const TempFolder& folder, std::vector<std::string> command) {
+/// @param window_seconds as watched(); on the display of the test.
+Seen watch(const TempFolder& folder, std::vector<std::string> command, double window_seconds = 0.0) {
   for (const char* option : {"--json", "--explain", "--quiet"}) command.emplace_back(option);
   const TempFolder aside;
   const fs::path shaders = aside.path("shaders");
   fs::create_directory(shaders);
-  Seen seen{watched(std::move(command), folder.path(),
-                    {"MESA_SHADER_CAPTURE_PATH=" + shaders.string(), "MESA_SHADER_CACHE_DISABLE=true",
-                     "DISPLAY=", "WAYLAND_DISPLAY="})};
-  if (seen.result.exit_code != 0) return seen;
+  std::vector<std::string> environment{"MESA_SHADER_CAPTURE_PATH=" + shaders.string(),
+                                       "MESA_SHADER_CACHE_DISABLE=true"};
+  if (window_seconds == 0.0) environment.insert(environment.end(), {"DISPLAY=", "WAYLAND_DISPLAY="});
+  Seen seen{watched(std::move(command), folder.path(), environment, window_seconds)};
+  if (seen.result.exit_code != (window_seconds > 0.0 ? 130 : 0)) return seen;
   seen.explain = nlohmann::json::parse(seen.result.out).at("explain");
   // Contexts that draw the same link the same: those that differ count.
   std::set<std::string> linked;
@@ -101,6 +104,25 @@ TEST(Explain, OfALoadedFieldIsWhatTheSystemSaw) {
   EXPECT_TRUE(rows(seen, "array ", true).contains("velocity"));
   EXPECT_TRUE(rows(seen, "array ", false).contains("unused"));
   EXPECT_TRUE(rows(seen, "file ", true).contains("flow.vtk"));
+}
+
+TEST(Explain, OfWindowsIsWhatWasAllocated) {
+  if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
+  constexpr double kSeconds = 12.0;  // long enough for the first picture
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"flow", "--example=abc"}, {"grid", "volume.nrrd"}}) {
+    SCOPED_TRACE(command[0]);
+    TempFolder folder;
+    write_volume(folder.path("volume.nrrd"));
+    const Seen seen = watch(folder, command, kSeconds);
+    std::set<std::string> textures = rows(seen, "texture ", true);
+    textures.erase("of labels and panels");  // Dear ImGui's
+    EXPECT_EQ(textures, seen.textures.at(command[0])) << seen.explain.dump(1);
+    EXPECT_FALSE(textures.empty());
+    EXPECT_TRUE(rows(seen, "window system", true).contains(""));
+    EXPECT_TRUE(std::any_of(seen.mapped.at(command[0]).begin(), seen.mapped.at(command[0]).end(),
+                            [](const std::string& library) { return library.starts_with("libglfw"); }));
+  }
 }
 
 TEST(Explain, OfPicturesIsWhatWasCompiled) {

@@ -2,11 +2,14 @@
 /// it ended, and what textures it allocated.
 #pragma once
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,9 +27,10 @@ struct Watched {
   ProgramResult result;
 };
 
-/// @param command its first word is a program of build/…/bin.  @param folder where it works.
+/// @param command its first word is a program of build/…/bin.  @param folder where it works.  @param window_seconds [s] after
+/// which a window is interrupted, as by Ctrl-C; 0: there is none.
 inline Watched watched(std::vector<std::string> command, const std::filesystem::path& folder,
-                       std::vector<std::string> environment = {}) {
+                       std::vector<std::string> environment = {}, double window_seconds = 0.0) {
   namespace fs = std::filesystem;
   command[0] = build_folder() / "bin" / command[0];
   const TempFolder aside;
@@ -35,8 +39,14 @@ inline Watched watched(std::vector<std::string> command, const std::filesystem::
   environment.push_back("LD_PRELOAD=" + (build_folder() / "tests/libpalpate_open_watch.so").string());
   environment.push_back("PALPATE_OPEN_WATCH=" + (logs / "log").string());
   Watched seen;
-  seen.result = Program(command, folder, environment).finish();
-  EXPECT_EQ(seen.result.exit_code, 0) << command[0] << " " << command[1] << ": " << seen.result.err;
+  Program program(command, folder, environment);
+  if (window_seconds > 0.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(window_seconds));
+    program.signal(SIGINT);
+  }
+  seen.result = program.finish();
+  EXPECT_EQ(seen.result.exit_code, window_seconds > 0.0 ? 130 : 0)
+      << command[0] << " " << command[1] << ": " << seen.result.err;
   for (const auto& entry : fs::directory_iterator(logs)) {
     std::ifstream in(entry.path());
     std::set<std::string> opened;
