@@ -57,5 +57,28 @@ TEST(PagesForDevelopers, NameOnlyFilesThatAreThere) {
   EXPECT_GT(found, 30) << "the pattern finds no path any more";
 }
 
+bool snake_case(const std::string& name) {
+  static const std::regex form("[a-z0-9_]+([.][a-z0-9_]+)*");
+  return std::regex_match(name, form);
+}
+
+TEST(Names, OfFilesAndFoldersAreSnakeCase) {
+  EXPECT_FALSE(snake_case("CellLocator.h")) << "the search itself";
+  EXPECT_FALSE(snake_case("cell-locator.h"));
+  EXPECT_TRUE(snake_case("cell_locator.h"));
+  int found = 0;
+  for (const char* top :
+       {"apps", "cmake", "common", "docs", "lab", "library", "loaders", "scripts", "shaders", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(source_folder() / top)) {
+      const std::string name = entry.path().filename().string();
+      if (name == "README.md" || name == "CMakeLists.txt") continue;
+      if (entry.path().extension() == ".pyc") continue;  // Python's own, beside a module that was tried
+      ++found;
+      EXPECT_TRUE(snake_case(name)) << fs::relative(entry.path(), source_folder());
+    }
+  }
+  EXPECT_GT(found, 500) << "the tree was not found";
+}
+
 }  // namespace
 }  // namespace palpate::test
