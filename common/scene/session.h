@@ -5,7 +5,7 @@
 /// and a changed one is named when the session is opened.
 ///
 ///   format = 1                  # a newer one is read as far as it is known, and the rest is named
-///   program = "flow"
+///   program = "NAME"            # that opens it
 ///   [[input]]
 ///   file = "carotid.vtk"        # relative to the session file
 ///   bytes = 2681486
@@ -39,7 +39,7 @@ struct SessionInput {
 };
 
 struct Session {
-  std::string program;                                       ///< "flow"
+  std::string program;                                       ///< the name that starts it
   std::vector<SessionInput> inputs;                          ///< none for a built-in example
   std::optional<SessionInput> lines;                         ///< TouchOptions::drawn_lines
   std::vector<std::pair<std::string, std::string>> options;  ///< name of a setting, its value as text

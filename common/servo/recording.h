@@ -53,7 +53,7 @@ struct RecordedFile {
 
 /// What stands above `begin`. Line ends in texts become spaces; keys hold no space.
 struct RecordingHeader {
-  std::string program;  ///< "flow"
+  std::string program;  ///< the name that starts it
   std::string version;  ///< of the program
   std::string build;    ///< bits are the same on one build and processor type only
   std::vector<RecordedFile> inputs;

@@ -31,7 +31,7 @@ namespace palpate {
 
 /// What study.json says.
 struct StudyPlan {
-  std::string program;             ///< whose tasks they are: "flow"
+  std::string program;             ///< the name of the one whose tasks they are
   std::string version;             ///< that made the folder
   std::vector<std::string> tasks;  ///< names, in the order that the design counts them
   DesignRequest design;

@@ -33,7 +33,7 @@ struct WindowOptions {
   CameraAngles angles;                         ///< the first view, and that of a reset
   std::optional<Vec3> focal_point;             ///< of the first view; none: the middle of what is shown
   std::string command_line;                    ///< for the text of saved pictures
-  std::string version;                         ///< "flow (Palpate) 0.1.0", likewise
+  std::string version;                         ///< version_text() (common/base/version.h), likewise
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
