@@ -183,8 +183,6 @@ Vec3 SimulatedArm::encoders() const noexcept {
   return {step * std::round(x.x / step), step * std::round(x.y / step), step * std::round(x.z / step)};
 }
 
-double SimulatedArm::kinetic() const noexcept { return 0.5 * load_.mass * glm::dot(velocity(), velocity()); }
-
 double SimulatedArm::stored() const noexcept {
   const Vec3 stretch = position() - rest_;
   return 0.5 * load_.stiffness * glm::dot(stretch, stretch);

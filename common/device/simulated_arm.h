@@ -105,14 +105,14 @@ class SimulatedArm {
   [[nodiscard]] double time() const noexcept { return time_; }
   /// What the encoders show [m].
   [[nodiscard]] Vec3 encoders() const noexcept;
-  [[nodiscard]] Vec3 position() const noexcept;                              ///< the true one [m]
-  [[nodiscard]] Vec3 velocity() const noexcept;                              ///< [m/s]
-  [[nodiscard]] const Vec3& motor_force() const noexcept { return motor_; }  ///< in force [N]
+  [[nodiscard]] Vec3 position() const noexcept;  ///< the true one [m]
+  [[nodiscard]] Vec3 velocity() const noexcept;  ///< [m/s]
+  /// In force [N]. Tests hold the motors to command(), by this.
+  [[nodiscard]] const Vec3& motor_force() const noexcept { return motor_; }
   [[nodiscard]] const DeviceProfile& profile() const noexcept { return profile_; }
 
   [[nodiscard]] const ArmEnergy& energy() const noexcept { return energy_; }
-  [[nodiscard]] double kinetic() const noexcept;  ///< of arm and hand [J]
-  [[nodiscard]] double stored() const noexcept;   ///< in the hand's spring [J]
+  [[nodiscard]] double stored() const noexcept;  ///< in the hand's spring [J]; tests hold (1) with it
 
  private:
   struct Pending {

@@ -92,24 +92,6 @@ Correlation correlation(std::span<const double> x, std::span<const double> y) {
   return out;
 }
 
-UniformityTest uniformity_test(std::span<const double> values) {
-  if (values.empty()) return {kNone, kNone};
-  std::vector<double> sorted(values.begin(), values.end());
-  std::ranges::sort(sorted);
-  const auto n = static_cast<double>(sorted.size());
-  UniformityTest out;
-  for (std::size_t i = 0; i < sorted.size(); ++i) {
-    const auto before = static_cast<double>(i);
-    out.distance = std::max({out.distance, (before + 1.0) / n - sorted[i], sorted[i] - before / n});
-  }
-  const double root = std::sqrt(n);
-  const double x = (root + 0.12 + 0.11 / root) * out.distance;
-  double p = 0.0;
-  for (int k = 1; k <= 100; ++k) p += (k % 2 == 1 ? 2.0 : -2.0) * std::exp(-2.0 * k * k * x * x);
-  out.p = x < 0.2 ? 1.0 : std::clamp(p, 0.0, 1.0);
-  return out;
-}
-
 double paired_power(double effect_z, std::size_t participants, double significance) {
   if (participants < 2 || !std::isfinite(effect_z)) return kNone;
   const auto n = static_cast<double>(participants);

@@ -73,14 +73,6 @@ struct SignedRankTest {
 };
 [[nodiscard]] SignedRankTest signed_rank_test(std::span<const double> a, std::span<const double> b);
 
-/// Kolmogorov and Smirnov's test of whether values in [0, 1] are uniform, by the asymptotic distribution with
-/// Stephens' correction (1970).
-struct UniformityTest {
-  double distance = 0.0;  ///< D
-  double p = 1.0;
-};
-[[nodiscard]] UniformityTest uniformity_test(std::span<const double> values);
-
 /// A trial for permutation_test().
 struct TrialValue {
   int participant = 0;  ///< from 0, without gaps

@@ -47,7 +47,7 @@ class GridAxis final : public Constraint {
   void reset() noexcept override { caught_ = false; }
   void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override;
 
-  /// The axis that leads: 0, 1 or 2.
+  /// The axis that leads: 0, 1 or 2. Tests hold the rule of changing over to its landmarks, by this.
   [[nodiscard]] int leading() const noexcept { return leading_; }
   /// q [m] in the grid.
   [[nodiscard]] const Vec3& position() const noexcept { return at_; }

@@ -117,12 +117,6 @@ std::vector<Pane> panes_of(const SlicePanes& panes, int width, int height) {
           {SlicePlane::kSagittal, left + kGap, top + kGap, right, bottom}};
 }
 
-SlicePanes panes_about(const Box& bounds) {
-  SlicePanes panes;
-  panes.cross = panes.center = bounds.center();
-  return panes;
-}
-
 Vec3 normal_of(const SlicePanes& panes, SlicePlane plane) noexcept {
   return glm::mat3_cast(panes.turn)[static_cast<int>(plane)];
 }

@@ -27,9 +27,6 @@ struct Pane {
 /// axial and the volume above, coronal and sagittal below.
 [[nodiscard]] std::vector<Pane> panes_of(const SlicePanes& panes, int width, int height);
 
-/// Panes that show all of `bounds`, through its middle.
-[[nodiscard]] SlicePanes panes_about(const Box& bounds);
-
 /// The normal of a plane, unit: (1) of slice_view.h.
 [[nodiscard]] Vec3 normal_of(const SlicePanes& panes, SlicePlane plane) noexcept;
 

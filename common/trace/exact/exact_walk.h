@@ -25,7 +25,8 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] bool start(const Vec3& seed) override;
   [[nodiscard]] std::optional<End> advance() override;
   [[nodiscard]] LinePoint at(double theta) const override;
-  /// Pieces that took the robust path, and cells that took it with twice the digits, for reports.
+  /// Pieces that took the robust path, and cells that took it with twice the digits. Tests see by these which path
+  /// a line took: both give the same line.
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
   [[nodiscard]] std::int64_t long_cells() const noexcept { return long_cells_; }
 

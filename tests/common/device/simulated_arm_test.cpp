@@ -97,7 +97,8 @@ TEST(SimulatedArm, KeepsItsEnergyBalanced) {
       }
       const ArmEnergy& e = arm.energy();
       const double in = e.motors + e.pushes + e.hand;
-      const double out = e.viscous + e.friction + arm.kinetic() + arm.stored();
+      const double kinetic = 0.5 * (profile.mass + hand.mass) * glm::dot(arm.velocity(), arm.velocity());
+      const double out = e.viscous + e.friction + kinetic + arm.stored();
       EXPECT_NEAR(in, out, 1e-10 * (turned_over + std::abs(in))) << profile.name << " " << hand.stiffness;
       EXPECT_GE(e.viscous, 0.0);
       EXPECT_GE(e.friction, 0.0);

@@ -10,6 +10,7 @@
 
 #include "common/study/distributions.h"
 #include "common/study/random_stream.h"
+#include "tests/support/uniformity.h"
 
 namespace palpate::test {
 namespace {

@@ -21,6 +21,7 @@
 #include "common/study/study_folder.h"
 #include "common/study/trial_run.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/uniformity.h"
 
 namespace palpate::test {
 namespace {

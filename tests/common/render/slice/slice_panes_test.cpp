@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/render/lens/lens.h"
+#include "tests/support/panes_about.h"
 
 namespace palpate {
 namespace {
@@ -31,7 +32,7 @@ SceneView scene_of(const Index3& points, const Vec3& spacing) {
   scene.bounds = image->bounds();
   scene.anatomical = true;
   scene.volume.emplace().image = image;
-  scene.volume->panes = panes_about(scene.bounds);
+  scene.volume->panes = test::panes_about(scene.bounds);
   scene.volume->panes.layout = 4;
   return scene;
 }

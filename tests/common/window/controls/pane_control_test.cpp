@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/panes_about.h"
+
 namespace palpate {
 namespace {
 
@@ -28,7 +30,7 @@ class PaneControlTest : public testing::Test {
     scene_.bounds = image->bounds();
     scene_.anatomical = true;
     scene_.volume.emplace().image = image;
-    panes() = panes_about(scene_.bounds);
+    panes() = test::panes_about(scene_.bounds);
     panes().layout = 4;
   }
 
