@@ -8,7 +8,7 @@ self=$(cd "$(dirname "$0")" && pwd)/$(basename "$0")
 cd "$(dirname "$0")/.."
 . scripts/packages.sh
 
-rows="gcc clang asan tsan minimal packages"
+rows="gcc clang clang-newest asan tsan minimal packages"
 wanted=${*:-$rows}
 for row in $wanted; do
   case " $rows " in
@@ -23,12 +23,21 @@ tested() {
 }
 
 run_gcc() { ./test; }
-run_clang() {
-  cmake -S . -B build/matrix/clang -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
-    -DPALPATE_WARNINGS_AS_ERRORS=ON -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_C_COMPILER=clang
-  cmake --build build/matrix/clang
-  tested ctest --test-dir build/matrix/clang -LE "tidy|style" --output-on-failure
+# built_by_clang ROW SUFFIX: everything, by clang++SUFFIX.
+built_by_clang() {
+  cmake -S . -B "build/matrix/$1" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+    -DPALPATE_WARNINGS_AS_ERRORS=ON -DCMAKE_CXX_COMPILER="clang++$2" -DCMAKE_C_COMPILER="clang$2"
+  cmake --build "build/matrix/$1"
+  tested ctest --test-dir "build/matrix/$1" -LE "tidy|style" --output-on-failure
 }
+run_clang() { built_by_clang clang ""; }
+# The newest one that is packaged for the system: clang-19 in Debian 12 (apt-get install clang-19).
+newest_clang() {
+  for version in 21 20 19 18 17 16 15; do
+    if command -v "clang++-$version" >/dev/null 2>&1; then echo "$version"; return; fi
+  done
+}
+run_clang_newest() { built_by_clang clang-newest "-$(newest_clang)"; }
 run_asan() {
   cmake --preset asan && cmake --build build/asan --target fast_tests
   tested ctest --preset asan
@@ -57,17 +66,22 @@ run_packages() {
 
 mkdir -p build/matrix
 if [ -n "${PALPATE_MATRIX_ROW:-}" ]; then
-  "run_$PALPATE_MATRIX_ROW"
+  "run_$(echo "$PALPATE_MATRIX_ROW" | tr - _)"
   exit 0
 fi
 summary=""
 failed=0
 for row in $wanted; do
+  if [ "$row" = clang-newest ] && [ -z "$(newest_clang)" ]; then
+    summary="$summary$(printf '%-14s%s' "$row" "left out: no clang++-19 is installed")
+"
+    continue
+  fi
   say "Row $row: build/matrix/$row.log"
   start=$(date +%s)
   # A shell of its own: -e does not hold within a condition.
   if PALPATE_MATRIX_ROW=$row "$self" >"build/matrix/$row.log" 2>&1; then result=passed; else result=FAILED; failed=1; fi
-  summary="$summary$(printf '%-10s%-8s%6d s' "$row" "$result" "$(($(date +%s) - start))")
+  summary="$summary$(printf '%-14s%-8s%6d s' "$row" "$result" "$(($(date +%s) - start))")
 "
 done
 printf '\n%s, %s\n%s' "$(uname -sm)" "$(. /etc/os-release && echo "$PRETTY_NAME")" "$summary"
