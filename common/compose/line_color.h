@@ -17,8 +17,8 @@ namespace palpate {
 struct LineColor {
   ColorBy by = ColorBy::kSpeed;
   std::optional<Measure> measure;  ///< with ColorBy::kArray
-  std::optional<ScalarChoice>
-      array;  ///< with ColorBy::kArray; the magnitude of an array of several components
+  /// With ColorBy::kArray; the magnitude of an array of several components.
+  std::optional<ScalarChoice> array;
   std::string name;
 };
 

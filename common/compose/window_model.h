@@ -64,8 +64,8 @@ struct SceneState {
   std::shared_ptr<const ScalarField> haptic_scalar;  ///< what modes of a scalar feel; null: the speed, if any
   std::shared_ptr<const TensorField> haptic_tensor;  ///< fibres that the hand feels; null: none
   std::string haptic_scalar_key;                     ///< tells it from other scalars of the same field
-  std::shared_ptr<const LineArray>
-      color_array;  ///< what the document colours the lines by, where that is no quantity of theirs
+  /// What the document colours the lines by, where that is no quantity of theirs.
+  std::shared_ptr<const LineArray> color_array;
   std::vector<SurfaceView> surfaces;      ///< drawn with the lines
   std::optional<ColorLens> color_lens;    ///< where the document has one
   std::optional<VolumeView> volume;       ///< in place of lines, or of a flow around them

@@ -16,8 +16,8 @@ namespace palpate {
 struct ValueHistogram {
   double lower = 0.0;
   double upper = 0.0;
-  std::vector<std::uint64_t>
-      counts;               ///< n_i, bins of equal width; a value on a border counts for the upper bin
+  /// n_i, bins of equal width; a value on a border counts for the upper bin.
+  std::vector<std::uint64_t> counts;
   std::uint64_t total = 0;  ///< of finite values
 
   /// s_i. @pre bin < counts.size().

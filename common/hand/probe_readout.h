@@ -27,8 +27,8 @@ struct ProbeReadout {
   std::optional<Mat3> tensor;    ///< at the proxy, of an image of tensors; none where there is none
   std::optional<double> scalar;  ///< at the proxy, of the scalar that is felt; none outside the data
   std::string scalar_name;       ///< empty where none is felt
-  std::optional<double>
-      noise;       ///< there, where it is felt as a texture, as a part of the range of the values
+  /// There, where it is felt as a texture, as a part of the range of the values.
+  std::optional<double> noise;
   int popped = 0;  ///< times that the hand has gone over to another line, or through a surface
   double residual = 0.0;
   double force = 0.0;    ///< [N]

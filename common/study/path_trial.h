@@ -29,8 +29,8 @@ struct PathStimulus {
   Mat3 view{1.0};     ///< columns right, up, towards the viewer
   Box bounds;
   std::shared_ptr<const std::vector<Line>> lines;  ///< the global view; null: none
-  std::shared_ptr<const VectorField>
-      field;  ///< whose streamline the path is, in metres; null: it is a polyline
+  /// Whose streamline the path is, in metres; null: it is a polyline.
+  std::shared_ptr<const VectorField> field;
 };
 
 /// The point of a polyline nearest to `x`.

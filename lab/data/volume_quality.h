@@ -32,8 +32,8 @@ struct TableTime {
   int lengths = 0;
   double printed_gpu = 0.0, printed_cpu = 0.0;  ///< [ms]
   double milliseconds = 0.0;                    ///< by the processor
-  std::optional<double>
-      compute_ms;  ///< by a compute shader; absent on a software rasteriser, which is slow at it
+  /// By a compute shader; absent on a software rasteriser, which is slow at it.
+  std::optional<double> compute_ms;
 };
 
 /// A row of table 5.3 (FocusTable).

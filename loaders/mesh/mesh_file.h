@@ -11,8 +11,8 @@ namespace palpate {
 
 struct MeshFile {
   std::vector<double> times;  ///< rising; none for a single state
-  std::vector<std::vector<DataSet>>
-      steps;  ///< the blocks at each time, with all arrays; one for a single state
+  /// The blocks at each time, with all arrays; one for a single state.
+  std::vector<std::vector<DataSet>> steps;
   std::vector<std::string> notes;
 };
 

@@ -42,8 +42,8 @@ class CsvReader {
 
   LineReader lines_;
   std::vector<std::string> names_;
-  std::vector<std::size_t>
-      columns_;  ///< where each name stands; kMissing for an optional one that is not there
+  /// Where each name stands; kMissing for an optional one that is not there.
+  std::vector<std::size_t> columns_;
   std::string header_;
   std::vector<std::string> header_names_;  ///< a field of each row
 };

@@ -43,8 +43,8 @@ class GivenValues {
   std::size_t components_;
   std::vector<std::uint32_t> counts_;  ///< of values at each point; empty where there are none
   std::vector<double> values_;
-  std::vector<std::uint32_t>
-      sliding_;              ///< for each point, which of the next is its own; empty where none slides
+  /// For each point, which of the next is its own; empty where none slides.
+  std::vector<std::uint32_t> sliding_;
   std::vector<Mat3> along_;  ///< takes away what goes through; the first does not
 };
 

@@ -28,8 +28,8 @@ namespace palpate {
 struct WallAxis {
   Vec3 middle{0.0};     ///< of the opening of the left cavity, data coordinates
   Vec3 direction{0.0};  ///< unit, from apex to base
-  std::vector<std::uint32_t>
-      apex;  ///< points of the grid through the wall, from the inner to the outer surface
+  /// Points of the grid through the wall, from the inner to the outer surface.
+  std::vector<std::uint32_t> apex;
   std::vector<double> potential;  ///< 0 at the apex, 1 at the base: psi_ab of Bayer et al. 2012
 };
 

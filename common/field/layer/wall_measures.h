@@ -21,9 +21,9 @@ namespace palpate {
 struct WallMeasures {
   /// monotone_share().
   double monotone = 0.0;
-  std::vector<double>
-      thickness;  ///< of the wall through each point of the grid, along the gradient of the depth;
-                  ///< NaN where there is no depth; data units
+  /// Of the wall through each point of the grid, along the gradient of the depth; NaN where there is no depth;
+  /// data units.
+  std::vector<double> thickness;
   /// @name Over the points of the inner surfaces; data units
   /// @{
   double thinnest = 0.0;

@@ -19,8 +19,8 @@ struct WallStairs {
   static constexpr std::int32_t kOutside = -1, kRim = -2;
 
   double step = 0.0;  ///< longest edge of a voxel, frame L
-  std::vector<std::int32_t>
-      beside;  ///< of each triangle: the cavity that it borders, kOutside, or kRim: a cut of the wall
+  /// Of each triangle: the cavity that it borders, kOutside, or kRim: a cut of the wall.
+  std::vector<std::int32_t> beside;
   std::vector<Vec3> areas;  ///< of each triangle: what it stands for, as WallBorder::areas
 };
 

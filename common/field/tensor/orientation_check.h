@@ -88,9 +88,9 @@ struct Orientation {
 
 struct OrientationVerdict {
   Orientation best;  ///< the frame that would be right, and the turn behind the one that was taken
-  std::string
-      advice;         ///< the options that say so, "--vectors scanner --flip k"; empty: nothing is suspicious
-  double gain = 1.0;  ///< (1 + s(best)) / (1 + s(as taken))
+  /// The options that say so, "--vectors scanner --flip k"; empty: nothing is suspicious.
+  std::string advice;
+  double gain = 1.0;        ///< (1 + s(best)) / (1 + s(as taken))
   bool suspicious = false;  ///< the best is clearly_better() than what was taken
   bool rotated = false;  ///< suspicious, and a rotation by 10 degrees behind the best is clearly better still
 };

@@ -37,10 +37,9 @@ class Loader {
 
 /// What a helper program does with a request.
 struct Service {
-  /// @param arrays the memory of the request. @param memory gets the arrays of the answer.
+  /// Gets the JSON of the request, the memory of its arrays, and the memory for the arrays of the answer.
   /// @return the JSON of the answer. @throws Error, and whatever else: the explorer gets it as a failure.
-  std::function<std::string(std::string_view json, std::span<const std::byte> arrays, MemoryFile& memory)>
-      answer;
+  std::function<std::string(std::string_view, std::span<const std::byte>, MemoryFile&)> answer;
   std::string subject;  ///< a file, for messages that come from below any reader
 };
 

@@ -23,8 +23,8 @@ struct TensorGrid {
   std::size_t step_y = 0, step_z = 0;
   double scale = 1.0;   ///< of the tensors, a power of two
   bool turned = false;  ///< or sheared
-  std::array<std::array<double, 3>, 3>
-      axes{};  ///< where turned: products with places are coordinates along the axes
+  /// Where turned: products with places are coordinates along the axes.
+  std::array<std::array<double, 3>, 3> axes{};
   std::array<double, 3> origin{}, per_length{};
   std::array<double, 3> top{};        ///< index of the last point along each axis
   std::array<double, 3> last_cell{};  ///< top - 1

@@ -78,8 +78,8 @@ class Steps {
 struct Run {
   double sign = 1.0, from = 0.0, until = 0.0;
   std::vector<double> releases;
-  std::vector<std::size_t>
-      steps;  ///< from the one at or before to the one at or behind, and those that slopes need
+  /// From the one at or before to the one at or behind, and those that slopes need.
+  std::vector<std::size_t> steps;
 
   /// Every second step of those that are needed; empty where none can be left out.
   [[nodiscard]] std::vector<std::size_t> half(std::span<const double> times) const {

@@ -52,8 +52,8 @@ struct UnsteadyOptions {
   LineKind kind = LineKind::kPathlines;  ///< no streamlines
   TimeOrder order = TimeOrder::kLinear;
   double from = 0.0;  ///< the first release
-  std::optional<double>
-      until;  ///< when the lines end or are seen; absent: at the last step (backward: at the first)
+  /// When the lines end or are seen; absent: at the last step (backward: at the first).
+  std::optional<double> until;
   /// Between releases; 0: one release, of streaklines one each 1/64 of the time from `from` to `until`.
   double every = 0.0;
   /// One direction, no `step`, and dp54 or no integrator. A `max_time` is the age of a particle.

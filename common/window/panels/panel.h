@@ -30,8 +30,8 @@ struct PanelState {
   SeedChoice seeds;                   ///< edited; goes into the document
   PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
-  std::string
-      error;  ///< what went wrong last, until it is closed or what it was of goes well; empty: nothing
+  /// What went wrong last, until it is closed or what it was of goes well; empty: nothing.
+  std::string error;
   bool error_of_job = false;           ///< of what was read or made
   std::set<std::string> closed_notes;  ///< of the scene, that are no banners any more
   bool show_help = false;

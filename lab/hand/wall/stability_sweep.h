@@ -48,8 +48,8 @@ struct WallStability {
   std::vector<StiffnessSweep> sweeps;
   std::vector<DeviceRow> devices;
   std::vector<LedgerRow> ledger;
-  std::vector<StabilityCase>
-      cases;  ///< rows of the stability table: what the bench and the controller promise
+  /// Rows of the stability table: what the bench and the controller promise.
+  std::vector<StabilityCase> cases;
 };
 
 /// Takes a few seconds, and needs no data: all of it is simulated. The ledger and the cases are those of the

@@ -159,8 +159,8 @@ class DecomposedReader : public Loader {
   std::vector<fs::path> folders_;
   std::function<std::unique_ptr<Loader>()> make_case_;
   std::vector<Part> parts_;
-  std::vector<std::vector<std::size_t>>
-      steps_;  ///< of each part, at each common time; empty for single states
+  /// Of each part, at each common time; empty for single states.
+  std::vector<std::vector<std::size_t>> steps_;
 };
 
 /// Whether the cells have one value: "internalField uniform …".
