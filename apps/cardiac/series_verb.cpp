@@ -47,8 +47,6 @@ std::vector<Vec3> places_of(const Document& options) {
   return places;
 }
 
-std::string number_or_nothing(double value) { return std::isfinite(value) ? exact_number(value) : "nan"; }
-
 void write_csv(const std::filesystem::path& path, const SeriesSummary& summary, bool overwrite) {
   OutputFile file(path, overwrite);
   file.write("time,place,x,y,z," + summary.value + "\n");
@@ -56,7 +54,7 @@ void write_csv(const std::filesystem::path& path, const SeriesSummary& summary, 
     for (std::size_t p = 0; p < summary.places.size(); ++p) {
       const Vec3& x = summary.places[p];
       file.write(exact_number(summary.times[t]) + "," + std::to_string(p) + "," + exact_text(x) + "," +
-                 number_or_nothing(summary.values[t * summary.places.size() + p]) + "\n");
+                 csv_number(summary.values[t * summary.places.size() + p]) + "\n");
     }
   }
   file.finish();

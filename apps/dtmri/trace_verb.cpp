@@ -5,6 +5,7 @@
 #include "apps/dtmri/tract_request.h"
 #include "apps/dtmri/tract_table.h"
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -17,15 +18,11 @@
 namespace palpate {
 namespace {
 
-std::size_t count_of(const TractResult& result, End end) {
-  return result.end_counts[static_cast<std::size_t>(end)];
-}
-
 std::vector<std::string> advice_for(const TractSummary& summary) {
   std::vector<std::string> advice;
   const TractResult& result = summary.result;
   const auto add = [&](End end, const std::string& what) {
-    const std::size_t count = count_of(result, end);
+    const std::size_t count = result.end_counts[as_size(end)];
     if (count > 0) advice.push_back(counted(count, "end") + " by " + std::string(name_of(end)) + ": " + what);
   };
   add(End::kMaxLength, "--max-length above " + short_number(result.max_length) + " follows them further");
@@ -63,7 +60,7 @@ std::string summary_text(const TractSummary& summary) {
   text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
   std::string ends;
   for (int e = 0; e < kEndCount; ++e) {
-    const std::size_t count = count_of(result, static_cast<End>(e));
+    const std::size_t count = result.end_counts[as_size(e)];
     if (count > 0) {
       ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
               std::to_string(count);

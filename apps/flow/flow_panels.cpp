@@ -52,13 +52,6 @@ void draw_lines(PanelState& state, const SceneState& scene) {
   }
 }
 
-/// As `--volume` has them.
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ",") + name;
-  return text;
-}
-
 /// Of the volume of a flow, in whose place its hand may feel something else.
 std::optional<double> seen_at_probe(const PanelState& state, const VolumeView& volume) {
   if (state.touch == nullptr || !state.touch->readout().held) return std::nullopt;
@@ -104,7 +97,7 @@ void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<
     for (const std::string_view name : split(settings.scalar, ',')) volumes.emplace_back(name);
   }
   choose_flow_volume(settings, *scene.info, volumes);
-  settings.scalar = joined(volumes);
+  settings.scalar = joined(volumes, ",");
   if (!volume || volumes.empty()) return;
   edit_setting("show-volume", volume->shown);
   draw_values_at_probe(state, scene.volume_label, *volume);
@@ -113,7 +106,7 @@ void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<
                          seen_at_probe(state, *volume), *volume, actions);
   volumes.resize(1);
   volumes.insert(volumes.end(), beside.begin(), beside.end());
-  settings.scalar = joined(volumes);
+  settings.scalar = joined(volumes, ",");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "common/compose/lines_of_flow.h"
 #include "common/compose/trace_options.h"
 #include "common/load/write/write_lines.h"
+#include "common/math/vec_text.h"
 #include "common/scene/seeds.h"
 
 namespace palpate {
@@ -21,16 +22,8 @@ namespace {
 constexpr double kDefaultDiagonals = 10.0;  // --max-length where it is not given (trace.h)
 constexpr std::size_t kMostSeedsNamed = 5;
 
-std::string position_text(const Vec3& x) {
-  return "(" + short_number(x.x) + ", " + short_number(x.y) + ", " + short_number(x.z) + ")";
-}
-
 std::string bounds_text(const Box& box) {
   return position_text(box.lower) + " to " + position_text(box.upper);
-}
-
-std::size_t count_of(const TraceResult& result, End end) {
-  return result.ends[static_cast<std::size_t>(end)];
 }
 
 /// What to change where lines ended by a limit or by the data.
@@ -38,7 +31,7 @@ std::vector<std::string> advice_for(const TraceSummary& summary) {
   std::vector<std::string> advice;
   const TraceResult& result = summary.result;
   const auto add = [&](End end, const std::string& what) {
-    const std::size_t count = count_of(result, end);
+    const std::size_t count = result.ends[as_size(end)];
     if (count > 0)
       advice.push_back(counted(count, "line") + " ended by " + std::string(name_of(end)) + ": " + what);
   };
@@ -72,20 +65,20 @@ std::string failure_of(const TraceSummary& summary, const VectorField& field) {
   const bool any = std::any_of(result.lines.begin(), result.lines.end(),
                                [](const Line& line) { return line.points.size() > 1; });
   const bool in_time = summary.kind == LineKind::kStreaklines || summary.kind == LineKind::kTimelines;
-  if (any || (in_time && count_of(result, End::kEndOfTime) > 0)) return {};
+  if (any || (in_time && result.ends[as_size(End::kEndOfTime)] > 0)) return {};
   if (field.max_speed() == 0.0 && field.notes().bad_values > 0)
     return "no line: field " + summary.field +
            " has no value but zero that is a number; try another --field or --time";
   if (field.max_speed() == 0.0)
     return "no line: field " + summary.field + " is zero everywhere; try another --field";
-  if (count_of(result, End::kBadData) == result.lines.size()) {
+  if (result.ends[as_size(End::kBadData)] == result.lines.size()) {
     return "no line: every seed lies where the data is NaN, infinite or blanked; choose other --seeds";
   }
-  if (count_of(result, End::kLeftDomain) == result.lines.size())
+  if (result.ends[as_size(End::kLeftDomain)] == result.lines.size())
     return "no line: every seed lies on the border, where the flow leaves; choose other --seeds, or --direction both";
   return "no line: the field does not move any seed (stagnation " +
-         std::to_string(count_of(result, End::kStagnation)) + ", bad_data " +
-         std::to_string(count_of(result, End::kBadData)) + "); choose other --seeds";
+         std::to_string(result.ends[as_size(End::kStagnation)]) + ", bad_data " +
+         std::to_string(result.ends[as_size(End::kBadData)]) + "); choose other --seeds";
 }
 
 std::string summary_text(const TraceSummary& summary) {

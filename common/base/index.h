@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
 namespace palpate {
@@ -14,6 +15,11 @@ concept Countable = std::is_integral_v<T> || std::is_enum_v<T>;
 template <Countable T>
 [[nodiscard, gnu::always_inline]] constexpr std::size_t as_size(T value) noexcept {
   return static_cast<std::size_t>(value);
+}
+
+/// Two numbers as one, whichever of them comes first.
+[[nodiscard]] constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) noexcept {
+  return (std::uint64_t{a < b ? a : b} << 32U) | (a < b ? b : a);
 }
 
 }  // namespace palpate

@@ -18,4 +18,12 @@ namespace palpate {
   return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 
+/// The one in the middle, of two the larger one; NaN where there are none. @pre none is NaN.
+[[nodiscard]] inline double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace palpate

@@ -24,6 +24,8 @@ std::string exact_number(double value) {
   return error == std::errc() ? std::string(text.data(), end) : short_number(value);
 }
 
+std::string csv_number(double value) { return std::isfinite(value) ? exact_number(value) : "nan"; }
+
 std::string bytes_text(std::uint64_t bytes) {
   constexpr std::array<const char*, 5> kUnits{"B", "kB", "MB", "GB", "TB"};
   double value = static_cast<double>(bytes);
@@ -69,6 +71,15 @@ std::vector<std::string_view> words(std::string_view text) {
     first = text.find_first_not_of(kBlank, end);
   }
   return parts;
+}
+
+std::string joined(const std::vector<std::string>& parts, std::string_view separator) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (&part != &parts.front()) text += separator;
+    text += part;
+  }
+  return text;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

@@ -21,11 +21,15 @@ namespace palpate {
 [[nodiscard]] std::string short_number(double value);
 /// As few digits as give the same number back.
 [[nodiscard]] std::string exact_number(double value);
+/// The same in a cell of a table: "nan" where it is not finite.
+[[nodiscard]] std::string csv_number(double value);
 /// "2.7 MB"
 [[nodiscard]] std::string bytes_text(std::uint64_t bytes);
 /// "1 line", "3 lines"
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun);
 
+/// Of the "C" locale: a space, a tab, or an end of line, page or column.
+[[nodiscard]] constexpr bool is_blank(char c) noexcept { return c == ' ' || (c >= '\t' && c <= '\r'); }
 /// Without blanks and line ends around it.
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
@@ -50,6 +54,9 @@ template <typename T>
 
 /// The parts between separators, empty ones included.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// Their opposite.
+[[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view separator);
 
 /// The index of `word`. @param what the words name: "colour". @throws Error (usage) that lists the known
 /// ones.

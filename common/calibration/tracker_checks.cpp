@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/quantile.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -65,13 +66,6 @@ constexpr std::array kSlips{Slip{"the reported positions look like millimetres",
                                    row.reported.orientation = glm::conjugate(row.reported.orientation);
                                    return row;
                                  }}};
-
-/// @pre not empty.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Half of the measurements are no worse than that [m], or [rad].
 double median_error(const std::vector<TrackerMeasurement>& rows, const Slip* slip, bool turns) {

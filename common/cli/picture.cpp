@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/base/files/output_file.h"
+#include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
@@ -26,11 +27,6 @@ namespace {
 
 constexpr int kOversampling = 3;  // samples along each edge of a pixel of the converged picture
 constexpr int kFramesForJson = 5;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0.0 : values[values.size() / 2];
-}
 
 /// Root mean square difference of colours, of full scale, between a picture and the mean of squares of
 /// `oversampling` x `oversampling` pixels of a larger one.

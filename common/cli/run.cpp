@@ -18,7 +18,7 @@
 namespace palpate {
 namespace {
 
-std::string joined(const std::string& program, const std::vector<std::string>& arguments) {
+std::string command_text(const std::string& program, const std::vector<std::string>& arguments) {
   std::string line = program;
   for (const std::string& argument : arguments) {
     const bool plain = !argument.empty() && argument.find_first_of(" \t\"'$&|;<>()*?\\") == std::string::npos;
@@ -138,7 +138,7 @@ int run_explorer(const Explorer& explorer, int argc, char** argv) {
   Progress progress;
   InterruptGuard interrupt(progress, explorer.name);
   const ProgressBar bar(progress, common.quiet);
-  const VerbContext context{explorer, progress, interrupt, console, joined(explorer.name, arguments)};
+  const VerbContext context{explorer, progress, interrupt, console, command_text(explorer.name, arguments)};
   return static_cast<int>(run_verb(*parsed.verb, parsed.options, context));
 }
 

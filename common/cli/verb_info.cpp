@@ -12,6 +12,7 @@
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_surface.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
@@ -21,12 +22,6 @@ bool is_tensor_slice(const Input& input, FieldKind kind) {
   return kind == FieldKind::kTensor && input.file() != nullptr && !input.not_volume().empty() &&
          !input.fields().empty() && !input.file()->blocks.empty() &&
          input.file()->blocks.front().grid == "uniform";
-}
-
-std::string position_text(const Vec3& x) {
-  // No "-0" for what is turned around.
-  return "(" + short_number(x.x + 0.0) + ", " + short_number(x.y + 0.0) + ", " + short_number(x.z + 0.0) +
-         ")";
 }
 
 /// Ranges of all components over fixed pieces of an array: minima, maxima and counts do not depend on how the

@@ -89,7 +89,7 @@ std::optional<ScreenCircle> circle_of(std::string_view text, const std::string& 
   return ScreenCircle{.x = v[0], .y = v[1], .radius = v[2]};
 }
 
-std::string joined(std::initializer_list<double> numbers) {
+std::string numbers_text(std::initializer_list<double> numbers) {
   std::string text;
   for (const double number : numbers)
     text += (text.empty() ? "" : ",") + exact_number(number + 0.0);  // no -0
@@ -116,12 +116,12 @@ std::optional<std::string> shape_text(const ConvexShape& shape) {
     // M = (I - a a^T) / r; the ends stand on the faces, whose normals are a and -a.
     const Vec3 &from = shape.quadric->center, &axis = faces[0].outward;
     const Vec3 to = from + (faces[0].offset - glm::dot(axis, from)) * axis;
-    return "cylinder:" +
-           joined({from.x, from.y, from.z, to.x, to.y, to.z, 2.0 / trace(shape.quadric->unit_from_data)});
+    return "cylinder:" + numbers_text({from.x, from.y, from.z, to.x, to.y, to.z,
+                                       2.0 / trace(shape.quadric->unit_from_data)});
   }
   if (is_half_space(shape)) {
     const Vec3 n = -faces[0].outward;
-    return "halfspace:" + joined({n.x, n.y, n.z, -faces[0].offset});
+    return "halfspace:" + numbers_text({n.x, n.y, n.z, -faces[0].offset});
   }
   if (!shape.quadric && faces.size() == 6) {
     Vec3 lower{0.0}, upper{0.0};
@@ -136,12 +136,13 @@ std::optional<std::string> shape_text(const ConvexShape& shape) {
       lower[axis] = std::min(a, b);
       upper[axis] = std::max(a, b);
     }
-    if (upright) return "box:" + joined({lower.x, lower.y, lower.z, upper.x, upper.y, upper.z});
+    if (upright) return "box:" + numbers_text({lower.x, lower.y, lower.z, upper.x, upper.y, upper.z});
   }
   if (shape.quadric || faces.size() < 2) return std::nullopt;
   std::string text;
   for (const ConvexShape::HalfSpace& h : faces) {
-    text += (text.empty() ? "polyhedron:" : ",") + joined({h.outward.x, h.outward.y, h.outward.z, h.offset});
+    text += (text.empty() ? "polyhedron:" : ",") +
+            numbers_text({h.outward.x, h.outward.y, h.outward.z, h.offset});
   }
   return text;
 }
@@ -226,7 +227,7 @@ LensSpec parse_lens(const std::string& text) {
 
 std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   const auto& circle = lens.screen;
-  auto text = circle ? std::optional("screen:" + joined({circle->x, circle->y, circle->radius}))
+  auto text = circle ? std::optional("screen:" + numbers_text({circle->x, circle->y, circle->radius}))
                      : shape_text(lens.shape);
   if (!text) return text;
   if (lens.cut) return *text + ",cut";
@@ -245,7 +246,7 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
 }
 
 std::string sphere_text(const Vec3& center, double radius) {
-  return "sphere:" + joined({center.x, center.y, center.z, radius});
+  return "sphere:" + numbers_text({center.x, center.y, center.z, radius});
 }
 
 std::vector<std::string> lens_texts(const VolumeView& view) {

@@ -5,18 +5,11 @@
 
 #include "common/base/check.h"
 #include "common/base/index.h"
+#include "common/base/read_as.h"
 #include "common/math/lattice.h"
 
 namespace palpate {
 namespace {
-
-/// One number of type T at byte `offset`; the bytes need no alignment.
-template <typename T>
-double read_as(std::span<const std::byte> bytes, std::size_t index) noexcept {
-  T value;
-  std::memcpy(&value, bytes.data() + index * sizeof(T), sizeof(T));
-  return static_cast<double>(value);
-}
 
 template <typename T>
 DataArray copy_array(std::string name, Association association, int components, ScalarType type,
@@ -96,23 +89,23 @@ double DataArray::at(std::size_t tuple, int component) const noexcept {
   const std::size_t index = tuple * as_size(components) + as_size(component);
   switch (type) {
     case ScalarType::kInt8:
-      return read_as<std::int8_t>(bytes, index);
+      return static_cast<double>(read_as<std::int8_t>(bytes, index));
     case ScalarType::kUint8:
-      return read_as<std::uint8_t>(bytes, index);
+      return static_cast<double>(read_as<std::uint8_t>(bytes, index));
     case ScalarType::kInt16:
-      return read_as<std::int16_t>(bytes, index);
+      return static_cast<double>(read_as<std::int16_t>(bytes, index));
     case ScalarType::kUint16:
-      return read_as<std::uint16_t>(bytes, index);
+      return static_cast<double>(read_as<std::uint16_t>(bytes, index));
     case ScalarType::kInt32:
-      return read_as<std::int32_t>(bytes, index);
+      return static_cast<double>(read_as<std::int32_t>(bytes, index));
     case ScalarType::kUint32:
-      return read_as<std::uint32_t>(bytes, index);
+      return static_cast<double>(read_as<std::uint32_t>(bytes, index));
     case ScalarType::kInt64:
-      return read_as<std::int64_t>(bytes, index);
+      return static_cast<double>(read_as<std::int64_t>(bytes, index));
     case ScalarType::kUint64:
-      return read_as<std::uint64_t>(bytes, index);
+      return static_cast<double>(read_as<std::uint64_t>(bytes, index));
     case ScalarType::kFloat32:
-      return read_as<float>(bytes, index);
+      return static_cast<double>(read_as<float>(bytes, index));
     case ScalarType::kFloat64:
       return read_as<double>(bytes, index);
   }

@@ -32,6 +32,11 @@ enum class ScalarType : std::uint8_t {
   kFloat64
 };
 [[nodiscard]] std::size_t byte_size(ScalarType type) noexcept;
+/// Whether single precision would lose digits.
+[[nodiscard]] constexpr bool needs_double(ScalarType type) noexcept {
+  return type == ScalarType::kFloat64 || type == ScalarType::kInt64 || type == ScalarType::kUint64 ||
+         type == ScalarType::kInt32 || type == ScalarType::kUint32;
+}
 [[nodiscard]] const char* name_of(ScalarType type) noexcept;  ///< "float32"
 
 /// What the tuples of an array belong to.

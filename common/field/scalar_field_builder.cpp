@@ -22,12 +22,6 @@
 namespace palpate {
 namespace {
 
-/// Whether single precision would lose digits.
-bool wants_double(ScalarType type) {
-  return type == ScalarType::kFloat64 || type == ScalarType::kInt64 || type == ScalarType::kUint64 ||
-         type == ScalarType::kInt32 || type == ScalarType::kUint32;
-}
-
 [[noreturn]] void refuse_missing(const ScalarChoice& choice, const std::string& file) {
   refuse_data(file,
               "no " + std::string(choice.association == Association::kPoint ? "point" : "cell") + " array '" +
@@ -228,7 +222,7 @@ class ScalarFieldBuilder {
     bool use_double = false;
     for (const DataSet& block : used) {
       const DataArray* array = block.find(choice.array, choice.association);
-      use_double = use_double || (array != nullptr && wants_double(array->type));
+      use_double = use_double || (array != nullptr && needs_double(array->type));
     }
     const auto reader_of = [&](const std::string& name, Association association) -> TupleReader {
       const bool any = std::ranges::any_of(

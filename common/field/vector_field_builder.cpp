@@ -22,11 +22,6 @@
 namespace palpate {
 namespace {
 
-bool is_double(ScalarType type) {
-  return type == ScalarType::kFloat64 || type == ScalarType::kInt64 || type == ScalarType::kUint64 ||
-         type == ScalarType::kInt32 || type == ScalarType::kUint32;
-}
-
 /// Components that each array of a choice must have.
 std::vector<int> wanted_components(const VectorChoice& choice) {
   switch (choice.kind) {
@@ -270,7 +265,7 @@ class VectorFieldBuilder {
     for (const DataSet& block : blocks) {
       arrays.push_back(find_arrays(block, choice).arrays);
       at_boundary.push_back(find_boundary(block, choice, arrays.back()));
-      for (const DataArray* array : arrays.back()) use_double = use_double || is_double(array->type);
+      for (const DataArray* array : arrays.back()) use_double = use_double || needs_double(array->type);
     }
     const Mat3 rotation = grid.frame.rotation;
     const bool rotated = grid.frame.rotated;

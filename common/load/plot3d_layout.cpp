@@ -110,13 +110,13 @@ std::uint64_t expected_size(const Plot3dLayout& layout, Plot3dFile kind) {
 
 // ---- text ----------------------------------------------------------------------------------------------
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ','; }
+bool parts_numbers(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ','; }
 
 /// Nothing but what Fortran's numbers are written with, repeated ones ("75*0.3") included.
 bool is_numeric_text(std::string_view text) {
   static constexpr std::string_view kNumber = "0123456789+-.eEdD*";
   return std::all_of(text.begin(), text.end(),
-                     [](char c) { return is_blank(c) || kNumber.find(c) != std::string_view::npos; });
+                     [](char c) { return parts_numbers(c) || kNumber.find(c) != std::string_view::npos; });
 }
 
 /// Walks over words separated by blanks and commas.
@@ -130,9 +130,9 @@ class Words {
     std::uint64_t count = 0;
   };
   Repeated next_word() {
-    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    while (at_ < text_.size() && parts_numbers(text_[at_])) ++at_;
     const std::size_t first = at_;
-    while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+    while (at_ < text_.size() && !parts_numbers(text_[at_])) ++at_;
     const std::string_view word = text_.substr(first, at_ - first);
     const std::size_t star = word.find('*');
     if (star == std::string_view::npos) return {word, word.empty() ? std::uint64_t{0} : 1};

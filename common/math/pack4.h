@@ -5,6 +5,7 @@
 /// namespaces, with the same lanes and the same results bit for bit.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -45,6 +46,8 @@ struct Pack4 {
     return Pack4(
         _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(lanes)), _mm_loadu_pd(lanes + 2), 1));
   }
+  [[nodiscard]] static Pack4 load(const std::array<double, 4>& lanes) { return load(lanes.data()); }
+  void store(std::array<double, 4>& lanes) const { store(lanes.data()); }
   void store(double* lanes) const { _mm256_storeu_pd(lanes, v); }
 
   [[nodiscard]] double operator[](int i) const { return v[i]; }
@@ -111,6 +114,8 @@ struct Pack4 {
     return {_mm_loadu_pd(lanes), _mm_loadu_pd(lanes + 2)};
   }
   [[nodiscard]] static Pack4 load_halves(const double* lanes) { return load(lanes); }
+  [[nodiscard]] static Pack4 load(const std::array<double, 4>& lanes) { return load(lanes.data()); }
+  void store(std::array<double, 4>& lanes) const { store(lanes.data()); }
   void store(double* lanes) const {
     _mm_storeu_pd(lanes, lo);
     _mm_storeu_pd(lanes + 2, hi);

@@ -31,6 +31,15 @@ using Index3 = glm::ivec3;
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
 }
 
+/// Between two directions, in [0, pi]; 0 where one has no length.
+[[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) noexcept {
+  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+/// Between two axes, which point both ways, in [0, pi / 2].
+[[nodiscard]] inline double axis_angle(const Vec3& a, const Vec3& b) noexcept {
+  return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
+}
+
 /// Axis-aligned box; empty while lower > upper.
 struct Box {
   Vec3 lower{HUGE_VAL, HUGE_VAL, HUGE_VAL};

@@ -23,4 +23,10 @@ namespace palpate {
 }
 [[nodiscard]] inline std::string exact_text(const Vec3& v) { return exact_text({v.x, v.y, v.z}); }
 
+/// "(1, 0.5, 2)": six digits, and no "-0" for what was turned around.
+[[nodiscard]] inline std::string position_text(const Vec3& x) {
+  return "(" + short_number(x.x + 0.0) + ", " + short_number(x.y + 0.0) + ", " + short_number(x.z + 0.0) +
+         ")";
+}
+
 }  // namespace palpate

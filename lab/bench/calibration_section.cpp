@@ -39,12 +39,6 @@ std::string scatter(const std::vector<PlacedError>& errors, const std::string& q
   return svg(plot);
 }
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string out;
-  for (const std::string& part : parts) out += (out.empty() ? "" : "; ") + part;
-  return out;
-}
-
 }  // namespace
 
 ReportSection calibration_section(const FitReport& report) {
@@ -62,12 +56,12 @@ ReportSection calibration_section(const FitReport& report) {
                              std::to_string(report.degrees_of_freedom) + " degrees of freedom; " +
                              three_digits(100.0 * report.chi_square_probability) +
                              " % of correct models would have a larger one.");
-  if (!report.weak.empty()) out.paragraphs.push_back("Hardly told apart: " + joined(report.weak) + ".");
+  if (!report.weak.empty()) out.paragraphs.push_back("Hardly told apart: " + joined(report.weak, "; ") + ".");
   for (const std::string& advice : report.advice) out.paragraphs.push_back("Next: " + advice + ".");
   if (!report.outliers.empty()) {
     std::vector<std::string> rows;
     for (const std::size_t row : report.outliers) rows.push_back(std::to_string(row));
-    out.paragraphs.push_back("Rows that lie far from the fit: " + joined(rows) + ".");
+    out.paragraphs.push_back("Rows that lie far from the fit: " + joined(rows, "; ") + ".");
   }
   out.columns = {"method",  "judged on",       "quantity", "mean", "standard deviation",
                  "maximum", "less than before"};

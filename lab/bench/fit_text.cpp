@@ -6,13 +6,12 @@
 
 #include "common/base/figures.h"
 #include "common/base/text.h"
+#include "lab/page/json_number.h"
 
 namespace palpate {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
@@ -64,7 +63,7 @@ std::string fit_json(const FitReport& report, const std::string& out) {
             {"measurements", report.measurements},
             {"seconds", report.seconds},
             {"iterations", report.iterations},
-            {"condition_number", number(report.condition_number)},
+            {"condition_number", number_or_null(report.condition_number)},
             {"condition_scaling", "columns of the Jacobian scaled to unit length"}};
   Json errors = Json::array();
   for (const ErrorRow& row : report.errors) {
@@ -73,10 +72,10 @@ std::string fit_json(const FitReport& report, const std::string& out) {
                       {"unit", row.unit},
                       {"left_out", row.left_out},
                       {"count", row.errors.count},
-                      {"mean", number(row.errors.mean)},
-                      {"deviation", number(row.errors.deviation)},
-                      {"rms", number(row.errors.rms)},
-                      {"maximum", number(row.errors.maximum)}});
+                      {"mean", number_or_null(row.errors.mean)},
+                      {"deviation", number_or_null(row.errors.deviation)},
+                      {"rms", number_or_null(row.errors.rms)},
+                      {"maximum", number_or_null(row.errors.maximum)}});
   }
   json["errors"] = errors;
   if (report.chi_square) {
@@ -86,8 +85,10 @@ std::string fit_json(const FitReport& report, const std::string& out) {
   }
   Json parameters = Json::array();
   for (const FittedParameter& p : report.parameters) {
-    parameters.push_back(
-        {{"name", p.name}, {"value", number(p.value)}, {"deviation", number(p.deviation)}, {"unit", p.unit}});
+    parameters.push_back({{"name", p.name},
+                          {"value", number_or_null(p.value)},
+                          {"deviation", number_or_null(p.deviation)},
+                          {"unit", p.unit}});
   }
   json["parameters"] = parameters;
   json["weak"] = report.weak;
@@ -97,7 +98,7 @@ std::string fit_json(const FitReport& report, const std::string& out) {
   for (const WorkPrecision& row : report.work_precision) {
     work.push_back({{"method", row.method},
                     {"parameter", row.parameter},
-                    {"error", number(row.error)},
+                    {"error", number_or_null(row.error)},
                     {"error_kind", row.error_kind},
                     {"seconds", row.seconds}});
   }

@@ -32,10 +32,6 @@ constexpr double kLineDepth = 0.25;   // fibres of the ventricle run upwards the
 constexpr double kFiner = 4.0;        // the step of the reference is that much shorter than the shortest
 constexpr double kFloor = 1e-13;      // [diagonals] errors of lines below it are rounding
 
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b))) / kDegree;
-}
-
 HeartErrorRow run_resolution(const VentricleCells& cells, int threads) {
   const Ventricle shape;
   HeartErrorRow row{.cells = cells};
@@ -82,7 +78,7 @@ HeartErrorRow run_resolution(const VentricleCells& cells, int threads) {
     const auto angle = wall_angle(WallAngle::kHelix, AngleConvention::kStreeter,
                                   {.axis = axis, .transmural = sample.normal, .fibre = sample.fibre});
     if (sample.status != SampleStatus::kOk || !angle) continue;
-    const double off = angle_between(sample.fibre, shape.fibre(at));
+    const double off = axis_angle(sample.fibre, shape.fibre(at)) / kDegree;
     const double turned = std::abs(*angle - shape.helix_angle(lambda)) / kDegree;
     fibres += off * off;
     angles += turned * turned;

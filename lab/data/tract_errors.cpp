@@ -28,7 +28,7 @@ constexpr double kRounding = 1e-5;  ///< [mm] points are single: errors below me
 constexpr double kTightest = 1e-9;  ///< tolerance of the reference
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-double median(std::vector<double> values, double quantile = 0.5) {
+double value_at_part(std::vector<double> values, double quantile = 0.5) {
   if (values.empty()) return std::nan("");
   std::ranges::sort(values);
   return values[static_cast<std::size_t>(quantile * static_cast<double>(values.size() - 1))];
@@ -74,10 +74,6 @@ std::vector<std::optional<Vec3>> ends_of(const TractResult& result, std::size_t 
 Vec3 main_direction_at(const TensorField& field, const Vec3& x) {
   CellHint hint;
   return symmetric_eigen(field.sample(x, hint).value).vectors[0];
-}
-
-double angle_between(const Vec3& a, const Vec3& b) {
-  return kDegrees * std::atan2(glm::length(glm::cross(a, b)), std::abs(glm::dot(a, b)));
 }
 
 /// Where the formula's own line from `seed` ends, looking along `toward` first.
@@ -138,7 +134,7 @@ TractErrors run_bundle(const std::string& name, Effort effort, Progress* progres
         glm::distance(reference.back(), true_end(*formula, kept.back(), Vec3{line[1] - line[0]})));
   }
   errors.lines = kept.size();
-  errors.image_end = median(from_formula);
+  errors.image_end = value_at_part(from_formula);
 
   const std::vector<Setting> settings{{Integrator::kEuler, {2.0, 1.0, 0.5, 0.25, 0.1, 0.05, 0.025}},
                                       {Integrator::kRk4, {4.0, 2.0, 1.0, 0.5, 0.25, 0.1}},
@@ -154,12 +150,12 @@ TractErrors run_bundle(const std::string& name, Effort effort, Progress* progres
       for (std::size_t i = 0; i < kept.size(); ++i) {
         distances.push_back(ends[i] ? glm::distance(*ends[i], reference[i]) : kLength);
         if (!ends[i]) continue;
-        angles.push_back(
-            angle_between(main_direction_at(*field, *ends[i]), main_direction_at(*field, reference[i])));
+        angles.push_back(kDegrees * axis_angle(main_direction_at(*field, *ends[i]),
+                                               main_direction_at(*field, reference[i])));
       }
-      row.end = median(distances);
-      row.end_p95 = median(distances, 0.95);
-      row.direction = median(angles);
+      row.end = value_at_part(distances);
+      row.end_p95 = value_at_part(distances, 0.95);
+      row.direction = value_at_part(angles);
       row.seconds = timed(*field, kept, options, effort == Effort::kQuick ? 0.002 : 0.02);
       errors.rows.push_back(std::move(row));
       if (progress != nullptr) progress->check();

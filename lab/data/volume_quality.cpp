@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/render/gl/context.h"
 #include "common/render/volume/estimate/image_error.h"
@@ -30,11 +31,6 @@ std::vector<int> focus_pixels_of(Effort effort) {
 }
 
 int repeats_of(Effort effort) { return effort == Effort::kQuick ? 1 : effort == Effort::kThorough ? 9 : 5; }
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// Enlarged to `pixels` a side, linearly between the middles of pixels.
 FloatImage enlarged(const FloatImage& image, int pixels) {

@@ -27,14 +27,6 @@ std::string stroke(double x0, double y0, double x1, double y1, const char* more)
          " " + more + "/>\n";
 }
 
-double round_step(double largest) {
-  const double rough = largest / 5.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10.0 * power;
-}
-
 }  // namespace
 
 std::string svg(const IntervalPlot& plot) {
@@ -52,7 +44,7 @@ std::string svg(const IntervalPlot& plot) {
             kFills[s % kFills.size()] + "\"/>\n" + label(x + 18.0, 47.0, plot.series[s], "font-size=\"13\"");
   }
   if (upper > 0.0) {
-    const double step = round_step(upper), most = step * std::ceil(upper / step * 1.02);
+    const double step = tick_step(upper), most = step * std::ceil(upper / step * 1.02);
     const double bottom = kHigh - kBottomEdge, unit = (bottom - kTopEdge) / most;
     for (int i = 0; i * step <= most * (1.0 + 1e-9); ++i) {
       const double y = bottom - unit * i * step;

@@ -215,6 +215,14 @@ std::string svg(const LogLogPlot& plot) {
   return out + "</svg>\n";
 }
 
+double tick_step(double largest) {
+  const double rough = largest / 5.0, power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= rough) return factor * power;
+  }
+  return 10.0 * power;
+}
+
 std::string svg_number(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2f", value);

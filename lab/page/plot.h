@@ -32,6 +32,8 @@ struct LogLogPlot {
 
 /// A place in an SVG, to two decimals.
 [[nodiscard]] std::string svg_number(double value);
+/// 1, 2 or 5 times a power of ten: about five ticks up to `largest`.
+[[nodiscard]] double tick_step(double largest);
 
 /// Text with &, <, > and quotes replaced, for SVG and HTML.
 [[nodiscard]] std::string escaped(const std::string& text);

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lab/page/json_number.h"
 #include "lab/page/report.h"
 
 namespace palpate {
@@ -11,13 +12,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity; null says "not reached".
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json comparison(const LineComparison& c) {
-  return {{"median", number(c.median)},
-          {"p95", number(c.p95)},
-          {"max", number(c.max)},
+  return {{"median", number_or_null(c.median)},
+          {"p95", number_or_null(c.p95)},
+          {"max", number_or_null(c.max)},
           {"lines_judged", c.judged},
           {"lines_compared", c.compared},
           {"lines_ending_inside", c.inside},
@@ -39,21 +37,21 @@ std::string report_json(const Report& report) {
                               {"method", m.method},
                               {"parameter", m.parameter},
                               {"quantity", m.quantity},
-                              {"value", number(m.value)}});
+                              {"value", number_or_null(m.value)}});
     }
   }
   for (const WorkPrecision& row : measured) {
     rows.push_back({{"subject", row.subject},
                     {"method", row.method},
                     {"parameter", row.parameter},
-                    {"error", number(row.error)},
+                    {"error", number_or_null(row.error)},
                     {"error_kind", row.error_kind},
                     {"seconds", row.seconds}});
   }
   Json cases = Json::array();
   for (const StabilityCase& c : report.stability) {
     cases.push_back({{"case", c.row.name},
-                     {"measured", number(c.row.measured)},
+                     {"measured", number_or_null(c.row.measured)},
                      {"limit", c.row.limit},
                      {"holds", c.row.holds},
                      {"unit", c.unit},

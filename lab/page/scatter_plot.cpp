@@ -27,15 +27,6 @@ std::string words(double x, double y, const std::string& text, const char* more)
   return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" " + more + ">" + escaped(text) + "</text>\n";
 }
 
-/// 1, 2 or 5 times a power of ten: about five ticks up to `largest`.
-double tick_step(double largest) {
-  const double rough = largest / 5.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough) return factor * power;
-  }
-  return 10.0 * power;
-}
-
 }  // namespace
 
 std::string svg(const ScatterPlot& plot) {

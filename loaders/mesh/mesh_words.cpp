@@ -9,9 +9,7 @@
 namespace palpate {
 namespace {
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ',' || c == '\f' || c == '\v';
-}
+bool parts_words(char c) { return is_blank(c) || c == ','; }
 
 std::string quote(std::string_view word) { return "'" + printable(word.substr(0, 40)) + "'"; }
 
@@ -19,7 +17,7 @@ std::string quote(std::string_view word) { return "'" + printable(word.substr(0,
 
 void MeshWords::skip() {
   while (at_ < text_.size()) {
-    if (is_blank(text_[at_])) {
+    if (parts_words(text_[at_])) {
       ++at_;
     } else if (comment_ != '\0' && text_[at_] == comment_) {
       at_ = std::min(text_.size(), text_.find('\n', at_));
@@ -47,7 +45,7 @@ std::string_view MeshWords::word() {
     return out;
   }
   std::size_t end = at_;
-  while (end < text_.size() && !is_blank(text_[end]) && text_[end] != '"') ++end;
+  while (end < text_.size() && !parts_words(text_[end]) && text_[end] != '"') ++end;
   const std::string_view out = text_.substr(at_, end - at_);
   at_ = end;
   return out;

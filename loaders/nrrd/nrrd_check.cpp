@@ -397,19 +397,19 @@ std::string check_nrrd(const std::string& file) {
 namespace {
 
 /// zlib's state, ended with this.
-struct Inflater {
+struct InflateState {
   z_stream stream{};
   bool good = false;
 
-  Inflater() {
+  InflateState() {
     constexpr int kGzip = 16;
     good = inflateInit2(&stream, MAX_WBITS + kGzip) == Z_OK;
   }
-  ~Inflater() {
+  ~InflateState() {
     if (good) inflateEnd(&stream);
   }
-  Inflater(const Inflater&) = delete;
-  Inflater& operator=(const Inflater&) = delete;
+  InflateState(const InflateState&) = delete;
+  InflateState& operator=(const InflateState&) = delete;
 };
 
 }  // namespace
@@ -427,7 +427,7 @@ std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first, st
   for (std::size_t i = kTrailer; i-- > 0;) stated = stated << 8U | trailer[i];
   if (stated == static_cast<std::uint32_t>(wanted)) return {};
 
-  Inflater inflater;
+  InflateState inflater;
   if (!inflater.good) return {};
   in.seekg(static_cast<std::streamoff>(first));
   std::array<unsigned char, 1U << 16U> packed{}, unpacked{};

@@ -11,8 +11,6 @@
 namespace palpate {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
-
 constexpr std::array<std::uint8_t, 256> kBase64 = [] {
   std::array<std::uint8_t, 256> values{};
   values.fill(64);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <unordered_set>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -27,10 +29,6 @@ double flatness(std::span<const Vec3> points, const TetMesh::Tet& tet) {
       longest = std::max(longest, glm::distance(points[tet[i]], points[tet[j]]));
   const double volume = std::abs(six_volumes(points[tet[0]], points[tet[1]], points[tet[2]], points[tet[3]]));
   return area * longest > 0.0 ? volume / (area * longest) : 0.0;
-}
-
-std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
-  return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
 }
 
 /// Takes slivers off the border until there is none that may go.
@@ -74,7 +72,7 @@ class BorderPeel {
   void add_edges(std::size_t c, std::size_t f) {
     const TetMesh::Tet& tet = cells_.tets[c];
     for (std::size_t i = 0; i < 3; ++i)
-      border_.insert(edge_key(tet[kTetFaces[f][i]], tet[kTetFaces[f][(i + 1) % 3]]));
+      border_.insert(pair_key(tet[kTetFaces[f][i]], tet[kTetFaces[f][(i + 1) % 3]]));
   }
   [[nodiscard]] bool may_go(std::size_t c) const {
     if (kept_[c] == 0) return false;
@@ -85,7 +83,7 @@ class BorderPeel {
     for (std::size_t f = 0; f < 4; ++f)
       if (open(c, f)) bare[count++] = f;
     if (count != 2 || flatness(points_, cells_.tets[c]) >= kSliver) return false;
-    return border_.count(edge_key(cells_.tets[c][bare[0]], cells_.tets[c][bare[1]])) == 0;
+    return border_.count(pair_key(cells_.tets[c][bare[0]], cells_.tets[c][bare[1]])) == 0;
   }
 
   std::span<const Vec3> points_;

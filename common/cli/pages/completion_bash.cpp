@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/cli/pages/option_view.h"
 #include "common/cli/pages/pages.h"
 
@@ -11,22 +12,16 @@ namespace palpate {
 namespace {
 
 /// In single quotes of the shell.
-std::string in_quotes(std::string_view text) {
+std::string shell_quoted(std::string_view text) {
   std::string safe = "'";
   for (const char c : text) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return safe + "'";
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 /// What stands for the value: its words, and how names of files are proposed.
 std::string value_commands(const OptionView& option) {
   std::string text;
-  if (!option.words.empty()) text = "words=" + in_quotes(joined(option.words)) + " ";
+  if (!option.words.empty()) text = "words=" + shell_quoted(joined(option.words, " ")) + " ";
   if (option.proposal == Proposal::kFile) text += "names=file ";
   if (option.proposal == Proposal::kFolder) text += "names=directory ";
   return text.empty() ? ":" : text.substr(0, text.size() - 1);
@@ -117,7 +112,7 @@ std::string bash_completion(const Explorer& explorer) {
           value_of[spelling][value_commands(option)].push_back(verb.name);
       }
     }
-    options += "    " + verb.name + ") words=" + in_quotes(joined(spelled)) + " ;;\n";
+    options += "    " + verb.name + ") words=" + shell_quoted(joined(spelled, " ")) + " ;;\n";
   }
   // An option that takes the same in all verbs that have it is one pattern.
   std::map<std::string, std::vector<std::string>> values;
@@ -137,7 +132,7 @@ std::string bash_completion(const Explorer& explorer) {
     if (option.value.empty()) continue;
     std::string words(option.value);
     for (char& c : words) c = c == '|' ? ' ' : c;
-    values["words=" + in_quotes(words)].push_back("*," + std::string(option.spelling));
+    values["words=" + shell_quoted(words)].push_back("*," + std::string(option.spelling));
   }
 
   const std::string verb_or_usual = "${verb:-" + explorer.default_verb + "}";
@@ -146,10 +141,10 @@ std::string bash_completion(const Explorer& explorer) {
   text += "# Whether an option takes a value, and which.\n" + name + "_value() {\n  case " + verb_or_usual +
           ",$1 in\n" + branches(values) + "    *) return 1 ;;\n  esac\n}\n";
   text += "# The options of the verb.\n" + name + "_options() {\n  case " + verb_or_usual + " in\n" +
-          options + "  esac\n  [[ -z $verb ]] && words+=" + in_quotes(own) + "\n}\n";
+          options + "  esac\n  [[ -z $verb ]] && words+=" + shell_quoted(own) + "\n}\n";
   text += "# What stands at a place among the words without dashes.\n" + name + "_operand() {\n  case " +
           verb_or_usual + ",$1 in\n" + branches(operands) + "  esac\n}\n";
-  text += name + "() {\n  local verbs=" + in_quotes(verbs) + with_name(kBody, name);
+  text += name + "() {\n  local verbs=" + shell_quoted(verbs) + with_name(kBody, name);
   return text + "complete -F " + name + " " + installed_name(explorer) + " " + explorer.name + "\n";
 }
 

@@ -10,7 +10,7 @@ namespace palpate {
 namespace {
 
 /// In single quotes, in which fish reads \\ and \'.
-std::string in_quotes(std::string_view text) {
+std::string fish_quoted(std::string_view text) {
   std::string safe = "'";
   for (const char c : text) {
     if (c == '\'' || c == '\\') safe += '\\';
@@ -36,7 +36,7 @@ std::string value(const OptionView& option) {
   if (option.proposal == Proposal::kText) text = " -x";
   if (option.proposal == Proposal::kFile) text = " -r -F";
   if (option.proposal == Proposal::kFolder) text = " -x -a '(__fish_complete_directories)'";
-  return text + (words.empty() ? "" : " -a " + in_quotes(words));
+  return text + (words.empty() ? "" : " -a " + fish_quoted(words));
 }
 
 /// An option or operand and the verbs that take it.
@@ -63,11 +63,11 @@ std::string fish_completion(const Explorer& explorer) {
   for (const Verb& verb : explorer.verbs) {
     verbs += " " + verb.name;
     proposals += "    complete -c $program -n '" + helper + "_without_verb' -a " + verb.name + " -d " +
-                 in_quotes(verb.summary) + "\n";
+                 fish_quoted(verb.summary) + "\n";
     for (const OptionView& option : options_of(explorer, verb)) {
       std::string text;
       if (!option.operand()) {
-        text = spelled(option.spellings) + value(option) + " -d " + in_quotes(option.help);
+        text = spelled(option.spellings) + value(option) + " -d " + fish_quoted(option.help);
       } else if (option.proposal == Proposal::kFile) {
         text = " -F";
       } else {
@@ -94,7 +94,7 @@ std::string fish_completion(const Explorer& explorer) {
     std::ranges::replace(words, '|', ' ');
     text += "    complete -c $program" +
             (option.of_verbs ? std::string() : " -n '" + helper + "_without_verb'") + spelled(spellings) +
-            (words.empty() ? "" : " -x -a " + in_quotes(words)) + " -d " + in_quotes(option.help) + "\n";
+            (words.empty() ? "" : " -x -a " + fish_quoted(words)) + " -d " + fish_quoted(option.help) + "\n";
   }
   text += proposals;
   for (const Line& line : lines)

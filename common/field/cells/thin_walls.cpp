@@ -31,10 +31,6 @@ constexpr double kThrough = 0.1;
 /// Of what goes through, by how much both sides may differ in it.
 constexpr double kLeaks = 0.25;
 
-std::uint64_t pair_of(std::uint32_t a, std::uint32_t b) {
-  return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
-}
-
 std::array<std::uint32_t, 3> corners_of(const TetMesh& mesh, CellIndex cell, int face) {
   const TetMesh::Tet& v = mesh.cells()[as_size(cell)];
   const auto f = as_size(face);
@@ -254,7 +250,7 @@ ThinWalls::ThinWalls(const SplitCells& cells, const VelocityBeside& velocity, As
   }
   const auto key_of = [&](const DoubledFace& face) {
     const std::uint32_t a = search.piece(face.cell), b = search.piece(face.behind);
-    return std::pair(pair_of(a, b), a == b ? meeting.find(cells.place[face.corners[0]]) : 0U);
+    return std::pair(pair_key(a, b), a == b ? meeting.find(cells.place[face.corners[0]]) : 0U);
   };
   std::map<std::pair<std::uint64_t, std::uint32_t>, Flow> flow;
   const auto loose = [&](const DoubledFace& face) {
@@ -276,7 +272,7 @@ ThinWalls::ThinWalls(const SplitCells& cells, const VelocityBeside& velocity, As
     }
     ++wall_faces_;
     if (through) ++flowed_through_;
-    parted_.push_back(pair_of(face.cell, face.behind));
+    parted_.push_back(pair_key(face.cell, face.behind));
     if (points_.empty()) points_.assign(cells.mesh.points().size(), 0);
     for (std::size_t i = 0; i < 3; ++i) {
       if (face.corners[i] != face.twins[i]) points_[face.corners[i]] = points_[face.twins[i]] = 1;
@@ -305,7 +301,7 @@ void ThinWalls::close_faces(TetMesh& mesh, std::span<const std::uint32_t> source
       Vec3 x;
       if (behind == kNoCell) behind = behind_face(mesh, cell, face, x);
       if (behind != kNoCell &&
-          std::ranges::binary_search(parted_, pair_of(source_cell[c], source_cell[as_size(behind)])))
+          std::ranges::binary_search(parted_, pair_key(source_cell[c], source_cell[as_size(behind)])))
         walls.push_back({cell, face});
     }
   }

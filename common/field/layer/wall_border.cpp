@@ -35,10 +35,6 @@ std::vector<Edge> edges_of(const WallBorder& border) {
   return edges;
 }
 
-Vec3 middle_of(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& triangle) {
-  return (points[triangle[0]] + points[triangle[1]] + points[triangle[2]]) / 3.0;
-}
-
 /// BorderPart::bulge, as the volume of the pyramids over all triangles with their tip in the rim's middle.
 void set_bulges(const TetMesh& mesh, const WallBorder& border, const std::vector<std::uint32_t>& part_of,
                 std::vector<BorderPart>& parts) {
@@ -61,7 +57,7 @@ void set_bulges(const TetMesh& mesh, const WallBorder& border, const std::vector
     const Vec3 tip = length[p] > 0.0 ? middle[p] / length[p] : part.bounds.center();
     double volume = 0.0;
     for (const std::uint32_t t : part.triangles)
-      volume += glm::dot(middle_of(points, border.triangles[t]) - tip, border.areas[t]) / 3.0;
+      volume += glm::dot(triangle_middle(points, border.triangles[t]) - tip, border.areas[t]) / 3.0;
     if (part.area > 0.0) part.bulge = volume / (part.area * std::sqrt(part.area));
   }
 }
@@ -145,7 +141,7 @@ WallCrossing::WallCrossing(const TetMesh& mesh, const WallBorder& border)
 std::size_t WallCrossing::from(std::size_t triangle) const {
   const std::span<const Vec3> points = mesh_.points();
   const Vec3 way = -border_.normal(triangle);
-  const Vec3 start = middle_of(points, border_.triangles[triangle]);
+  const Vec3 start = triangle_middle(points, border_.triangles[triangle]);
   const std::size_t lost = border_.triangles.size();
   if (way == Vec3{0.0}) return lost;
   CellIndex cell = border_.cells[triangle];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct WallBorder {
   /// The normal, of unit length; zero where the triangle has no area.
   [[nodiscard]] Vec3 normal(std::size_t triangle) const;
 };
+[[nodiscard]] inline Vec3 triangle_middle(std::span<const Vec3> points,
+                                          const std::array<std::uint32_t, 3>& triangle) noexcept {
+  return (points[triangle[0]] + points[triangle[1]] + points[triangle[2]]) / 3.0;
+}
 [[nodiscard]] WallBorder border_of(const TetMesh& mesh);
 
 /// A smooth part of the border.

@@ -191,10 +191,6 @@ std::vector<std::int32_t> cavities_of(const std::vector<std::uint8_t>& wall, con
   return cavity;
 }
 
-Vec3 middle_of(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& triangle) {
-  return (points[triangle[0]] + points[triangle[1]] + points[triangle[2]]) / 3.0;
-}
-
 /// Means of the normals around each triangle, of those that have its number. Not of unit length.
 std::vector<Vec3> mean_normals(const WallBorder& border, const std::vector<std::int32_t>& number) {
   std::vector<Vec3> means = border.areas;
@@ -288,7 +284,7 @@ std::optional<WallStairs> find_wall_stairs(const TetMesh& mesh, const WallBorder
   Vec3 opening{0.0};
   for (std::size_t t = 0; t < border.triangles.size(); ++t) {
     const Vec3 half = 0.5 * border.normal(t) * std::min({lattice.step[0], lattice.step[1], lattice.step[2]});
-    const auto voxel = lattice.at(middle_of(mesh.points(), border.triangles[t]) + half);
+    const auto voxel = lattice.at(triangle_middle(mesh.points(), border.triangles[t]) + half);
     stairs.beside.push_back(voxel ? cavity[*voxel] : WallStairs::kOutside);
     if (stairs.beside.back() != WallStairs::kOutside) opening += border.areas[t];
   }

@@ -15,9 +15,6 @@ using Unknowns = std::array<Pack4, kN>;
 /// Lower triangle, column after column: m[c][r - c].
 using Triangle = std::array<Unknowns, kN>;
 
-Pack4 load(const FitFour::Lanes& lanes) { return Pack4::load(lanes.data()); }
-void store(const Pack4& pack, FitFour::Lanes& lanes) { pack.store(lanes.data()); }
-
 /// One column of the normal matrix, and its part of the right side.
 template <std::size_t column>
 void add_column(const FitFour& four, Triangle& matrix, Unknowns& right) {
@@ -25,9 +22,9 @@ void add_column(const FitFour& four, Triangle& matrix, Unknowns& right) {
   Pack4 side;
   for (std::size_t i = 0; i < four.rows.size(); ++i) {
     const auto& row = four.rows[i];
-    const Pack4 part = row[column] * load(four.weights[i]);
+    const Pack4 part = row[column] * Pack4::load(four.weights[i]);
     for (std::size_t r = column; r < kN; ++r) sum[r - column] += row[r] * part;
-    side += part * load(four.logs[i]);
+    side += part * Pack4::load(four.logs[i]);
   }
   for (std::size_t r = column; r < kN; ++r) matrix[column][r - column] = sum[r - column];
   right[column] = side;
@@ -70,10 +67,10 @@ void weigh_by_prediction(FitFour& four, const Unknowns& x) {
     Pack4 predicted;
     for (std::size_t r = 0; r < kN; ++r) predicted += four.rows[i][r] * x[r];
     largest = max(largest, predicted);
-    store(predicted, four.weights[i]);
+    predicted.store(four.weights[i]);
   }
   for (FitFour::Lanes& weights : four.weights) {
-    store(2.0 * (load(weights) - largest), weights);
+    (2.0 * (Pack4::load(weights) - largest)).store(weights);
     for (double& weight : weights) weight = std::exp(weight);
   }
 }
@@ -90,7 +87,7 @@ unsigned fit_four(FitFour& four) noexcept {
     going = going & solve(four, next);
     for (std::size_t r = 0; r < kN; ++r) best[r] = select(going, next[r], best[r]);
   }
-  for (std::size_t r = 0; r < kN; ++r) store(best[r], four.solution[r]);
+  for (std::size_t r = 0; r < kN; ++r) best[r].store(four.solution[r]);
   return bits(good);
 }
 

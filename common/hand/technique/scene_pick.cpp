@@ -11,11 +11,6 @@
 namespace palpate {
 namespace {
 
-/// Between two directions, in [0, pi]; 0 where one has no length.
-double angle_between(const Vec3& a, const Vec3& b) {
-  return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 /// The best one so far: by what comes first, then by how far along or off it is.
 struct Best {
   std::optional<Picked> picked;

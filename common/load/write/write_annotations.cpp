@@ -19,14 +19,12 @@ std::string csv_word(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string value_text(double value) { return std::isfinite(value) ? exact_number(value) : "nan"; }
-
 std::string csv_of(std::span<const Annotation> annotations) {
   std::string text = "annotation,kind,label,value,point,x,y,z\n";
   for (std::size_t i = 0; i < annotations.size(); ++i) {
     const Annotation& each = annotations[i];
     const std::string head = std::to_string(i) + "," + std::string(name_of(each.kind)) + "," +
-                             csv_word(each.label) + "," + value_text(measure_of(each)) + ",";
+                             csv_word(each.label) + "," + csv_number(measure_of(each)) + ",";
     for (std::size_t p = 0; p < each.points.size(); ++p) {
       text += head + std::to_string(p);
       for (int a = 0; a < 3; ++a) (text += ",") += exact_number(each.points[p][a]);
@@ -75,7 +73,7 @@ std::string vtp_of(std::span<const Annotation> annotations) {
       ++cells[sort].count;
       kinds += codes(std::string(name_of(each.kind)));
       labels += codes(each.label);
-      values += value_text(measure_of(each)) + " ";
+      values += csv_number(measure_of(each)) + " ";
     }
   }
   const auto count = [&](std::size_t sort) { return std::to_string(cells[sort].count); };

@@ -186,7 +186,7 @@ std::vector<double> values_at(const VolumeImage& image, const Pixels& pixels, Sl
   return values;
 }
 
-std::uint8_t byte_of(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
+std::uint8_t byte_of_part(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
 
 void blend_over(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
   const double low = blend.image->lowest, range = blend.image->highest - low;
@@ -200,7 +200,7 @@ void blend_over(const SliceBlend& blend, const std::vector<double>& values, Imag
     std::uint8_t* const pixel = image.rgba.data() + 4 * i;
     const double under = pixel[3] > 0 ? 1.0 : 0.0;
     for (std::size_t c = 0; c < 3; ++c)
-      pixel[c] = byte_of(opacity * over[c] + (1.0 - opacity) * under * pixel[c] / 255.0);
+      pixel[c] = byte_of_part(opacity * over[c] + (1.0 - opacity) * under * pixel[c] / 255.0);
     if (opacity > 0.0) pixel[3] = 255;
   }
 }
@@ -223,7 +223,7 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
     if (!std::isfinite(value)) continue;
-    const std::uint8_t grey = byte_of(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
+    const std::uint8_t grey = byte_of_part(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
     const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
     std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }

@@ -13,9 +13,6 @@ namespace {
 
 using Lanes = std::array<double, 4>;
 
-Pack4 load(const Lanes& lanes) { return Pack4::load(lanes.data()); }
-void store(const Pack4& pack, Lanes& lanes) { pack.store(lanes.data()); }
-
 /// Rounded towards zero. @pre in the range of int.
 Pack4 truncated(const Pack4& x) {
 #ifdef __AVX2__
@@ -32,26 +29,26 @@ void transpose(const std::array<Six, 4>& t, Tensors4& out) {
   const __m256d ab_odd = _mm256_unpackhi_pd(t[0].first.v, t[1].first.v);
   const __m256d cd_even = _mm256_unpacklo_pd(t[2].first.v, t[3].first.v);
   const __m256d cd_odd = _mm256_unpackhi_pd(t[2].first.v, t[3].first.v);
-  store(Pack4(_mm256_permute2f128_pd(ab_even, cd_even, 0x20)), out.xx);
-  store(Pack4(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x20)), out.xy);
-  store(Pack4(_mm256_permute2f128_pd(ab_even, cd_even, 0x31)), out.xz);
-  store(Pack4(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x31)), out.yy);
+  Pack4(_mm256_permute2f128_pd(ab_even, cd_even, 0x20)).store(out.xx);
+  Pack4(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x20)).store(out.xy);
+  Pack4(_mm256_permute2f128_pd(ab_even, cd_even, 0x31)).store(out.xz);
+  Pack4(_mm256_permute2f128_pd(ab_odd, cd_odd, 0x31)).store(out.yy);
   const auto both = [](__m128d low, __m128d high) { return Pack4(_mm256_set_m128d(high, low)); };
 #else
   const auto both = [](__m128d low, __m128d high) { return Pack4(low, high); };
   const std::array<Pack4, 4> f{t[0].first, t[1].first, t[2].first, t[3].first};
-  store(both(_mm_unpacklo_pd(f[0].lo, f[1].lo), _mm_unpacklo_pd(f[2].lo, f[3].lo)), out.xx);
-  store(both(_mm_unpackhi_pd(f[0].lo, f[1].lo), _mm_unpackhi_pd(f[2].lo, f[3].lo)), out.xy);
-  store(both(_mm_unpacklo_pd(f[0].hi, f[1].hi), _mm_unpacklo_pd(f[2].hi, f[3].hi)), out.xz);
-  store(both(_mm_unpackhi_pd(f[0].hi, f[1].hi), _mm_unpackhi_pd(f[2].hi, f[3].hi)), out.yy);
+  both(_mm_unpacklo_pd(f[0].lo, f[1].lo), _mm_unpacklo_pd(f[2].lo, f[3].lo)).store(out.xx);
+  both(_mm_unpackhi_pd(f[0].lo, f[1].lo), _mm_unpackhi_pd(f[2].lo, f[3].lo)).store(out.xy);
+  both(_mm_unpacklo_pd(f[0].hi, f[1].hi), _mm_unpacklo_pd(f[2].hi, f[3].hi)).store(out.xz);
+  both(_mm_unpackhi_pd(f[0].hi, f[1].hi), _mm_unpackhi_pd(f[2].hi, f[3].hi)).store(out.yy);
 #endif
-  store(both(_mm_unpacklo_pd(t[0].last, t[1].last), _mm_unpacklo_pd(t[2].last, t[3].last)), out.yz);
-  store(both(_mm_unpackhi_pd(t[0].last, t[1].last), _mm_unpackhi_pd(t[2].last, t[3].last)), out.zz);
+  both(_mm_unpacklo_pd(t[0].last, t[1].last), _mm_unpacklo_pd(t[2].last, t[3].last)).store(out.yz);
+  both(_mm_unpackhi_pd(t[0].last, t[1].last), _mm_unpackhi_pd(t[2].last, t[3].last)).store(out.zz);
 }
 
 template <typename T>
 unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) noexcept {
-  const std::array<Pack4, 3> x{load(at.x), load(at.y), load(at.z)};
+  const std::array<Pack4, 3> x{Pack4::load(at.x), Pack4::load(at.y), Pack4::load(at.z)};
   std::array<Pack4, 3> f;
   std::array<Lanes, 3> cell;
   Mask4 inside;
@@ -68,11 +65,11 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
     const Pack4 kept = select(here, u, zero);  // lanes outside read the first cell
     const Pack4 low = min(truncated(kept), Pack4::all(image.last_cell[axis]));
     f[axis] = kept - low;
-    store(low, cell[axis]);
+    low.store(cell[axis]);
   }
   alignas(32) std::array<Lanes, 8> w;
   corner_weights(Pack4::all(image.scale), f[0], f[1], f[2],
-                 [&w](std::size_t i, const Pack4& weight) { store(weight, w[i]); });
+                 [&w](std::size_t i, const Pack4& weight) { weight.store(w[i]); });
   std::array<Six, 4> sums;
   for (std::size_t lane = 0; lane < 4; ++lane) {
     const T* const corner = image.values + std::size_t{6} * static_cast<std::size_t>(cell[0][lane]) +
@@ -81,7 +78,8 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
     sums[lane] = six_sum(corner, image.step_y, image.step_z, &w[0][lane], 4);
   }
   transpose(sums, out);
-  const Pack4 sum = load(out.xx) + load(out.yy) + load(out.zz) + load(out.xy) + load(out.xz) + load(out.yz);
+  const Pack4 sum = Pack4::load(out.xx) + Pack4::load(out.yy) + Pack4::load(out.zz) + Pack4::load(out.xy) +
+                    Pack4::load(out.xz) + Pack4::load(out.yz);
   // Nothing times a number is nothing, unless that is infinite or none.
   return bits(inside & (zero * sum == zero));
 }
@@ -97,9 +95,9 @@ unsigned sample_four(const TensorGrid<double>& image, const Vectors4& at, Tensor
 
 unsigned directions_of_four(const Tensors4& d, const Vectors4& toward, unsigned wanted,
                             Vectors4& found) noexcept {
-  const Pack4 xx = load(d.xx), xy = load(d.xy), xz = load(d.xz), yy = load(d.yy), yz = load(d.yz),
-              zz = load(d.zz);
-  const Pack4 tx = load(toward.x), ty = load(toward.y), tz = load(toward.z);
+  const Pack4 xx = Pack4::load(d.xx), xy = Pack4::load(d.xy), xz = Pack4::load(d.xz), yy = Pack4::load(d.yy),
+              yz = Pack4::load(d.yz), zz = Pack4::load(d.zz);
+  const Pack4 tx = Pack4::load(toward.x), ty = Pack4::load(toward.y), tz = Pack4::load(toward.z);
   const Pack4 trace = xx + yy + zz;
   Pack4 vx = tx, vy = ty, vz = tz, length2 = Pack4::all(1.0), gap;
   const auto quotient = [&] {
@@ -131,15 +129,15 @@ unsigned directions_of_four(const Tensors4& d, const Vectors4& toward, unsigned 
                           (trace < Pack4::all(3.0) * rho);
   const Mask4 against = vx * tx + vy * ty + vz * tz < Pack4();
   const Pack4 factor = select(against, Pack4::all(-1.0), Pack4::all(1.0)) / sqrt(length2);
-  store(vx * factor, found.x);
-  store(vy * factor, found.y);
-  store(vz * factor, found.z);
+  (vx * factor).store(found.x);
+  (vy * factor).store(found.y);
+  (vz * factor).store(found.z);
   return bits(certified) & wanted;
 }
 
 unsigned positive_of_four(const Tensors4& d, double cutoff, unsigned& above) noexcept {
-  const Pack4 xx = load(d.xx), xy = load(d.xy), xz = load(d.xz), yy = load(d.yy), yz = load(d.yz),
-              zz = load(d.zz), zero;
+  const Pack4 xx = Pack4::load(d.xx), xy = Pack4::load(d.xy), xz = Pack4::load(d.xz), yy = Pack4::load(d.yy),
+              yz = Pack4::load(d.yz), zz = Pack4::load(d.zz), zero;
   const Pack4 minor = xx * yy - xy * xy;
   const Pack4 determinant = zz * minor - xx * yz * yz - yy * xz * xz + Pack4::all(2.0) * xy * xz * yz;
   const Mask4 positive = (zero < xx) & (zero < minor) & (zero < determinant);

@@ -14,10 +14,6 @@ constexpr double kGrowthPerNotch = 0.12;  // logarithm of the size
 // Reach of a lens from its middle in diagonals of the scene: beyond them there is nothing to see.
 constexpr double kSmallest = 1e-3, kLargest = 2.0;
 
-PictureSize size_of(const PictureArea& area) {
-  return {static_cast<int>(area.width), static_cast<int>(area.height)};
-}
-
 /// How far the lens reaches from its middle, across the view.
 double reach_of(const Lens& lens, const Camera& camera) {
   const LineInterval inside =

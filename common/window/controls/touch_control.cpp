@@ -15,10 +15,6 @@ constexpr int kLeftShift = 340, kRightShift = 344;
 /// A mouse that has not moved for so long rests [s].
 constexpr double kRest = 0.25;
 
-PictureSize size_of(const PictureArea& area) {
-  return {static_cast<int>(area.width), static_cast<int>(area.height)};
-}
-
 }  // namespace
 
 Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "common/hand/technique/probe_mouse.h"
 #include "common/render/camera.h"
 #include "common/window/input_event.h"
 #include "common/window/keys.h"
@@ -18,6 +19,10 @@ struct PictureArea {
     return x >= left && y >= top && x < left + width && y < top + height;
   }
 };
+
+[[nodiscard]] inline PictureSize size_of(const PictureArea& area) noexcept {
+  return {static_cast<int>(area.width), static_cast<int>(area.height)};
+}
 
 class ViewControl {
  public:

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/read_as.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/math/lattice.h"
@@ -18,13 +19,6 @@
 
 namespace palpate {
 namespace {
-
-template <typename T>
-T read_as(std::span<const std::byte> bytes, std::size_t index) noexcept {
-  T value;
-  std::memcpy(&value, bytes.data() + index * sizeof(T), sizeof(T));
-  return value;
-}
 
 Error problem(const std::string& file, const std::string& array, const std::string& found,
               const std::string& expected) {
