@@ -9,6 +9,7 @@
 
 #include "common/compose/resampled_volume.h"
 #include "common/device/device.h"
+#include "common/field/array_statistics.h"
 #include "common/field/grid/mesh_quality.h"
 #include "common/geometry/annotation.h"
 #include "common/geometry/tractogram.h"
@@ -60,16 +61,9 @@ struct TractSummary {
   std::string failure;              ///< why there is no line; empty where there is one
 };
 
-/// Range of an array's component.
-struct ComponentRange {
-  double lower = 0.0;
-  double upper = 0.0;
-};
-
 struct ArraySummary {
   ArrayInfo info;
-  std::vector<ComponentRange> ranges;  ///< one a component; finite values only
-  std::uint64_t bad_values = 0;        ///< NaN and infinite numbers
+  ArrayStatistics statistics;
 };
 
 /// Lines of a file, and how long they are.

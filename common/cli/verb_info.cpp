@@ -2,14 +2,13 @@
 #include <cmath>
 #include <string_view>
 
-#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
 #include "common/cli/wall_surfaces_report.h"
+#include "common/field/array_statistics.h"
 #include "common/field/field_grid.h"
-#include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_surface.h"
 #include "common/math/vec_text.h"
@@ -24,85 +23,11 @@ bool is_tensor_slice(const Input& input, FieldKind kind) {
          input.file()->blocks.front().grid == "uniform";
 }
 
-/// Ranges of all components over fixed pieces of an array: minima, maxima and counts do not depend on how the
-/// pieces are shared among threads.
-struct PieceRange {
-  std::vector<ComponentRange> ranges;
-  std::uint64_t bad = 0;
-};
-
-void include_sparse(const SparseNumbers& numbers, int threads, ArraySummary& summary) {
-  if (summary.ranges.empty()) summary.ranges.assign(1, {HUGE_VAL, -HUGE_VAL});
-  const SparseRange range = range_of(numbers, threads);
-  summary.bad_values += range.not_finite;
-  summary.ranges.front().lower = std::min(summary.ranges.front().lower, range.lowest);
-  summary.ranges.front().upper = std::max(summary.ranges.front().upper, range.highest);
-}
-
-void include_array(const DataArray& array, int threads, ArraySummary& summary) {
-  if (array.sparse) return include_sparse(*array.sparse, threads, summary);
-  constexpr std::size_t kPiece = 65536;
-  const std::size_t pieces = (array.tuples + kPiece - 1) / kPiece;
-  const auto components = static_cast<std::size_t>(array.components);
-  std::vector<PieceRange> found(pieces);
-  parallel_for(pieces, threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t p = first; p < last; ++p) {
-      PieceRange& piece = found[p];
-      piece.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
-      for (std::size_t t = p * kPiece; t < std::min(array.tuples, (p + 1) * kPiece); ++t) {
-        for (std::size_t c = 0; c < components; ++c) {
-          const double value = array.at(t, static_cast<int>(c));
-          if (!std::isfinite(value)) {
-            ++piece.bad;
-            continue;
-          }
-          piece.ranges[c].lower = std::min(piece.ranges[c].lower, value);
-          piece.ranges[c].upper = std::max(piece.ranges[c].upper, value);
-        }
-      }
-    }
-  });
-  if (summary.ranges.empty()) summary.ranges.assign(components, {HUGE_VAL, -HUGE_VAL});
-  for (const PieceRange& piece : found) {
-    summary.bad_values += piece.bad;
-    for (std::size_t c = 0; c < std::min(components, summary.ranges.size()); ++c) {
-      summary.ranges[c].lower = std::min(summary.ranges[c].lower, piece.ranges[c].lower);
-      summary.ranges[c].upper = std::max(summary.ranges[c].upper, piece.ranges[c].upper);
-    }
-  }
-}
-
-/// Where a step of an image leads in RAS+ coordinates: "R" to the right, "L" to the left, "A" to the front, …
-char letter_of(const Vec3& step) {
-  constexpr std::string_view kUp = "RAS";
-  constexpr std::string_view kDown = "LPI";
-  int most = 0;
-  for (int axis = 1; axis < 3; ++axis) {
-    if (std::abs(step[axis]) > std::abs(step[most])) most = axis;
-  }
-  return (step[most] < 0.0 ? kDown : kUp)[static_cast<std::size_t>(most)];
-}
-
-std::string orientation_of(const DataSet& block, bool anatomical) {
-  const auto* uniform = std::get_if<UniformTopology>(&block.topology);
-  if (!uniform) return anatomical ? "RAS+ mm" : "coordinates as stored";
-  const Mat3& a = uniform->axes;
-  if (anatomical) {
-    return std::string("RAS+ mm; voxel axes run to ") + letter_of(a[0]) + ", " + letter_of(a[1]) + ", " +
-           letter_of(a[2]) + "; steps " + position_text(a[0]) + ", " + position_text(a[1]) + ", " +
-           position_text(a[2]);
-  }
-  const bool aligned =
-      a[0].y == 0.0 && a[0].z == 0.0 && a[1].x == 0.0 && a[1].z == 0.0 && a[2].x == 0.0 && a[2].y == 0.0;
-  if (aligned) return "axes i, j, k along x, y, z; steps " + position_text({a[0].x, a[1].y, a[2].z});
-  return "steps i " + position_text(a[0]) + ", j " + position_text(a[1]) + ", k " + position_text(a[2]);
-}
-
 /// Ranges, orientation and memory of everything in the file.
 void read_all(Input& input, const Document& options, const VerbContext& context, InfoSummary& summary) {
   std::vector<std::string> names;
   for (const ArrayInfo& info : input.arrays()) {
-    summary.arrays.push_back({.info = info, .ranges = {}});
+    summary.arrays.push_back({.info = info, .statistics = {}});
     if (std::find(names.begin(), names.end(), info.name) == names.end()) names.push_back(info.name);
   }
   context.progress.begin("reading " + input.title(), 0);
@@ -114,7 +39,7 @@ void read_all(Input& input, const Document& options, const VerbContext& context,
   }
   for (const DataSet& block : blocks) {
     context.progress.check();
-    const std::string orientation = orientation_of(block, input.file()->anatomical);
+    const std::string orientation = orientation_text(block, input.file()->anatomical);
     if (std::find(summary.orientation.begin(), summary.orientation.end(), orientation) ==
         summary.orientation.end()) {
       summary.orientation.push_back(orientation);
@@ -122,7 +47,7 @@ void read_all(Input& input, const Document& options, const VerbContext& context,
     for (ArraySummary& array : summary.arrays) {
       const DataArray* values = block.find(array.info.name, array.info.association);
       if (!values) continue;
-      include_array(*values, options.common.threads, array);
+      include_array(*values, options.common.threads, array.statistics);
       summary.memory_bytes += values->stored_bytes();
     }
   }
@@ -130,12 +55,13 @@ void read_all(Input& input, const Document& options, const VerbContext& context,
 
 std::string range_text(const ArraySummary& array) {
   std::string text;
-  for (const ComponentRange& range : array.ranges) {
+  for (const ComponentRange& range : array.statistics.ranges) {
     text += text.empty() ? "" : ", ";
     text += range.lower <= range.upper ? short_number(range.lower) + " … " + short_number(range.upper)
                                        : "no value";
   }
-  if (array.bad_values > 0) text += "; " + counted(array.bad_values, "value") + " NaN or infinite";
+  if (array.statistics.bad_values > 0)
+    text += "; " + counted(array.statistics.bad_values, "value") + " NaN or infinite";
   return text;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 Json array_json(const ArraySummary& array) {
   Json ranges = Json::array();
-  for (const ComponentRange& range : array.ranges) ranges.push_back({range.lower, range.upper});
+  for (const ComponentRange& range : array.statistics.ranges) ranges.push_back({range.lower, range.upper});
   const std::uint64_t bytes = static_cast<std::uint64_t>(array.info.tuples) *
                               static_cast<std::uint64_t>(array.info.components) * byte_size(array.info.type);
   return {{"name", array.info.name},
@@ -20,7 +20,7 @@ Json array_json(const ArraySummary& array) {
           {"tuples", array.info.tuples},
           {"bytes", bytes},
           {"ranges", ranges},
-          {"bad_values", array.bad_values}};
+          {"bad_values", array.statistics.bad_values}};
 }
 
 Json blocks_json(const FileInfo& file) {
