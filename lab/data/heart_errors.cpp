@@ -17,7 +17,7 @@
 #include "common/math/symmetric3.h"
 #include "common/trace/fibre_lines.h"
 #include "lab/hand/constraint/fibre_feel.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

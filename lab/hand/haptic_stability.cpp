@@ -9,7 +9,7 @@
 
 #include "common/base/text.h"
 #include "lab/data/made_data.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate {
 namespace {
@@ -116,7 +116,7 @@ Tally tally_on(const FieldPtr& field, std::vector<Vec3> seeds, int threads, Prog
   // So firm that the cap has something to hold: by default the line is let go at half of it.
   ChainSettings firm;
   firm.stiffness = kBeyondCap * DeviceLimits{}.force_cap / firm.streamline.release_distance;
-  ProbeRun run(field, workspace, threads, firm);
+  StreamlineRun run(field, workspace, threads, firm);
   seeds.resize(std::min(seeds.size(), kPaths));
   for (std::size_t s = 0; s < seeds.size(); ++s) {
     if (progress) progress->check();
@@ -161,7 +161,7 @@ double different_rows(const std::vector<DataSet>& blocks, const VectorChoice& ch
   const FieldPtr one = scaled(1.0, 1.0), other = scaled(power, 1.0 / (power * power));
   const Workspace workspace = workspace_of(*one);
   const Workspace other_workspace(workspace.scale() / power, other->frame());
-  ProbeRun run(one, workspace, threads), other_run(other, other_workspace, threads);
+  StreamlineRun run(one, workspace, threads), other_run(other, other_workspace, threads);
   double different = 0.0;
   for (std::size_t s = 0; s < std::min(seeds.size(), kPaths); ++s) {
     auto path = make_probe_path({*one, workspace, run.settings().streamline.release_distance},

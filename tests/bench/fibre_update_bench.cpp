@@ -22,7 +22,7 @@
 #include "common/haptics/constraint/layer.h"
 #include "common/math/counter_random.h"
 #include "common/servo/hand_step.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate::bench {
 namespace {

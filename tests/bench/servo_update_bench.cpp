@@ -35,7 +35,7 @@
 #include "common/scene/input.h"
 #include "common/servo/hand_step.h"
 #include "lab/hand/probe_paths.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "tests/support/sampled.h"
 
 namespace palpate::bench {
@@ -113,7 +113,7 @@ void run(const std::string& name, const std::shared_ptr<const VectorField>& fiel
     std::printf("%s: trilinear\n", name.c_str());
   }
   const Workspace workspace(Workspace::default_scale(field->diagonal()), field->frame());
-  ProbeRun probe(field, workspace, 0);
+  StreamlineRun probe(field, workspace, 0);
   std::vector<Timing> all;
   for (const PathKind kind : kPathKinds) {
     std::mt19937_64 random(7);

@@ -21,7 +21,7 @@
 #include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/math/counter_random.h"
 #include "common/servo/hand_step.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate::bench {
 namespace {

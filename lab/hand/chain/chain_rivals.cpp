@@ -13,7 +13,7 @@
 #include "common/haptics/proxy_chain.h"
 #include "lab/data/formula_flow.h"
 #include "lab/hand/chain/rivals.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate {
 namespace {

@@ -16,7 +16,7 @@
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/proxy_chain.h"
 #include "lab/data/formula_flow.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

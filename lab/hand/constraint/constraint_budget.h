@@ -19,7 +19,7 @@
 #include "common/base/progress.h"
 #include "common/haptics/constraint.h"
 #include "lab/data/sweep.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/section.h"
 
 namespace palpate {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "lab/hand/constraint/reference_curve.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate {
 namespace {
@@ -146,7 +146,7 @@ class Sweeper {
   const ConstraintSweepRequest& request_;
   Progress* progress_;
   Workspace workspace_;
-  ProbeRun run_;
+  StreamlineRun run_;
   double reference_length_ = 0.0;                           ///< data units
   std::map<std::array<double, 3>, ReferenceCurve> curves_;  ///< by the place of the catch
   std::vector<double> residuals_, lags_, force_errors_;     ///< of the row that is being measured

@@ -21,7 +21,7 @@
 #include "common/haptics/constraint.h"
 #include "lab/data/sweep.h"
 #include "lab/hand/probe_paths.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate {
 

@@ -8,7 +8,7 @@
 #include "common/base/text.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/math/quaternion.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
 
 namespace palpate {

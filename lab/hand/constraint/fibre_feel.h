@@ -14,7 +14,7 @@
 #include "common/trace/layer_fibre.h"
 #include "lab/data/stability.h"
 #include "lab/data/sweep.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/section.h"
 
 namespace palpate {

@@ -8,7 +8,7 @@
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/reference_frame.h"
 #include "lab/data/formula_flow.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

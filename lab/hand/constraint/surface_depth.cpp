@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/haptics/constraint/isosurface.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 

@@ -10,7 +10,7 @@
 
 #include "lab/data/made_data.h"
 #include "lab/hand/constraint/reference_curve.h"
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 namespace palpate::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "lab/hand/probe_run.h"
+#include "lab/hand/streamline_run.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -34,7 +34,7 @@ double thread_microseconds() noexcept {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-ProbeRun::ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
+StreamlineRun::StreamlineRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
                    const ChainSettings& settings)
     : workspace_(workspace) {
   auto constraint = std::make_unique<StreamlineConstraint>(
@@ -47,7 +47,7 @@ ProbeRun::ProbeRun(const std::shared_ptr<const VectorField>& field, const Worksp
   stepper_ = std::make_unique<HandStepper>(std::move(chain), DeviceLimits{});
 }
 
-std::vector<RunStep> ProbeRun::follow(std::span<const PathRow> path, const UpdateBudget& budget) {
+std::vector<RunStep> StreamlineRun::follow(std::span<const PathRow> path, const UpdateBudget& budget) {
   chain_->set_budget(budget);
   // No hand for a moment: what was followed before is forgotten, and the path's clock begins anew.
   constexpr double kBefore = 1e-3;  // [s]

@@ -26,10 +26,10 @@ struct RunStep {
   bool follows = false;       ///< whether a line is followed after the step
 };
 
-class ProbeRun {
+class StreamlineRun {
  public:
   /// With limits that are default.
-  ProbeRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
+  StreamlineRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
            const ChainSettings& settings = {});
 
   [[nodiscard]] const ChainSettings& settings() const noexcept { return chain_->settings(); }
