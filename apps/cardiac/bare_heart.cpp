@@ -271,22 +271,12 @@ std::vector<double> corner_values(const BareHeart& heart, const std::vector<Data
 
 /// As series_range() of default_appearance.h.
 std::optional<ValueRange> range_of_steps(Input& input, const BareHeart& heart, const ScalarChoice& choice,
-                                         const std::vector<double>& now, std::optional<ValueRange> range,
-                                         int threads) {
-  if (input.times().size() < 2) return std::nullopt;
-  const bool known = range.has_value();
-  widen(range, now);
-  if (known) return range;
-  const std::size_t shown = input.time().step;
-  const StepsAside aside(input);
-  for (const std::size_t step : spread_steps(input)) {
-    if (step == shown) continue;
-    input.set_time_step(step);
-    const std::vector<DataSet> blocks = input.read({choice.array});
-    if (fits(heart, blocks, choice))
-      widen(range, corner_values(heart, blocks, choice, input.title(), threads));
-  }
-  return range;
+                                         const std::vector<double>& now,
+                                         const std::optional<ValueRange>& range, int threads) {
+  return range_over_steps(input, choice, range, now, [&](const std::vector<DataSet>& blocks) {
+    return fits(heart, blocks, choice) ? corner_values(heart, blocks, choice, input.title(), threads)
+                                       : std::vector<double>();
+  });
 }
 
 /// What lies this side of a cut. @param values as corner_values(); none: there is no scalar.

@@ -95,22 +95,30 @@ std::vector<std::size_t> spread_steps(const Input& input) {
   return steps;
 }
 
-std::optional<ValueRange> series_range(Input& input, const ScalarChoice& choice, const ScalarField& now,
-                                       const std::shared_ptr<const FieldGrid>& grid,
-                                       const std::optional<ValueRange>& before, int threads) {
+std::optional<ValueRange> range_over_steps(
+    Input& input, const ScalarChoice& choice, const std::optional<ValueRange>& before,
+    const std::vector<double>& now,
+    const std::function<std::vector<double>(const std::vector<DataSet>&)>& values_of) {
   if (input.times().size() < 2) return std::nullopt;
   std::optional<ValueRange> range = before;
-  widen(range, point_values(now));
+  widen(range, now);
   if (before) return range;
   const std::size_t shown = input.time().step;
   const StepsAside aside(input);
   for (const std::size_t step : spread_steps(input)) {
     if (step == shown) continue;
     input.set_time_step(step);
-    const std::vector<DataSet> blocks = input.read({choice.array});
-    widen(range, point_values(*make_scalar_field(grid, blocks.front(), choice, input.title(), threads)));
+    widen(range, values_of(input.read({choice.array})));
   }
   return range;
+}
+
+std::optional<ValueRange> series_range(Input& input, const ScalarChoice& choice, const ScalarField& now,
+                                       const std::shared_ptr<const FieldGrid>& grid,
+                                       const std::optional<ValueRange>& before, int threads) {
+  return range_over_steps(input, choice, before, point_values(now), [&](const std::vector<DataSet>& blocks) {
+    return point_values(*make_scalar_field(grid, blocks.front(), choice, input.title(), threads));
+  });
 }
 
 std::string angle_of(const HeartOptions& options) {

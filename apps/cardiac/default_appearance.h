@@ -1,12 +1,15 @@
 /// What colours a heart, and at which time step it is shown, where nobody says.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/field/data_set.h"
 #include "common/field/field_grid.h"
 #include "common/field/scalar_field.h"
 #include "common/render/line_style.h"
@@ -60,6 +63,13 @@ class StepsAside {
 
 /// Takes usual_range() of `values` into it.
 void widen(std::optional<ValueRange>& range, const std::vector<double>& values);
+
+/// What series_range() does with values of any kind. @param now those of the step that is shown.
+/// @param values_of those of another step; empty: it has none.
+[[nodiscard]] std::optional<ValueRange> range_over_steps(
+    Input& input, const ScalarChoice& choice, const std::optional<ValueRange>& before,
+    const std::vector<double>& now,
+    const std::function<std::vector<double>(const std::vector<DataSet>&)>& values_of);
 
 /// As stored, at the points of its mesh.
 [[nodiscard]] std::vector<double> point_values(const ScalarField& field);
