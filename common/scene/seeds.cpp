@@ -8,6 +8,7 @@
 #include <random>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/grid/box_grid.h"
 #include "common/field/grid/tet_mesh.h"
@@ -146,8 +147,7 @@ std::vector<Vec3> random_seeds(const VectorField& field, const SeedRandom& wante
 
 std::vector<Vec3> grid_seeds(const Box& bounds, const Index3& n) {
   std::vector<Vec3> seeds;
-  seeds.reserve(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
-                static_cast<std::size_t>(n.z));
+  seeds.reserve(as_size(n.x) * as_size(n.y) * as_size(n.z));
   for (int k = 0; k < n.z; ++k) {
     for (int j = 0; j < n.y; ++j) {
       for (int i = 0; i < n.x; ++i) {
@@ -198,7 +198,7 @@ SeedSpec parse_seeds(const std::string& text, const std::string& grammar) {
     return SeedGrid{{count_from(v[0], text), count_from(v[1], text), count_from(v[2], text)}};
   }
   if (kind == "random" || kind == "speed") {
-    return SeedRandom{static_cast<std::size_t>(count_from(numbers(1)[0], text)), kind == "speed"};
+    return SeedRandom{as_size(count_from(numbers(1)[0], text)), kind == "speed"};
   }
   std::error_code ignored;
   if (text.ends_with(".csv") || text.ends_with(".vtp") || std::filesystem::exists(text, ignored))
@@ -209,8 +209,7 @@ SeedSpec parse_seeds(const std::string& text, const std::string& grammar) {
 std::size_t seed_count(const SeedSpec& spec) noexcept {
   if (const auto* list = std::get_if<SeedList>(&spec)) return list->points.size();
   if (const auto* grid = std::get_if<SeedGrid>(&spec)) {
-    return static_cast<std::size_t>(grid->n.x) * static_cast<std::size_t>(grid->n.y) *
-           static_cast<std::size_t>(grid->n.z);
+    return as_size(grid->n.x) * as_size(grid->n.y) * as_size(grid->n.z);
   }
   const auto* random = std::get_if<SeedRandom>(&spec);
   return random != nullptr ? random->count : 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -19,7 +21,7 @@ DataArray vectors(const std::string& name, const std::vector<Vec3>& values) {
 template <typename Change>
 DataArray changed(const DataArray& array, const Change& change) {
   std::vector<double> numbers;
-  numbers.reserve(array.tuples * static_cast<std::size_t>(array.components));
+  numbers.reserve(array.tuples * as_size(array.components));
   for (std::size_t t = 0; t < array.tuples; ++t) {
     for (int c = 0; c < array.components; ++c) numbers.push_back(change(t, array.at(t, c)));
   }
@@ -30,7 +32,7 @@ DataArray changed(const DataArray& array, const Change& change) {
 
 std::vector<double> even_coordinates(int n) {
   std::vector<double> x;
-  x.reserve(static_cast<std::size_t>(n));
+  x.reserve(as_size(n));
   for (int i = 0; i < n; ++i) x.push_back(-1.0 + 2.0 * i / (n - 1));
   return x;
 }
@@ -44,8 +46,7 @@ DataSet uniform_data(int n, const Box& bounds, const VectorFormula& velocity) {
   grid.axes = Mat3{Vec3{step.x, 0, 0}, Vec3{0, step.y, 0}, Vec3{0, 0, step.z}};
   data.topology = grid;
   std::vector<Vec3> values;
-  for (std::size_t p = 0;
-       p < static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n); ++p) {
+  for (std::size_t p = 0; p < as_size(n) * as_size(n) * as_size(n); ++p) {
     values.push_back(velocity(point_position(data, p)));
   }
   data.arrays.push_back(vectors("velocity", values));
@@ -77,8 +78,7 @@ DataSet tetrahedral_data(const std::vector<double>& x, const std::vector<double>
           mesh.offsets.push_back(static_cast<std::int64_t>(mesh.connectivity.size()));
           mesh.types.push_back(kTetrahedron);
           mesh.connectivity.push_back(corner);
-          for (const int axis : order)
-            mesh.connectivity.push_back(corner += stride[static_cast<std::size_t>(axis)]);
+          for (const int axis : order) mesh.connectivity.push_back(corner += stride[as_size(axis)]);
         }
       }
     }
@@ -140,8 +140,7 @@ Vec3 point_position(const DataSet& data, std::size_t point) {
       [&](const auto& grid) {
         using Grid = std::decay_t<decltype(grid)>;
         if constexpr (std::is_same_v<Grid, UniformTopology>) {
-          const auto i =
-              index_in(static_cast<std::size_t>(grid.points.x), static_cast<std::size_t>(grid.points.y));
+          const auto i = index_in(as_size(grid.points.x), as_size(grid.points.y));
           return grid.origin + grid.axes * Vec3{static_cast<double>(i[0]), static_cast<double>(i[1]),
                                                 static_cast<double>(i[2])};
         } else if constexpr (std::is_same_v<Grid, RectilinearTopology>) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/grid/block_join.h"
 #include "common/field/layer/wall_layer.h"
@@ -157,8 +158,7 @@ std::vector<double> surfaces_of(const std::vector<std::int64_t>& point_of, const
       if (sharing[face_of(e, k)] != 1) continue;
       for (std::size_t j = 0; j < n; ++j)
         for (std::size_t i = 0; i < n; ++i)
-          tags[static_cast<std::size_t>(point_of[e * lattice.count() + lattice.at(i, j, k)])] =
-              k == 0 ? 1.0 : 2.0;
+          tags[as_size(point_of[e * lattice.count() + lattice.at(i, j, k)])] = k == 0 ? 1.0 : 2.0;
     }
   }
   return tags;
@@ -184,7 +184,7 @@ std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const L
       const std::size_t level = p / (n * n);
       const double xi = static_cast<double>(level) / static_cast<double>(n - 1);
       const double here = (levels[e] + xi) / deep;
-      double& there = depth[static_cast<std::size_t>(point_of[e * lattice.count() + p])];
+      double& there = depth[as_size(point_of[e * lattice.count() + p])];
       if (std::isnan(there)) there = here;
       if (std::abs(there - here) > kRounding) return {};
     }
@@ -305,8 +305,8 @@ std::optional<Vec3> long_axis(const Model& model) {
 SampledModel sample(const Model& model, int refine, const std::string& file, std::uint64_t memory) {
   bool with_fibres = false;
   const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
-  const Lattice lattice{static_cast<std::size_t>(refine) + 1};
-  const auto cells_along = static_cast<std::size_t>(refine);
+  const Lattice lattice{as_size(refine) + 1};
+  const auto cells_along = as_size(refine);
   check_memory(shapes.size(), lattice, memory, file);
 
   std::vector<Place> places;
@@ -352,8 +352,7 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
     append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
     append(sheet, place.has_axes ? place.axes[1] : Vec3{kNaN});
     append(normal, place.has_axes ? place.axes[2] : Vec3{kNaN});
-    for (int c = 0; c < 3; ++c)
-      angles[static_cast<std::size_t>(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
+    for (int c = 0; c < 3; ++c) angles[as_size(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
   }
 
   UnstructuredTopology topology;

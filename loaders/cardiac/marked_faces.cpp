@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/math/symmetric3.h"
@@ -109,8 +110,7 @@ std::map<std::int64_t, Part> parts_of(const std::vector<MarkedFace>& faces, cons
   for (const MarkedFace& face : faces) {
     std::array<Vec3, 3> x{};
     for (std::size_t n = 0; n < 3; ++n)
-      for (int axis = 0; axis < 3; ++axis)
-        x[n][axis] = positions.at(static_cast<std::size_t>(face.corners[n]), axis);
+      for (int axis = 0; axis < 3; ++axis) x[n][axis] = positions.at(as_size(face.corners[n]), axis);
     const Vec3 twice = glm::cross(x[1] - x[0], x[2] - x[0]);
     const double length = glm::length(twice);
     Part& part = parts[face.marker];
@@ -192,10 +192,9 @@ class NodeMarks {
         {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
     std::vector<bool>& marks = inner ? inner_ : outer_;
     for (std::size_t n = 0; n < 4; ++n)
-      if (n != opposite) marks[static_cast<std::size_t>(cell[n])] = true;
+      if (n != opposite) marks[as_size(cell[n])] = true;
     for (std::size_t e = 0; 4 + e < cell.size(); ++e)
-      if (kHalved[e][0] != opposite && kHalved[e][1] != opposite)
-        marks[static_cast<std::size_t>(cell[4 + e])] = true;
+      if (kHalved[e][0] != opposite && kHalved[e][1] != opposite) marks[as_size(cell[4 + e])] = true;
   }
   /// The array "surface". @param both gets how many points are on both.
   [[nodiscard]] std::vector<double> surface(std::size_t& both) const {
@@ -240,8 +239,7 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
   });
   NodeMarks marks(nodes);
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
-    const auto begin = static_cast<std::size_t>(cells.offsets[c]),
-               end = static_cast<std::size_t>(cells.offsets[c + 1]);
+    const auto begin = as_size(cells.offsets[c]), end = as_size(cells.offsets[c + 1]);
     const std::span<const std::int64_t> cell(cells.connectivity.data() + begin, end - begin);
     for (std::size_t opposite = 0; opposite < 4; ++opposite) {
       Triple corners{};

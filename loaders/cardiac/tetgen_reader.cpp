@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/marked_faces.h"
@@ -31,7 +32,7 @@ struct Nodes {
   std::vector<std::vector<double>> attributes;
   [[nodiscard]] std::size_t count() const { return positions.size() / 3; }
   [[nodiscard]] Vec3 at(std::int64_t node) const {
-    const auto p = static_cast<std::size_t>(node) * 3;
+    const auto p = as_size(node) * 3;
     return {positions[p], positions[p + 1], positions[p + 2]};
   }
 };
@@ -62,8 +63,7 @@ Nodes read_nodes(const std::string& file, std::vector<std::string>& notes) {
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of nodes", kLeastBytes);
   (void)lines.integer("the number of dimensions, 3,", 3, 3);
-  const auto attributes =
-      static_cast<std::size_t>(lines.integer("the number of attributes", 0, kMostAttributes));
+  const auto attributes = as_size(lines.integer("the number of attributes", 0, kMostAttributes));
   const bool marked = lines.integer("0 or 1 for boundary markers,", 0, 1) == 1;
   Nodes nodes;
   nodes.attributes.resize(attributes);
@@ -121,7 +121,7 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
   const std::int64_t corners = lines.integer("4 or 10 nodes an element,", 4, 10);
   if (corners != 4 && corners != 10)
     lines.refuse("has elements of " + std::to_string(corners) + " nodes", "4 or 10");
-  attributes.resize(static_cast<std::size_t>(lines.integer("the number of attributes", 0, kMostAttributes)));
+  attributes.resize(as_size(lines.integer("the number of attributes", 0, kMostAttributes)));
   UnstructuredTopology topology;
   topology.offsets.push_back(0);
   std::int64_t first = 0;
@@ -134,7 +134,7 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
       (void)lines.integer("the next element's number", expected, expected);
     }
     std::array<std::int64_t, 10> cell{};
-    const auto used = static_cast<std::size_t>(corners);
+    const auto used = as_size(corners);
     const std::int64_t last = nodes.first + static_cast<std::int64_t>(nodes.count()) - 1;
     for (std::size_t n = 0; n < used; ++n)
       cell[n] = lines.integer("a node of the element", nodes.first, last) - nodes.first;
@@ -204,7 +204,7 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
   if (!files.directions.empty()) {
     TextLines lines(files.directions, '#');
     const std::string ending = ending_of(files.directions);
-    const auto count = static_cast<std::size_t>(lines.integer("the number of directions", 0, 2'000'000'000));
+    const auto count = as_size(lines.integer("the number of directions", 0, 2'000'000'000));
     if (count != elements)
       lines.refuse("has " + std::to_string(count) + " directions",
                    std::to_string(elements) + ", one an element");

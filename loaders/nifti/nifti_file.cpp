@@ -13,6 +13,7 @@
 #include <nifti/znzlib.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/header_of_pair.h"
@@ -194,8 +195,7 @@ struct NiftiFile::Image {
 
     array_.association = Association::kPoint;
     array_.components = stored_.components * static_cast<int>(volumes_);
-    array_.tuples = static_cast<std::size_t>(image.nx) * static_cast<std::size_t>(image.ny) *
-                    static_cast<std::size_t>(image.nz);
+    array_.tuples = as_size(image.nx) * as_size(image.ny) * as_size(image.nz);
     array_.name = "scalars";
     if (array_.components > 1) array_.name = volumes_ == 3 ? "vectors" : "components";
     if (stored_.components > 1 && volumes_ == 1) array_.name = kColorArray;
@@ -245,9 +245,8 @@ struct NiftiFile::Image {
 
   DataArray values(std::int64_t step, const std::function<void(double)>& on_progress) const {
     (void)check_nifti(file_);
-    const std::size_t bytes =
-        array_.tuples * byte_size(stored_.type) * static_cast<std::size_t>(stored_.components);
-    VoxelMemory stored(bytes * static_cast<std::size_t>(volumes_));
+    const std::size_t bytes = array_.tuples * byte_size(stored_.type) * as_size(stored_.components);
+    VoxelMemory stored(bytes * as_size(volumes_));
     VoxelFile file(*image_);
     std::vector<std::byte> volume(volumes_ > 1 ? bytes : 0);
     for (std::int64_t v = 0; v < volumes_; ++v) {
@@ -255,7 +254,7 @@ struct NiftiFile::Image {
         read_volume(file, step, stored.bytes());
       } else {
         read_volume(file, step + steps_ * v, volume);
-        interleave(volume, static_cast<std::size_t>(v), stored.bytes());
+        interleave(volume, as_size(v), stored.bytes());
       }
       if (on_progress) on_progress(static_cast<double>(v + 1) / static_cast<double>(volumes_));
     }
@@ -271,15 +270,14 @@ struct NiftiFile::Image {
   /// Puts component `v` of every voxel where tuples want it.
   void interleave(std::span<const std::byte> volume, std::size_t v, std::span<std::byte> out) const {
     const std::size_t size = volume.size() / array_.tuples;
-    const std::size_t stride = size * static_cast<std::size_t>(volumes_);
+    const std::size_t stride = size * as_size(volumes_);
     for (std::size_t p = 0; p < array_.tuples; ++p)
       std::memcpy(out.data() + p * stride + v * size, volume.data() + p * size, size);
   }
 
   template <typename T>
   DataArray scaled(const DataArray& stored) const {
-    const auto values =
-        std::make_shared<std::vector<T>>(stored.tuples * static_cast<std::size_t>(stored.components));
+    const auto values = std::make_shared<std::vector<T>>(stored.tuples * as_size(stored.components));
     std::size_t i = 0;
     for (std::size_t p = 0; p < stored.tuples; ++p) {
       for (int c = 0; c < stored.components; ++c)

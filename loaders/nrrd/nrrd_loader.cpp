@@ -13,6 +13,7 @@
 #include <teem/nrrd.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/load/fsl_gradients.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
@@ -266,8 +267,8 @@ class NrrdLoader : public Loader {
   /// Volumes with the gradients that are named in place of those of the header.
   void take_named_gradients(const Nrrd& nrrd, const DiffusionRequest& request, FileInfo& info) {
     if (kind_ != TupleKind::kNumbers || !axes_.components) return;
-    info.diffusion.gradients = named_fsl_gradients(
-        file_, request, static_cast<std::size_t>(stored_components_), topology_.axes, info.notes);
+    info.diffusion.gradients =
+        named_fsl_gradients(file_, request, as_size(stored_components_), topology_.axes, info.notes);
     info.diffusion.gradient_frame = VectorFrame::kImage;
     if (nrrd_key(nrrd, "DWMRI_b-value"))
       info.notes.emplace_back("gradients of the header left aside for them");
@@ -288,7 +289,7 @@ class NrrdLoader : public Loader {
       info.diffusion.gradient_frame = VectorFrame::kLps;
     for (int c = 0; c < 3; ++c) frame[c] *= signs_;
     info.diffusion.gradients =
-        read_nrrd_gradients(keys, static_cast<std::size_t>(stored_components_), frame, file_, info.notes);
+        read_nrrd_gradients(keys, as_size(stored_components_), frame, file_, info.notes);
     if (!info.diffusion.gradients) return;
     array_.name = kSignalArray;
     if (own_frame) info.notes.emplace_back(kOwnFrame);
@@ -300,7 +301,7 @@ class NrrdLoader : public Loader {
     DataArray array;
     array.components = array_.components;
     array.tuples = array_.tuples;
-    const std::size_t count = array_.tuples * static_cast<std::size_t>(stored_components_);
+    const std::size_t count = array_.tuples * as_size(stored_components_);
     if (turned_) return turned(step * count, std::move(array));
     array.type = array_.type;
     const std::size_t bytes = count * byte_size(array_.type);
@@ -331,8 +332,8 @@ class NrrdLoader : public Loader {
   /// Vectors and tensors in RAS: stored in single precision where the file is no more precise.
   DataArray turned(std::size_t first, DataArray array) const {
     const auto fill = [&]<typename T>(T, ScalarType type) {
-      const auto from = static_cast<std::size_t>(stored_components_);
-      const auto to = static_cast<std::size_t>(array.components);
+      const auto from = as_size(stored_components_);
+      const auto to = as_size(array.components);
       const auto values = std::make_shared<std::vector<T>>(to * array.tuples);
       const auto lookup = nrrdDLookup[values_->type];
       std::vector<double> tuple(from), result(to);

@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/trk_header.h"
 #include "loaders/tract/tract_loader.h"
@@ -49,7 +50,7 @@ Order nearest_order(const Mat3& axes) {
   for (const auto& way : kWays) {
     double sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) {
-      const double cosine = glm::normalize(axes[axis])[way[static_cast<std::size_t>(axis)]];
+      const double cosine = glm::normalize(axes[axis])[way[as_size(axis)]];
       sum += cosine * cosine;
     }
     if (sum <= best) continue;
@@ -106,7 +107,7 @@ class TrkReader {
     const int count = field<std::int16_t>(count_at);
     if (count < 0) refuse("header", "has " + std::to_string(count) + " numbers for each " + what);
     constexpr std::size_t kNames = 10, kLength = 20;
-    const auto wanted = static_cast<std::size_t>(count);
+    const auto wanted = as_size(count);
     for (std::size_t n = 0; n < kNames && columns.size() < wanted; ++n) {
       const std::string_view entry = bytes_.substr(names_at + n * kLength, kLength);
       const std::string name(entry.substr(0, entry.find('\0')));
@@ -128,7 +129,7 @@ class TrkReader {
     Vec3 size{0.0};
     Index3 count{0};
     for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
+      const auto a = as_size(axis);
       size[axis] = field<float>(offsetof(TrkHeader, voxel_size) + a * sizeof(float));
       count[axis] = field<std::int16_t>(offsetof(TrkHeader, dim) + a * sizeof(std::int16_t));
       if (!(size[axis] > 0.0) || !std::isfinite(size[axis]))
@@ -210,7 +211,7 @@ class TrkReader {
     at_ = sizeof(TrkHeader);
     lines_.points.reserve((bytes_.size() - at_) / row);
     // A count of zero means that it was not known when the header was written.
-    while (claimed > 0 ? lines_.line_count() < static_cast<std::size_t>(claimed) : at_ < bytes_.size()) {
+    while (claimed > 0 ? lines_.line_count() < as_size(claimed) : at_ < bytes_.size()) {
       const std::string place = "line " + std::to_string(lines_.line_count() + 1);
       if (bytes_.size() - at_ < sizeof(std::int32_t)) {
         refuse(place, "is missing", claimed > 0 ? counted(static_cast<std::uint64_t>(claimed), "line") : "");
@@ -218,7 +219,7 @@ class TrkReader {
       const auto points = field<std::int32_t>(at_);
       at_ += sizeof(std::int32_t);
       const std::size_t left = bytes_.size() - at_;
-      if (points < 0 || left < properties || static_cast<std::size_t>(points) > (left - properties) / row) {
+      if (points < 0 || left < properties || as_size(points) > (left - properties) / row) {
         refuse(place, "claims " + std::to_string(points) + " points",
                "at most " + std::to_string(left < properties ? 0 : (left - properties) / row));
       }

@@ -56,9 +56,9 @@ class BorderPeel {
       ++taken;
       for (std::size_t f = 0; f < 4; ++f) {
         const CellIndex behind = cells_.neighbors[c][f];
-        if (behind == kNoCell || kept_[static_cast<std::size_t>(behind)] == 0) continue;
+        if (behind == kNoCell || kept_[as_size(behind)] == 0) continue;
         add_edges(c, f);  // now on the border, from the other side
-        waiting.push_back(static_cast<std::size_t>(behind));
+        waiting.push_back(as_size(behind));
       }
     }
     return taken;
@@ -67,7 +67,7 @@ class BorderPeel {
  private:
   [[nodiscard]] bool open(std::size_t c, std::size_t f) const {
     const CellIndex behind = cells_.neighbors[c][f];
-    return behind == kNoCell || kept_[static_cast<std::size_t>(behind)] == 0;
+    return behind == kNoCell || kept_[as_size(behind)] == 0;
   }
   void add_edges(std::size_t c, std::size_t f) {
     const TetMesh::Tet& tet = cells_.tets[c];
@@ -103,7 +103,7 @@ std::uint64_t drop_islands(const DelaunayCells& cells, std::vector<std::uint8_t>
     seen[start] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
       for (const CellIndex next : cells.neighbors[part[i]]) {
-        const auto n = static_cast<std::size_t>(next);
+        const auto n = as_size(next);
         if (next == kNoCell || kept[n] == 0 || seen[n] != 0) continue;
         seen[n] = 1;
         part.push_back(n);
@@ -163,7 +163,7 @@ void WallCells::make_bins() {
                                 std::max<double>(1.0, static_cast<double>(cells)));
   for (int a = 0; a < 3; ++a) {
     const double count = side > 0.0 ? std::clamp(size[a] / side, 1.0, 1024.0) : 1.0;
-    bins_[static_cast<std::size_t>(a)] = static_cast<std::int64_t>(count);
+    bins_[as_size(a)] = static_cast<std::int64_t>(count);
     per_length_[a] = size[a] > 0.0 ? std::floor(count) / size[a] : 0.0;
   }
   const auto each_bin = [&](const auto& visit) {
@@ -175,11 +175,10 @@ void WallCells::make_bins() {
       for (std::int64_t k = low[2]; k <= high[2]; ++k)
         for (std::int64_t j = low[1]; j <= high[1]; ++j)
           for (std::int64_t i = low[0]; i <= high[0]; ++i)
-            visit(static_cast<std::size_t>(i + bins_[0] * (j + bins_[1] * k)),
-                  static_cast<std::uint32_t>(cell));
+            visit(as_size(i + bins_[0] * (j + bins_[1] * k)), static_cast<std::uint32_t>(cell));
     }
   };
-  first_in_bin_.assign(static_cast<std::size_t>(bins_[0] * bins_[1] * bins_[2]) + 1, 0);
+  first_in_bin_.assign(as_size(bins_[0] * bins_[1] * bins_[2]) + 1, 0);
   each_bin([&](std::size_t bin, std::uint32_t) { ++first_in_bin_[bin + 1]; });
   for (std::size_t b = 1; b < first_in_bin_.size(); ++b) first_in_bin_[b] += first_in_bin_[b - 1];
   in_bin_.resize(first_in_bin_.back());
@@ -190,9 +189,9 @@ void WallCells::make_bins() {
 std::array<std::int64_t, 3> WallCells::bin_of(const Vec3& x) const noexcept {
   std::array<std::int64_t, 3> bin{};
   for (int a = 0; a < 3; ++a) {
-    const std::int64_t most = bins_[static_cast<std::size_t>(a)] - 1;
-    bin[static_cast<std::size_t>(a)] = std::clamp(
-        static_cast<std::int64_t>((x[a] - bounds_.lower[a]) * per_length_[a]), std::int64_t{0}, most);
+    const std::int64_t most = bins_[as_size(a)] - 1;
+    bin[as_size(a)] = std::clamp(static_cast<std::int64_t>((x[a] - bounds_.lower[a]) * per_length_[a]),
+                                 std::int64_t{0}, most);
   }
   return bin;
 }
@@ -235,7 +234,7 @@ bool WallCells::hold(const Vec3& x) const noexcept {
   for (int a = 0; a < 3; ++a)
     if (!(x[a] >= bounds_.lower[a] && x[a] <= bounds_.upper[a])) return false;
   const auto at = bin_of(x);
-  const auto bin = static_cast<std::size_t>(at[0] + bins_[0] * (at[1] + bins_[1] * at[2]));
+  const auto bin = as_size(at[0] + bins_[0] * (at[1] + bins_[1] * at[2]));
   for (std::size_t i = first_in_bin_[bin]; i < first_in_bin_[bin + 1]; ++i)
     if (cell_holds(in_bin_[i], x)) return true;
   return false;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/haptics/constraint/grid_axis.h"
 #include "common/haptics/frame_along.h"
@@ -80,7 +81,7 @@ double prominence(const Profile& profile, std::size_t i) {
     double lowest = profile[i];
     for (auto j = static_cast<std::ptrdiff_t>(i); j >= 0 && j < static_cast<std::ptrdiff_t>(kPlanes);
          j += step) {
-      const double value = profile[static_cast<std::size_t>(j)];
+      const double value = profile[as_size(j)];
       if (value > profile[i]) return lowest;
       lowest = std::min(lowest, value);
     }
@@ -161,7 +162,7 @@ std::vector<GridAxis::Landmark> landmarks_of(const HapticScene& scene, const Mat
   const double scale = scene.workspace.scale();
   std::vector<GridAxis::Landmark> landmarks;
   for (int i = 0; i < settings.marks.count; ++i) {
-    const GridMark& mark = settings.marks.mark[static_cast<std::size_t>(i)];
+    const GridMark& mark = settings.marks.mark[as_size(i)];
     const double size = mark.axis < 3 ? 1.0 : glm::length(mark.normal);
     landmarks.push_back({mark.axis < 3 ? axes[mark.axis] : mark.normal / size, scale * mark.at / size});
   }
@@ -183,7 +184,7 @@ Vec3 spacing_of(const std::string& text) {
   const std::vector<std::string_view> words = split(text, ',');
   const bool counted = words.size() == 1 || words.size() == 3;
   for (int a = 0; a < 3 && counted; ++a) {
-    spacing[a] = number(words[static_cast<std::size_t>(a) % words.size()]).value_or(0.0);
+    spacing[a] = number(words[as_size(a) % words.size()]).value_or(0.0);
   }
   for (int a = 0; a < 3; ++a) {
     if (!(spacing[a] > 0.0) || !std::isfinite(spacing[a])) {
@@ -223,7 +224,7 @@ Mat3 grid_axes(const GridFrame& frame, const LocalFrame& local) {
 std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local, const Vec3& x) {
   const Vec3 along = x * grid_axes(frame, local);  // row vector times axes: the coordinates along them
   std::array<GridMark, 3> marks;
-  for (int a = 0; a < 3; ++a) marks[static_cast<std::size_t>(a)] = {.axis = a, .at = along[a]};
+  for (int a = 0; a < 3; ++a) marks[as_size(a)] = {.axis = a, .at = along[a]};
   return marks;
 }
 
@@ -250,7 +251,7 @@ std::vector<double> value_peaks(const ScalarField& field, const Mat3& axes, int 
     if (out > kLeast * (*high - *low)) peaks.emplace_back(-out, i);
   }
   std::sort(peaks.begin(), peaks.end());
-  peaks.resize(std::min(peaks.size(), static_cast<std::size_t>(std::max(count, 0))));
+  peaks.resize(std::min(peaks.size(), as_size(std::max(count, 0))));
   const auto ends = extent(field.bounds(), axes[axis]);
   std::vector<double> places;
   for (const auto& [out, i] : peaks) {
@@ -282,7 +283,7 @@ HapticChain make_plane_widget(const HapticScene& scene) {
   ChainSettings settings = scene.settings;
   PlanePoses& poses = settings.plane_widget.poses;
   for (int i = 0; i < poses.count; ++i) {
-    PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    PlanePose& pose = poses.pose[as_size(i)];
     // A plane may be given by numbers that say nothing of its middle.
     const bool inside = glm::clamp(pose.center, bounds.lower, bounds.upper) == pose.center;
     if (inside) continue;
