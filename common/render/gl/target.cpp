@@ -145,15 +145,9 @@ void RenderTarget::copy_growing_to_still() {
 
 std::uint32_t RenderTarget::copy_depth() {
   if (!depth_copy_) {
-    GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    depth_copy_ = GlTexture(name);
-    label_object(GpuObject::Kind::kTexture, name, "depths for rays");
-    glTextureStorage2D(name, 1, GL_DEPTH_COMPONENT32F, scene_width_, scene_height_);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glCreateFramebuffers(1, &name);
-    depth_framebuffer_ = GlFramebuffer(name);
+    depth_copy_ = make_picture_texture(GL_DEPTH_COMPONENT32F, scene_width_, scene_height_, "depths for rays");
+    depth_framebuffer_ = make_framebuffer();
+    const GLuint name = depth_framebuffer_.name();
     glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth_copy_.name(), 0);
     glNamedFramebufferDrawBuffer(name, GL_NONE);
   }

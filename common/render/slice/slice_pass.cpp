@@ -2,8 +2,8 @@
 
 #include <epoxy/gl.h>
 
-#include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/program.h"
+#include "common/render/gl/target.h"
 #include "common/render/slice/slice_raster.h"
 
 namespace palpate {
@@ -15,13 +15,7 @@ void VolumeSlicePass::draw(const SliceView& slice, const Camera& camera, int wid
   }
   const bool same_size = texture_ && width == width_ && height == height_;
   if (!same_size) {
-    GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    texture_ = GlTexture(name);
-    label_object(GpuObject::Kind::kTexture, name, "slice");
-    glTextureStorage2D(name, 1, GL_RGBA8, width, height);
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    texture_ = make_picture_texture(GL_RGBA8, width, height, "slice");
     width_ = width;
     height_ = height;
   }
