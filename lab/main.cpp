@@ -12,7 +12,7 @@
 #include "common/scene/report_request.h"
 #include "lab/study.h"
 #ifdef PALPATE_WITH_CALIBRATION
-#include "lab/bench/bench_studies.h"
+#include "lab/workbench/workbench_studies.h"
 #endif
 
 namespace {

@@ -226,7 +226,7 @@ TEST(IncludeArrows, RefuseAWrongArrow) {
   EXPECT_FALSE(allowed("common/compose", "common/hand"));
   EXPECT_FALSE(allowed("common/hand", "lab/hand"));
   EXPECT_FALSE(allowed("apps/flow", "lab/page"));
-  EXPECT_FALSE(allowed("apps/workbench", "lab/bench"));
+  EXPECT_FALSE(allowed("apps/workbench", "lab/workbench"));
   EXPECT_FALSE(allowed("lab/hand", "common/cli"));
   EXPECT_FALSE(allowed("library/palpate.cpp", "common/render"));
   EXPECT_FALSE(allowed("library/python", "loaders/vtk"));

@@ -1,4 +1,4 @@
-#include "lab/bench/head_errors.h"
+#include "lab/workbench/head_errors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lab/bench/distortion_pictures.h"
+#include "lab/workbench/distortion_pictures.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "lab/bench/bench_studies.h"
+#include "lab/workbench/workbench_studies.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,12 +12,12 @@
 #include "common/base/text.h"
 #include "common/kinematics/workbench_file.h"
 #include "common/math/quaternion.h"
-#include "lab/bench/calibration.h"
-#include "lab/bench/described_device.h"
-#include "lab/bench/fit_text.h"
-#include "lab/bench/head_errors.h"
 #include "lab/hand/wall/stability_sweep.h"
 #include "lab/hand/wall/wall_extremes.h"
+#include "lab/workbench/calibration.h"
+#include "lab/workbench/described_device.h"
+#include "lab/workbench/fit_text.h"
+#include "lab/workbench/head_errors.h"
 
 namespace palpate {
 namespace {

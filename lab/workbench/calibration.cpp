@@ -1,4 +1,4 @@
-#include "lab/bench/calibration.h"
+#include "lab/workbench/calibration.h"
 
 #include <array>
 #include <cmath>

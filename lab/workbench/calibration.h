@@ -7,8 +7,8 @@
 
 #include "common/calibration/fit_report.h"
 #include "common/scene/document/device_options.h"
-#include "lab/bench/distortion_pictures.h"
 #include "lab/page/section.h"
+#include "lab/workbench/distortion_pictures.h"
 
 namespace palpate {
 

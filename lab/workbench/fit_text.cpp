@@ -1,4 +1,4 @@
-#include "lab/bench/fit_text.h"
+#include "lab/workbench/fit_text.h"
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 #include "common/base/figures.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
-#include "lab/bench/calibration.h"
 #include "lab/page/scatter_plot.h"
+#include "lab/workbench/calibration.h"
 
 namespace palpate {
 namespace {

@@ -1,4 +1,4 @@
-#include "lab/bench/described_device.h"
+#include "lab/workbench/described_device.h"
 
 #include <algorithm>
 #include <array>
