@@ -2,6 +2,7 @@
 
 #include "common/base/text.h"
 
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,23 @@ TEST(Words, StandBetweenBlanksOfAnyKind) {
   EXPECT_EQ(words(" \t12  ab\r\nc\v\f"), (std::vector<std::string_view>{"12", "ab", "c"}));
   EXPECT_TRUE(words(" \n").empty());
   EXPECT_TRUE(words("").empty());
+}
+
+TEST(Joined, IsWhatSplitTakesApart) {
+  EXPECT_EQ(joined({}, ", "), "");
+  EXPECT_EQ(joined({"a"}, ", "), "a");
+  EXPECT_EQ(joined({"", "b", ""}, ", "), ", b, ") << "empty parts count";
+}
+
+TEST(CsvNumber, HasAWordForWhatIsNoNumber) {
+  EXPECT_EQ(csv_number(0.1), "0.1");
+  EXPECT_EQ(csv_number(HUGE_VAL), "nan");
+  EXPECT_EQ(csv_number(std::nan("")), "nan");
+}
+
+TEST(IsBlank, IsThatOfTheCLocale) {
+  for (const char c : std::string(" \t\n\v\f\r")) EXPECT_TRUE(is_blank(c)) << static_cast<int>(c);
+  for (const char c : std::string("a,\b\x0e\x7f")) EXPECT_FALSE(is_blank(c)) << static_cast<int>(c);
 }
 
 TEST(Trimmed, LeavesBlanksInside) {
