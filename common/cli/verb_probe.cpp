@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/probe_run.h"
@@ -32,7 +33,7 @@ std::string summary_text(const ProbeSummary& summary) {
   text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
   std::string states;
   for (int s = 0; s < kHoldStateCount; ++s) {
-    const std::size_t count = summary.states[static_cast<std::size_t>(s)];
+    const std::size_t count = summary.states[as_size(s)];
     if (count == 0) continue;
     states += (states.empty() ? "" : ", ") + std::string(name_of(static_cast<HoldState>(s))) + " " +
               std::to_string(count);
@@ -49,7 +50,7 @@ std::string summary_text(const ProbeSummary& summary) {
     const IsosurfaceSettings& surface = summary.settings.isosurface;
     text += "  surface    " + std::string(name_of(surface.hold)) + " of " + summary.scalar + " at";
     for (int i = 0; i < surface.isovalues.count; ++i) {
-      text += (i > 0 ? ", " : " ") + short_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
+      text += (i > 0 ? ", " : " ") + short_number(surface.isovalues.value[as_size(i)]);
     }
     text += "; pop-through at " + short_number(1e3 * surface.depth) + " mm\n";
   }
@@ -61,7 +62,7 @@ std::string summary_text(const ProbeSummary& summary) {
     text += "\n";
   }
   for (int i = 0; i < summary.planes.count; ++i) {
-    const Vec4 plane = plane_of_pose(summary.planes.pose[static_cast<std::size_t>(i)]);
+    const Vec4 plane = plane_of_pose(summary.planes.pose[as_size(i)]);
     text += "  plane      " + exact_number(plane.x) + "," + exact_number(plane.y) + "," +
             exact_number(plane.z) + "," + exact_number(plane.w) + "\n";
   }
@@ -317,7 +318,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   if (path.empty() && hands.empty() && options.hand.replay.empty())
     console.note(options.hand.path.string() + ": the path has no rows");
   if (run.first_fault() > 0) {
-    console.note(counted(summary.states[static_cast<std::size_t>(HoldState::kFault)], "step") +
+    console.note(counted(summary.states[as_size(HoldState::kFault)], "step") +
                  " without a force, the first is step " + std::to_string(run.first_fault()) + ": " +
                  reason_of(run.first_cut(), summary.limits));
   }

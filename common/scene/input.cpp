@@ -8,6 +8,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/ledger.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
@@ -61,7 +62,7 @@ std::optional<std::size_t> moving_step(Input& input, bool& failed, Progress* pro
     if (input.fields().empty()) return {};
     const VectorChoice chosen = input.choice();
     const std::vector<std::size_t> order = steps_in_order(input.times());
-    const auto first = static_cast<std::size_t>(std::ranges::find(order, own) - order.begin());
+    const auto first = as_size(std::ranges::find(order, own) - order.begin());
     for (std::size_t i = first; i < order.size() && !found; ++i) {
       if (i > first + kMostTried) i = order.size() - 1;
       input.set_time_step(order[i]);
@@ -101,7 +102,7 @@ TimeChoice choose_time(const std::vector<double>& times, std::string_view text) 
     throw usage_error("--time " + std::string(text) + ": the data has times from " + exact_number(*lowest) +
                       " to " + exact_number(*highest) + " (" + std::to_string(times.size()) + " steps)");
   }
-  return {static_cast<std::size_t>(nearest - times.begin()), *nearest == wanted};
+  return {as_size(nearest - times.begin()), *nearest == wanted};
 }
 
 std::vector<ExampleInfo> examples_of(FieldKind kind) {
@@ -131,13 +132,13 @@ std::vector<std::size_t> steps_in_order(const std::vector<double>& times) {
 
 std::size_t step_beside(const std::vector<double>& times, std::size_t step, bool on) {
   const std::vector<std::size_t> order = steps_in_order(times);
-  const auto place = static_cast<std::size_t>(std::ranges::find(order, step) - order.begin());
+  const auto place = as_size(std::ranges::find(order, step) - order.begin());
   return order[(place + (on ? 1 : order.size() - 1)) % order.size()];
 }
 
 std::size_t nearest_step(const std::vector<double>& times, double time) {
   const auto nearest = std::ranges::min_element(times, {}, [&](double t) { return std::abs(t - time); });
-  return static_cast<std::size_t>(nearest - times.begin());
+  return as_size(nearest - times.begin());
 }
 
 Input Input::open(const InputOptions& spec, Progress* progress) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/tensor/tensor_fit.h"
 #include "common/field/tensor/tensor_source.h"
@@ -44,7 +45,7 @@ FitErrorRow measure(const GradientTable& table, double weighting, double snr, in
   for (double& b : scaled.weightings) b *= weighting / table.largest_weighting();
   const std::size_t volumes = scaled.weightings.size();
   std::vector<float> signals;
-  signals.reserve(volumes * static_cast<std::size_t>(tensors));
+  signals.reserve(volumes * as_size(tensors));
   for (int n = 0; n < tensors; ++n) {
     const Vec3 e = spread_direction(n, tensors);
     for (std::size_t i = 0; i < volumes; ++i) {
@@ -68,7 +69,7 @@ FitErrorRow measure(const GradientTable& table, double weighting, double snr, in
   }
   std::vector<double> angles;
   for (int n = 0; n < tensors; ++n) {
-    const float* const d = &fit.tensors[6 * static_cast<std::size_t>(n)];
+    const float* const d = &fit.tensors[6 * as_size(n)];
     const Mat3 tensor{Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}};
     const Vec3 found = symmetric_eigen(tensor / kAlong).vectors[0];
     const Vec3 e = spread_direction(n, tensors);
@@ -102,7 +103,7 @@ FitErrors run_fit_errors(const GradientTable& table, Effort effort, int threads,
                    .unweighted = table.unweighted_count(),
                    .own_weighting = table.largest_weighting()};
   const int tensors = effort == Effort::kQuick ? 200 : effort == Effort::kNormal ? 1000 : 5000;
-  errors.tensors = static_cast<std::size_t>(tensors);
+  errors.tensors = as_size(tensors);
   const std::vector<double> snrs{10.0, 20.0, 40.0, 80.0, kNoiseless, 2.0 * kNoiseless};
   std::vector<double> weightings{250.0, 500.0, 750.0, 1000.0, 1500.0, 2000.0, 3000.0, 4000.0};
   if (effort == Effort::kQuick) weightings = {500.0, 1000.0, 2000.0, 4000.0};

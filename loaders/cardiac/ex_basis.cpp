@@ -1,5 +1,7 @@
 #include "loaders/cardiac/ex_basis.h"
 
+#include "common/base/index.h"
+
 namespace palpate::ex {
 
 int node_count(Basis basis) noexcept {
@@ -32,8 +34,8 @@ AxisWeights lagrange(int nodes, double xi) {
       slope = slope * (xi - place(j)) / width + value / width;
       value *= (xi - place(j)) / width;
     }
-    weights.value[static_cast<std::size_t>(i)] = value;
-    weights.slope[static_cast<std::size_t>(i)] = slope;
+    weights.value[as_size(i)] = value;
+    weights.slope[as_size(i)] = slope;
   }
   return weights;
 }
@@ -56,10 +58,10 @@ Interpolated interpolate(const std::array<Basis, 3>& basis, const double* parame
   std::array<AxisWeights, 3> along;
   std::array<std::size_t, 3> nodes{}, each{};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
+    const auto a = as_size(axis);
     along[a] = axis_weights(basis[a], xi[axis]);
-    nodes[a] = static_cast<std::size_t>(node_count(basis[a]));
-    each[a] = static_cast<std::size_t>(parameter_count(basis[a]));
+    nodes[a] = as_size(node_count(basis[a]));
+    each[a] = as_size(parameter_count(basis[a]));
   }
   Interpolated sum;
   const double* parameter = parameters;

@@ -7,6 +7,7 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -49,7 +50,7 @@ bool TextLines::take_line(std::string_view& line) {
     const char* const text = buffer_.get();
     const void* const newline = std::memchr(text + searched, '\n', end_ - searched);
     if (newline != nullptr) {
-      const auto length = static_cast<std::size_t>(static_cast<const char*>(newline) - text) - begin_;
+      const auto length = as_size(static_cast<const char*>(newline) - text) - begin_;
       line = {text + begin_, length};
       begin_ += length + 1;
       return true;
@@ -64,7 +65,7 @@ bool TextLines::take_line(std::string_view& line) {
     searched = end_;
     const int got = gzread(unpacker_->file, buffer_.get() + end_, static_cast<unsigned>(kBuffer - end_));
     if (got > 0) {
-      end_ += static_cast<std::size_t>(got);
+      end_ += as_size(got);
       continue;
     }
     int status = Z_OK;
@@ -101,8 +102,8 @@ std::string_view TextLines::word_here() noexcept {
   while (first != end && between_text(*first)) ++first;
   const char* last = first;
   while (last != end && !between_text(*last)) ++last;
-  rest_ = {last, static_cast<std::size_t>(end - last)};
-  return {first, static_cast<std::size_t>(last - first)};
+  rest_ = {last, as_size(end - last)};
+  return {first, as_size(last - first)};
 }
 
 std::string_view TextLines::word() {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/value_histogram.h"
 
@@ -54,7 +55,7 @@ std::optional<Vec3> first_surface_between(const HapticLevels& felt, const Vec3& 
     double part = first + (last - first) * n / kSamples;
     const double here = value(part);
     for (int l = 0; l < felt.isovalues.count && std::isfinite(before) && std::isfinite(here); ++l) {
-      const double level = felt.isovalues.value[static_cast<std::size_t>(l)];
+      const double level = felt.isovalues.value[as_size(l)];
       if ((before >= level) == (here >= level)) continue;
       double low = part_before;
       for (int i = 0; i < kBisections; ++i) {
@@ -75,7 +76,7 @@ std::optional<double> haptic_level(const HapticLevels& felt, double value) {
   if (!felt.field) return std::nullopt;
   const double near = kOnSurface * (felt.field->highest() - felt.field->lowest());
   for (int l = 0; l < felt.isovalues.count; ++l) {
-    const double level = felt.isovalues.value[static_cast<std::size_t>(l)];
+    const double level = felt.isovalues.value[as_size(l)];
     if (std::abs(value - level) <= near) return level;
   }
   return std::nullopt;
@@ -85,7 +86,7 @@ std::string beyond_values(const ScalarField& field, const Isovalues& isovalues) 
   std::string words;
   int count = 0;
   for (int i = 0; i < isovalues.count; ++i) {
-    const double level = isovalues.value[static_cast<std::size_t>(i)];
+    const double level = isovalues.value[as_size(i)];
     if (level >= field.lowest() && level <= field.highest()) continue;
     words += (count++ > 0 ? ", " : "") + short_number(level);
   }
@@ -137,7 +138,7 @@ HapticSurfaces::Made HapticSurfaces::make(const HapticLevels& felt, const Made& 
     made.histogram = std::make_shared<const ValueHistogram>(value_histogram(*felt.field));
   }
   for (int i = 0; i < felt.isovalues.count; ++i) {
-    const double level = felt.isovalues.value[static_cast<std::size_t>(i)];
+    const double level = felt.isovalues.value[as_size(i)];
     const auto known = std::find_if(before.meshes.begin(), before.meshes.end(),
                                     [&](const auto& mesh) { return mesh && mesh->level == level; });
     if (known != before.meshes.end()) {
