@@ -1,5 +1,9 @@
 #include "apps/flow/flow_model.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include "common/base/text.h"
 #include "common/compose/domain_outline.h"
 #include "common/compose/haptic_scalar.h"
@@ -18,8 +22,14 @@ namespace {
 
 std::string grid_fact(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) {
-    return std::to_string(mesh->points().size()) + " points, " + std::to_string(mesh->cells().size()) +
-           " tetrahedra";
+    std::vector<bool> used(mesh->points().size());
+    for (const TetMesh::Tet& tet : mesh->cells()) {
+      for (const std::uint32_t point : tet) used[point] = true;
+    }
+    const auto points = static_cast<std::uint64_t>(std::ranges::count(used, true));
+    std::string fact = counted(points, "point") + ", " + counted(mesh->cells().size(), "tetrahedron");
+    if (points < used.size()) fact += "; " + counted(used.size() - points, "point") + " in no cell";
+    return fact;
   }
   if (const BoxGrid* grid = field.box_grid()) {
     const Index3 n = grid->points();

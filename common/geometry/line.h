@@ -23,10 +23,11 @@ enum class End : std::uint8_t {
   kStoppedByRule,
   kBelowCutoff,  ///< tracts: the measure of anisotropy fell below its cut-off
   kSharpTurn,    ///< tracts: it would have turned by more than allowed
-  kEndOfTime     ///< unsteady flow: the last moment that was asked for, or that there are data of
+  kEndOfTime,    ///< unsteady flow: the last moment that was asked for, or that there are data of
+  kOpposedCells  ///< values constant over each cell: the flow on either side of a face points at it
 };
 
-inline constexpr int kEndCount = 11;
+inline constexpr int kEndCount = 12;
 
 struct LinePoint {
   Vec3 position{0.0};
@@ -52,7 +53,8 @@ struct Line {
 [[nodiscard]] inline std::string_view name_of(End end) noexcept {
   static constexpr std::array<std::string_view, kEndCount> kNames{
       "left_domain", "stagnation",      "max_length",   "max_time",   "max_steps",  "loop",
-      "bad_data",    "stopped_by_rule", "below_cutoff", "sharp_turn", "end_of_time"};
+      "bad_data",    "stopped_by_rule", "below_cutoff", "sharp_turn", "end_of_time",
+      "opposed_cells"};
   return kNames[as_size(end)];
 }
 

@@ -148,10 +148,15 @@ bool looks_like_ucd(const FileHead& head, const FormatRow& row) {
 bool looks_like_openfoam(const FileHead& head, const FormatRow&) {
   return has(text_of(head), "FoamFile") && has(text_of(head), "controlDict");
 }
+/// A decomposed case may have its mesh, and constant/, in the folders of processors alone.
 bool is_openfoam_case(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  return std::filesystem::exists(folder / "system/controlDict", ignored) &&
-         std::filesystem::is_directory(folder / "constant", ignored);
+  std::error_code error, ignored;
+  if (!std::filesystem::exists(folder / "system/controlDict", ignored)) return false;
+  for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if ((name == "constant" || name.starts_with("processor")) && it->is_directory(ignored)) return true;
+  }
+  return false;
 }
 
 /// A zip file one of whose first members is one that every TRX file has.

@@ -203,7 +203,7 @@ class CaseReader : public Loader {
     update(times_.empty() ? 0 : times_.size() - 1);
     for (const VtkBlock& block : usable(&info.notes))
       info.blocks.push_back(describe_block(block.data, block.name));
-    note_boundary(info.notes);
+    note_boundary(info);
     find_steps(times, info);
     blocks_ = info.blocks;
     return info;
@@ -328,14 +328,20 @@ class CaseReader : public Loader {
     }
   }
 
-  /// What of the boundary cannot be read, at the time that was read last.
-  void note_boundary(std::vector<std::string>& notes) {
+  /// What of the boundary cannot be read, at the time that was read last, and the precision that values have.
+  void note_boundary(FileInfo& info) {
     if (!Case::kChecksFields || times_.empty()) return;
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : usable(nullptr))
       blocks.push_back(convert_block(block.data, block.name, arrays(), file_));
     constexpr std::size_t kMost = 5;
     const std::vector<std::string> problems = case_.add_boundary(blocks, times_.back());
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      for (ArrayInfo& about : info.blocks[b].arrays) {
+        if (const DataArray* const array = blocks[b].find(about.name, about.association)) about.type = array->type;
+      }
+    }
+    std::vector<std::string>& notes = info.notes;
     notes.insert(notes.end(), problems.begin(),
                  problems.begin() + static_cast<std::ptrdiff_t>(std::min(kMost, problems.size())));
     if (problems.size() > kMost)

@@ -70,6 +70,7 @@ XmlScan check_parallel(const std::string& file, const ParallelIndex& index) {
     throw input_error(
         {file, "", "WholeExtent=\"" + index.whole_extent.substr(0, 60) + "\"", "six increasing numbers"});
   }
+  std::vector<std::size_t> with_letters;
   std::set<std::filesystem::path> seen;
   std::vector<Extent> extents;
   for (const ParallelPiece& piece : index.pieces) {
@@ -92,6 +93,7 @@ XmlScan check_parallel(const std::string& file, const ParallelIndex& index) {
       if (!has(scan.arrays, array))
         throw input_error({name, "", "has no array '" + array.name + "'", "the arrays of " + file});
     }
+    if (!scan.ends_in_letter.empty()) with_letters.push_back(extents.size());
     extents.push_back(*extent);
   }
   const auto left_out = cells_left_out(*whole, extents);
@@ -105,7 +107,8 @@ XmlScan check_parallel(const std::string& file, const ParallelIndex& index) {
           .arrays = index.arrays,
           .whole = *whole,
           .problem = {},
-          .empty_pieces = {}};
+          .empty_pieces = {},
+          .pieces_with_letters = std::move(with_letters)};
 }
 
 }  // namespace palpate

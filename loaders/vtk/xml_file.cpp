@@ -22,6 +22,7 @@
 #include "common/base/files/mapped_file.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
+#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/parallel_index.h"
 
 namespace palpate {
@@ -56,10 +57,50 @@ void select(vtkDataArraySelection* selection, const std::set<std::string>& array
   }
 }
 
+/// The file's text with a blank in the place of what VTK's reader stumbles over.
+std::string readable_text(const std::string& file, const XmlScan& scan) {
+  std::vector<std::pair<std::size_t, std::size_t>> cuts = scan.empty_pieces;
+  for (const std::size_t at : scan.ends_in_letter) cuts.emplace_back(at, at);
+  std::sort(cuts.begin(), cuts.end());
+  const MappedFile mapped(file);
+  std::string rest;
+  std::size_t from = 0;
+  for (const auto& [first, last] : cuts) {
+    if (first < from) continue;
+    rest.append(mapped.text().substr(from, first - from)).append(" ");
+    from = last;
+  }
+  return rest.append(mapped.text().substr(from));
+}
+
 }  // namespace
 
 struct XmlFile::Reader {
   vtkSmartPointer<vtkXMLReader> vtk;
+  std::vector<MemoryText> pieces;  ///< that stand for files
+
+  /// The index with names of `pieces` in the place of those of files whose text is not readable as it is.
+  std::string index_of_readable(const std::string& file, const std::vector<std::size_t>& unreadable) {
+    const ParallelIndex index = read_parallel_index(file);
+    const MappedFile mapped(file);
+    std::string text;
+    std::size_t from = 0, piece = 0;
+    XmlTags tags(mapped.text());
+    XmlTag tag;
+    while (tags.next(tag)) {
+      if (tag.name != "Piece" || !tag.opens) continue;
+      const std::size_t number = piece++;
+      if (!std::binary_search(unreadable.begin(), unreadable.end(), number)) continue;
+      const std::string name = index.pieces[number].file.string();
+      const std::size_t end = tags.position();
+      text += mapped.text().substr(from, mapped.text().rfind('<', end - 1) - from);
+      text += "<Piece Extent=\"" + index.pieces[number].extent + "\" Source=\"" +
+              pieces.emplace_back().write(readable_text(name, scan_xml(MappedFile(name).text()))) +
+              (tag.closes ? "\"/>" : "\">");
+      from = end;
+    }
+    return text.append(mapped.text().substr(from));
+  }
 };
 
 XmlFile::XmlFile(const std::string& file, VtkErrors& errors)
@@ -67,24 +108,12 @@ XmlFile::XmlFile(const std::string& file, VtkErrors& errors)
   reader_->vtk = make_reader(scan_.data_type);
   if (reader_->vtk == nullptr)
     throw input_error({file_, "", "is of type '" + scan_.data_type.substr(0, 40) + "', which is not read"});
-  // Each is replaced by a blank.
-  std::vector<std::pair<std::size_t, std::size_t>> cuts = scan_.empty_pieces;
-  for (const std::size_t at : scan_.ends_in_letter) cuts.emplace_back(at, at);
-  if (cuts.empty()) {
-    reader_->vtk->SetFileName(file_.c_str());
-  } else {
-    const MappedFile mapped(file_);
-    std::string rest;
-    std::size_t from = 0;
-    std::sort(cuts.begin(), cuts.end());
-    for (const auto& [first, last] : cuts) {
-      if (first < from) continue;
-      rest.append(mapped.text().substr(from, first - from)).append(" ");
-      from = last;
-    }
-    rest += mapped.text().substr(from);
+  reader_->vtk->SetFileName(file_.c_str());
+  const bool pieces = !scan_.pieces_with_letters.empty();
+  if (pieces || !scan_.empty_pieces.empty() || !scan_.ends_in_letter.empty()) {
     reader_->vtk->ReadFromInputStringOn();
-    reader_->vtk->SetInputString(rest);
+    reader_->vtk->SetInputString(pieces ? reader_->index_of_readable(file_, scan_.pieces_with_letters)
+                                        : readable_text(file_, scan_));
   }
   reader_->vtk->UpdateInformation();
   errors_.check(file_);

@@ -58,6 +58,8 @@ struct XmlScan {
   /// Meshes: where pieces without points stand in the text, if the first is one. VTK takes the arrays of the
   /// first piece for those of all.
   std::vector<std::pair<std::size_t, std::size_t>> empty_pieces;
+  /// Of an index of pieces that make one grid: the numbers of those that have such text.
+  std::vector<std::size_t> pieces_with_letters = {};
 };
 
 /// Scans `text`, the whole file (of binary data only the sizes).

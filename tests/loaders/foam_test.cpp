@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <set>
@@ -20,6 +21,7 @@
 #include "common/load/load.h"
 #include "common/trace/trace.h"
 #include "loaders/vtk/foam/foam_boundary.h"
+#include "loaders/vtk/foam/foam_precision.h"
 #include "tests/loaders/foam_box.h"
 #include "tests/support/temp_folder.h"
 
@@ -154,6 +156,72 @@ TEST(FoamProcessors, CollatedOnesAreNamed) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("collated"), std::string::npos) << error.what();
   }
+}
+
+TEST(FoamProcessors, NeedNoConstantBeside) {
+  const test::TempFolder folder;
+  write_parts(folder.path(), 2, false, {"0", "1"});
+  fs::remove_all(folder.path("constant"));
+  expect_helices(Source::open({{folder.path()}, {}}).read({"U"}, 1));
+  std::ofstream(folder.path("a.foam")) << "";
+  expect_helices(Source::open({{folder.path("a.foam")}, {}}).read({"U"}, 1));
+}
+
+// --- precision --------------------------------------------------------------------------------------------
+
+TEST(FoamPrecision, IsThatOfTheFiles) {
+  const auto value = [](const Vec3& x) { return Vec3{1.0 + 1e-12 * x.x, 1.0 / 3.0 + x.y, 1e-30 * x.z}; };
+  const FoamBox box(3, border);  // whose points are no numbers of single precision
+  for (const bool binary : {false, true}) {
+    SCOPED_TRACE(binary);
+    const test::TempFolder folder;
+    FoamBox::write_control(folder.path());
+    box.write_mesh(folder.path(), binary);
+    box.write_vectors(folder.path("0/U"), binary, value, kFree);
+    const std::string pressure = "0.1234567890123456789";
+    FoamBox::write(folder.path("0/p"), FoamBox::header("volScalarField", "p", false) +
+                                           "dimensions [0 2 -2 0 0 0 0];\nlevel " + pressure +
+                                           ";\ninternalField uniform $level;\nboundaryField\n{\n" + kFree + "}\n");
+    Source source = Source::open({{folder.path()}, {}});
+    for (const ArrayInfo& array : source.info().blocks.at(0).arrays)
+      EXPECT_EQ(array.type, ScalarType::kFloat64) << array.name;
+    EXPECT_FALSE(says(source.info().notes, "single precision"));
+    const auto blocks = source.read({"U", "p"});
+    const auto& mesh = std::get<UnstructuredTopology>(blocks.at(0).topology);
+    std::set<double> lines;
+    for (std::size_t p = 0; p < mesh.positions.tuples; ++p) lines.insert(mesh.positions.at(p, 0));
+    EXPECT_EQ(lines, (std::set<double>{-1.0, box.placed({1, 0, 0}).x, box.placed({2, 0, 0}).x, 1.0}));
+    const DataArray* const u = blocks[0].find("U", Association::kCell);
+    const DataArray* const p = blocks[0].find("p", Association::kCell);
+    ASSERT_TRUE(u != nullptr && p != nullptr);
+    std::size_t cell = 0;
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i, ++cell) {
+          const Vec3 wanted = value(box.placed(Vec3(i, j, k) + 0.5));
+          for (int c = 0; c < 3; ++c) EXPECT_EQ(u->at(cell, c), wanted[c]);
+          EXPECT_EQ(p->at(cell), 0.1234567890123456789);
+        }
+      }
+    }
+  }
+}
+
+TEST(FoamPrecision, TakesOneValueForAllAndNoOtherOrder) {
+  const test::TempFolder folder;
+  const FoamBox box(3, border);
+  FoamBox::write_control(folder.path());
+  box.write_mesh(folder.path(), false);
+  FoamBox::write(folder.path("0/U"), FoamBox::header("volVectorField", "U", false) +
+                                         "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 27" +
+                                         "{(1 0.1 0)};\nboundaryField\n{\n" + kFree + "}\n");
+  Source source = Source::open({{folder.path()}, {}});
+  const auto blocks = source.read({"U"});
+  const DataArray* const u = blocks.at(0).find("U", Association::kCell);
+  ASSERT_NE(u, nullptr);
+  EXPECT_EQ(u->at(13, 1), 0.1);
+  EXPECT_FALSE(in_double(*u, std::vector<double>(81, 0.1))) << "others than those that are rounded";
+  EXPECT_FALSE(in_double(*u, std::vector<double>(80, 0.1))) << "another count";
 }
 
 // --- the boundary -----------------------------------------------------------------------------------------

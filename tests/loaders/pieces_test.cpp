@@ -179,6 +179,33 @@ TEST(Pieces, StructuredOnesMakeOneGrid) {
   }
 }
 
+// VTK's reader wants a blank between text and the tag behind it where the text ends with a letter.
+TEST(Pieces, MayEndWithNaNBeforeATag) {
+  const test::TempFolder folder;
+  const auto piece = [&](const std::string& name, int from, const std::string& values) {
+    const std::string extent = std::to_string(from) + " " + std::to_string(from + 1) + " 0 1 0 1";
+    (void)folder.write(name, "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + extent +
+                                 "\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"" + extent +
+                                 "\"><PointData><DataArray type=\"Float64\" Name=\"s\" format=\"ascii\">" + values +
+                                 "</DataArray></PointData></Piece></ImageData></VTKFile>");
+  };
+  piece("left.vti", 0, "1 2 3 4 5 6 7 2");
+  piece("right.vti", 1, "2 9 4 10 6 11 2 nan");
+  const auto index = folder.write(
+      "a.pvti",
+      "<VTKFile type=\"PImageData\"><PImageData WholeExtent=\"0 2 0 1 0 1\" GhostLevel=\"0\" Origin=\"0 0 0\" "
+      "Spacing=\"1 1 1\"><PPointData><PDataArray type=\"Float64\" Name=\"s\"/></PPointData>"
+      "<Piece Extent=\"0 1 0 1 0 1\" Source=\"left.vti\"/><Piece Extent=\"1 2 0 1 0 1\" "
+      "Source=\"right.vti\"></Piece></PImageData></VTKFile>");
+  Source source = Source::open({{index}, {}});
+  const auto blocks = source.read({"s"});
+  const DataArray* const array = blocks.at(0).find("s", Association::kPoint);
+  ASSERT_NE(array, nullptr);
+  const std::vector<double> expected{1, 2, 9, 3, 4, 10, 5, 6, 11, 7, 2};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(array->at(i), expected[i]) << i;
+  EXPECT_TRUE(std::isnan(array->at(expected.size())));
+}
+
 TEST(Pieces, UnstructuredOnesAreBlocksWithoutTheirGhosts) {
   const test::TempFolder folder;
   write_cell(folder, "left.vtu", 0.0, true);

@@ -197,6 +197,8 @@ std::optional<End> ExactWalk::cross(int face) {
     }
     const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, seams_standing_++);
     if (there.cell == kNoCell) return End::kLeftDomain;
+    if (there.opposed) return End::kOpposedCells;
+    error_.set(there.carried(error_.vector()));
     settle(there.cell, there.x);
     error_.add(there.error);
     end_.position = there.x;

@@ -40,6 +40,13 @@ bool same_frames(const LocalFrame& a, const LocalFrame& b) {
   return a.length_exponent == b.length_exponent && a.rotation == b.rotation;
 }
 
+/// Whether the points of one are those of the other moved along the axes of both.
+bool same_axes(const VectorField& a, const VectorField& b) {
+  const BoxGrid &p = *a.box_grid(), &q = *b.box_grid();
+  return p.points() == q.points() && p.directions() == q.directions() &&
+         a.frame().rotation == b.frame().rotation;
+}
+
 /// Whether both have the same cells of the same points, whatever the order in which they lie.
 bool same_cells(const TetMesh& a, const TetMesh& b) {
   if (a.points().size() != b.points().size() || a.cells().size() != b.cells().size()) return false;
@@ -64,13 +71,14 @@ FlowInTime::FlowInTime(std::vector<Step> steps, std::size_t first) : steps_(std:
 
 void FlowInTime::compare_meshes() {
   const VectorField& own = *steps_[first_].field;
-  bool fixed = true, moving = own.tet_mesh() != nullptr;
+  bool fixed = true, moving = own.tet_mesh() != nullptr || own.box_grid() != nullptr;
   for (const Step& step : steps_) {
     const VectorField& other = *step.field;
     if (own.analytic() != nullptr && other.analytic() != nullptr) continue;
     if (own.grid() == other.grid()) continue;
     if (own.box_grid() != nullptr) {
-      fixed = fixed && other.box_grid() != nullptr && same_frames(own.frame(), other.frame()) &&
+      moving = moving && other.box_grid() != nullptr && same_axes(own, other);
+      fixed = fixed && moving && same_frames(own.frame(), other.frame()) &&
               same_boxes(*own.box_grid(), *other.box_grid());
       continue;
     }
@@ -81,7 +89,8 @@ void FlowInTime::compare_meshes() {
   mesh_ = fixed ? Mesh::kFixed : moving ? Mesh::kMoving : Mesh::kOther;
   if (mesh_ == Mesh::kOther) return;
   tets_ = own.tet_mesh();
-  if (mesh_ != Mesh::kMoving) return;
+  boxes_move_ = mesh_ == Mesh::kMoving && own.box_grid() != nullptr;
+  if (mesh_ != Mesh::kMoving || boxes_move_) return;
   cell_of_data_.resize(tets_->cells().size());
   for (std::size_t c = 0; c < cell_of_data_.size(); ++c)
     cell_of_data_[tets_->cell_order()[c]] = static_cast<CellIndex>(c);
@@ -213,6 +222,60 @@ bool FlowInTime::locate(const Weights& w, const Vec3& x, Place& place, Cell& at)
   return true;
 }
 
+double FlowInTime::line_at(const Weights& w, int axis, int i) const noexcept {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < steps_.size(); ++j) {
+    const VectorField& field = *steps_[j].field;
+    sum += w[j] * field.frame().length_scale() * field.box_grid()->coordinate(axis, i);
+  }
+  return sum;
+}
+
+bool FlowInTime::locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept {
+  const VectorField& own = *steps_[first_].field;
+  const BoxGrid& grid = *own.box_grid();
+  const Vec3 y = own.frame().length_scale() * grid.along_axes(own.frame().local_from_data(x));
+  for (int axis = 0; axis < 3; ++axis) {
+    int low = 0, high = grid.points()[axis] - 1;
+    while (high - low > 1) {
+      const int middle = (low + high) / 2;
+      (line_at(w, axis, middle) <= y[axis] ? low : high) = middle;
+    }
+    const double lower = line_at(w, axis, low);
+    at.cell[axis] = low;
+    at.width[axis] = line_at(w, axis, low + 1) - lower;
+    const double u = (y[axis] - lower) / at.width[axis];
+    if (!(u >= -kFace && u <= 1.0 + kFace)) return false;
+    // Frames that turn round: a place on the border of one is beyond that of another.
+    constexpr double kBorder = 1e-12;
+    at.u[axis] = std::clamp(u, low == 0 ? kBorder : 0.0, low + 2 == grid.points()[axis] ? 1.0 - kBorder : 1.0);
+  }
+  return true;
+}
+
+Vec3 FlowInTime::place_in_step(std::size_t step, const BoxPlace& at) const noexcept {
+  const VectorField& field = *steps_[step].field;
+  const BoxGrid& grid = *field.box_grid();
+  Vec3 y{0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = grid.coordinate(axis, at.cell[axis]);
+    y[axis] = lower + at.u[axis] * (grid.coordinate(axis, at.cell[axis] + 1) - lower);
+  }
+  return field.frame().data_from_local(grid.in_frame(y));
+}
+
+Mat3 FlowInTime::motion_to_step(std::size_t step, const BoxPlace& at) const noexcept {
+  const VectorField& field = *steps_[step].field;
+  const BoxGrid& grid = *field.box_grid();
+  const Mat3 along = field.frame().rotation * grid.directions();
+  Mat3 stretched = along;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double width = grid.coordinate(axis, at.cell[axis] + 1) - grid.coordinate(axis, at.cell[axis]);
+    stretched[axis] *= field.frame().length_scale() * width / at.width[axis];
+  }
+  return stretched * glm::inverse(along);
+}
+
 bool FlowInTime::find(double t, const Vec3& x, Place& place) const {
   place = {};
   Vec3 v;
@@ -238,9 +301,12 @@ SampleStatus FlowInTime::sample(double t, const Vec3& x, Place& place, Vec3& v) 
   const Weights w = weights(t);
   v = Vec3{0.0};
   if (tets_ == nullptr) {
+    BoxPlace box;
+    if (boxes_move_ && !locate_in_boxes(w, x, box)) return SampleStatus::kOutside;
     for (std::size_t j = 0; j < steps_.size(); ++j) {
       if (w[j] == 0.0) continue;
-      const VectorSample sample = steps_[j].field->sample(x, place.hints[j]);
+      const Vec3 there = boxes_move_ ? place_in_step(j, box) : x;
+      const VectorSample sample = steps_[j].field->sample(there, place.hints[j]);
       if (sample.status != SampleStatus::kOk) return sample.status;
       v += w[j] * sample.value;
     }
@@ -256,15 +322,18 @@ SampleStatus FlowInTime::jacobian(double t, const Vec3& x, Place& place, Mat3& m
   const Weights w = weights(t);
   m = Mat3{0.0};
   if (tets_ == nullptr) {
+    BoxPlace box;
+    if (boxes_move_ && !locate_in_boxes(w, x, box)) return SampleStatus::kOutside;
     for (std::size_t j = 0; j < steps_.size(); ++j) {
       if (w[j] == 0.0) continue;
       Mat3 own{0.0};
-      const SampleStatus status = steps_[j].field->jacobian(x, place.hints[j], own);
+      const Vec3 there = boxes_move_ ? place_in_step(j, box) : x;
+      const SampleStatus status = steps_[j].field->jacobian(there, place.hints[j], own);
       if (status != SampleStatus::kOk) {
         m = Mat3{0.0};
         return status;
       }
-      m += w[j] * own;
+      m += w[j] * (boxes_move_ ? own * motion_to_step(j, box) : own);
     }
     return SampleStatus::kOk;
   }

@@ -8,7 +8,12 @@
 ///   x = sum_i b_i sum_j w_j(t) X_ij,    v(t, x) = sum_i b_i sum_j w_j(t) v_ij                             (2)
 ///
 /// with the cell i = 0 ... 3 that has x inside at t: values move with the cells, so that a moving wall carries its
-/// own velocity. Where cells change from step to step, (1) holds at the place itself.
+/// own velocity. On an image or a rectilinear grid whose points move along its axes likewise
+///
+///   v(t, x) = sum_j w_j(t) v_j(x_j),    x_j at step j where x is at t among the cells
+///                                       between the lines sum_j w_j(t) c_ij of an axis                    (3)
+///
+/// Where cells change from step to step, (1) holds at the place itself.
 #pragma once
 
 #include <array>
@@ -32,7 +37,7 @@ class FlowInTime {
   };
   enum class Mesh : std::uint8_t {
     kFixed,
-    kMoving,  ///< the same cells of points that move
+    kMoving,  ///< the same cells of points that move; of grids along axes, that move along these
     kOther    ///< other cells
   };
   /// Where a particle was found, which makes its next place quick to find. Any value is allowed.
@@ -63,6 +68,12 @@ class FlowInTime {
     Mat3 inverse{1.0};  ///< of the edges from vertex 0: its rows are the gradients of b_1, b_2, b_3
   };
   enum class Walk : std::uint8_t { kFound, kWall, kLost };
+  /// Where a place lies in boxes that move.
+  struct BoxPlace {
+    Index3 cell{0};
+    Vec3 u{0.0};      ///< in the cell, 0 to 1 along its axes
+    Vec3 width{1.0};  ///< of the cell, along the axes, data units
+  };
 
   [[nodiscard]] Weights weights(double t) const noexcept;
   [[nodiscard]] Vec3 position(const Weights& w, std::uint32_t point) const noexcept;
@@ -72,10 +83,16 @@ class FlowInTime {
   [[nodiscard]] bool locate(const Weights& w, const Vec3& x, Place& place, Cell& at) const noexcept;
   [[nodiscard]] bool search(const Weights& w, const Vec3& x, Cell& at) const noexcept;
   void compare_meshes();
+  [[nodiscard]] double line_at(const Weights& w, int axis, int i) const noexcept;
+  [[nodiscard]] bool locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept;
+  [[nodiscard]] Vec3 place_in_step(std::size_t step, const BoxPlace& at) const noexcept;
+  /// dx_j/dx of (3).
+  [[nodiscard]] Mat3 motion_to_step(std::size_t step, const BoxPlace& at) const noexcept;
 
   std::vector<Step> steps_;
   std::size_t first_;
   const TetMesh* tets_ = nullptr;  ///< of steps_[first_], where values are taken by (2)
+  bool boxes_move_ = false;        ///< of images and rectilinear grids: values are taken by (3)
   Mesh mesh_ = Mesh::kFixed;
   std::vector<CellIndex> cell_of_data_;  ///< moving: of tets_, by the number that it has in the data
   double cell_size_ = 1.0;

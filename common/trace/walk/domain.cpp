@@ -5,7 +5,6 @@
 
 #include "common/base/index.h"
 #include "common/field/rest_speed.h"
-#include "common/trace/walk/tet_crossing.h"
 
 namespace palpate {
 
@@ -64,7 +63,7 @@ bool TetDomain::locate(const Vec3& x) {
   stuck_ = 0;
   last_seam_ = Vec3{HUGE_VAL};
   crossed_seam_ = false;
-  seam_error_ = 0.0;
+  seam_ = {};
   load(found.cell);
   return true;
 }
@@ -120,13 +119,12 @@ bool TetDomain::cross_border(int face, Pack4& y, int& entry) {
   const Vec3 x = y.xyz();
   constexpr double kMoved = 1e-12;  // of the cell
   stuck_ = glm::distance(x, last_seam_) <= kMoved * size_ ? stuck_ + 1 : 0;
-  const SeamCrossing there = cross_seam(*mesh_, cell_, face, x, sign_, stuck_);
-  if (there.cell == kNoCell) return false;
+  seam_ = cross_seam(*mesh_, cell_, face, x, sign_, stuck_);
+  if (seam_.cell == kNoCell || seam_.opposed) return false;
   crossed_seam_ = true;
-  seam_error_ = there.error;
   entry = -1;
-  load(there.cell);
-  last_seam_ = there.x;
+  load(seam_.cell);
+  last_seam_ = seam_.x;
   y = Pack4{last_seam_, y[3]};
   return true;
 }

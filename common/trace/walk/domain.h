@@ -20,6 +20,7 @@
 #include "common/field/vector_field.h"
 #include "common/math/pack4.h"
 #include "common/trace/exact/exact_walk.h"
+#include "common/trace/walk/tet_crossing.h"
 
 namespace palpate {
 
@@ -254,8 +255,8 @@ class TetDomain {
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry);
   /// The last cross() led to a cell that shares no points with the one before: the velocity may jump.
   [[nodiscard]] bool crossed_seam() const { return crossed_seam_; }
-  /// What that may cost: SeamCrossing::error.
-  [[nodiscard]] double seam_error() const { return seam_error_; }
+  /// What is known of that.
+  [[nodiscard]] const SeamCrossing& seam() const { return seam_; }
 
  private:
   void load(CellIndex cell);
@@ -267,7 +268,7 @@ class TetDomain {
   bool bad_ = false;
   double rest_here_ = 0.0;
   bool crossed_seam_ = false;
-  double seam_error_ = 0.0;
+  SeamCrossing seam_;
   int stuck_ = 0;  ///< crossings of seams at one place
   Vec3 last_seam_{HUGE_VAL};
   double size_ = 1.0;

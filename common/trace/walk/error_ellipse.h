@@ -33,6 +33,13 @@ class ErrorEllipse {
     carry_error(b_, apply, matrix, stepped, h);
   }
 
+  /// What `map`, linear, makes of every error.
+  template <class Map>
+  void carry(const Map& map) {
+    a_ = map(a_);
+    b_ = map(b_);
+  }
+
   /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.
   void add(double size, const Vec3& direction) noexcept {
     const double a_along = glm::dot(a_, direction), b_along = glm::dot(b_, direction);

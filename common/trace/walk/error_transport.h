@@ -103,6 +103,12 @@ class ErrorAcross {
     e_.advance(apply, matrix, stepped, h);
   }
 
+  /// What `map`, linear, makes of an error.
+  template <class Map>
+  void carry(const Map& map) {
+    e_.set(map(e_.vector()));
+  }
+
   /// Adds a local error of size `size`. @param direction unit tangent.
   void add(double size, const Vec3& direction) noexcept {
     const double along = glm::dot(e_.vector(), direction);

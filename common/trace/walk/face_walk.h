@@ -78,7 +78,7 @@ class FaceWalk final : public LineWalk {
       if (pending_face_ >= 0) {
         const int face = pending_face_;
         pending_face_ = -1;
-        if (!domain_.cross(face, y_, entry_)) return End::kLeftDomain;
+        if (!domain_.cross(face, y_, entry_)) return end_at_border();
         fresh_ = true;
         two_steps_.restart();
         if constexpr (requires { domain_.crossed_seam(); }) {
@@ -156,8 +156,17 @@ class FaceWalk final : public LineWalk {
   };
   [[nodiscard]] Pack4 slope(const Pack4& y) const { return Flow{domain_}.slope(y); }
 
+  [[nodiscard]] End end_at_border() const {
+    if constexpr (requires { domain_.seam(); }) {
+      if (domain_.seam().opposed) return End::kOpposedCells;
+    }
+    return End::kLeftDomain;
+  }
+
   /// Position and slope jump there.
   void go_on_behind_seam() {
+    const SeamCrossing& seam = domain_.seam();
+    error_.carry([&](const Vec3& e) { return seam.carried(e); });
     k_ = slope(y_);
     if (std::isfinite(k_[3])) {
       direction_ = k_.xyz();
@@ -165,9 +174,9 @@ class FaceWalk final : public LineWalk {
     }
     method_.restart();
     stepped_ = false;
-    error_.add(domain_.seam_error(), direction_);
+    error_.add(seam.error, direction_);
     end_.position = y_.xyz();
-    end_.error += domain_.seam_error();
+    end_.error += seam.error;
   }
 
   /// Derivative of slope() along the line; notes how fast the flow slows down.

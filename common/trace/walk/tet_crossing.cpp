@@ -59,6 +59,18 @@ Vec3 velocity_at(const ExactMesh& mesh, CellIndex cell, const Vec4& b) {
   return v;
 }
 
+/// Whether the velocity is the same all over the cell.
+bool is_constant(const ExactMesh& mesh, CellIndex cell) {
+  const TetMesh::Tet& tet = mesh.mesh().cells()[as_size(cell)];
+  const auto& first = mesh.vertices()[tet[0]].v;
+  for (std::size_t i = 1; i < tet.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (mesh.vertices()[tet[i]].v[axis] != first[axis]) return false;
+    }
+  }
+  return true;
+}
+
 /// The nearest coordinates that a point of the cell has, nearly.
 Vec4 clamped(const Vec4& b) {
   const Vec4 kept = glm::max(b, Vec4(0.0));
@@ -66,6 +78,12 @@ Vec4 clamped(const Vec4& b) {
 }
 
 }  // namespace
+
+Vec3 SeamCrossing::carried(const Vec3& e) const noexcept {
+  const Vec3 more = jump * glm::dot(lever, e);
+  const double length = glm::length(more);
+  return e + (length > longest ? more * (longest / length) : more);
+}
 
 SeamCrossing cross_seam(const ExactMesh& mesh, CellIndex from, int face, const Vec3& x, double sign,
                         int stuck) {
@@ -80,12 +98,26 @@ SeamCrossing cross_seam(const ExactMesh& mesh, CellIndex from, int face, const V
   constexpr int kStuck = 4;
   constexpr double kNudge = 0x1p-10;
   const FaceNormal face_of = face_normal(tets, from, face);
-  if (stuck >= kStuck && glm::dot(out.v, face_of.outward) < 0.0) {
+  const bool constant = is_constant(mesh, from) && is_constant(mesh, out.cell);
+  const double towards = glm::dot(before, face_of.outward);
+  if (constant && towards > 0.0 && glm::dot(out.v, face_of.outward) < 0.0) {
+    out.opposed = true;
+    return out;
+  }
+  if (!constant && stuck >= kStuck && glm::dot(out.v, face_of.outward) < 0.0) {
     b = clamped(tets.barycentric(out.cell, x + (kNudge * face_of.size) * face_of.outward));
     out.v = sign * velocity_at(mesh, out.cell, b);
   }
   out.x = tets.position(out.cell, b);
   out.error = glm::distance(out.x, x);
+  if (constant) {
+    if (towards > 0.0 && stuck == 0) {
+      out.jump = out.v - before;
+      out.lever = face_of.outward / towards;
+      out.longest = face_of.size;
+    }
+    return out;
+  }
   const double jump = glm::distance(before, out.v), speed = glm::length(before);
   // Values that are no numbers end the line, elsewhere.
   if (jump > 0.0 && stuck == 0) out.error += face_of.size * (jump < speed ? jump / speed : 1.0);

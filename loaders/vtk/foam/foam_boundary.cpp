@@ -120,11 +120,13 @@ struct PatchSays {
         }
         const std::string_view text = tokens.entry();
         if (key == "type") type = word_in(text, scope);
-        if (key == "value") read_value(values, text, tokens.storage(), scope, components);
+        if (key == "value") {
+          values.reset();
+          values = read_foam_values(text, tokens.storage(), scope, components);
+        }
         if (key == "valueFraction") {
-          std::optional<FoamPatchValues> part;
-          read_value(part, text, tokens.storage(), scope, 1);
-          if (part && part->uniform) fixed_part = part->numbers.front();
+          const FoamPatchValues part = read_foam_values(text, tokens.storage(), scope, 1);
+          if (part.uniform) fixed_part = part.numbers.front();
         }
       } catch (const FoamMalformed& what) {
         problem = what.found;
@@ -138,18 +140,6 @@ struct PatchSays {
         text.find('$') == std::string_view::npos ? std::string(text) : scope.expanded(text);
     FoamTokens tokens(whole, {});
     return std::string(tokens.next());
-  }
-  static void read_value(std::optional<FoamPatchValues>& into, std::string_view text,
-                         const FoamStorage& storage, const FoamScope& scope, std::size_t components) {
-    // Macros stand in text alone, before a list that may be binary.
-    into.reset();
-    const std::size_t list = std::min(text.find("List<"), text.size());
-    std::string made;
-    if (text.substr(0, list).find('$') != std::string_view::npos) text = made = scope.expanded(text);
-    FoamTokens tokens(text, storage);
-    FoamPatchValues found = values_in(tokens, components);
-    if (!tokens.done()) throw FoamMalformed{"values by '" + std::string(tokens.peek().substr(0, 40)) + "'"};
-    into = std::move(found);
   }
 };
 
@@ -242,6 +232,18 @@ const PatchEntry* entry_of(const FoamPatch& patch, const std::vector<PatchEntry>
 }
 
 }  // namespace
+
+FoamPatchValues read_foam_values(std::string_view text, const FoamStorage& storage, const FoamScope& scope,
+                                 std::size_t components) {
+  // Macros stand in text alone, before a list that may be binary.
+  const std::size_t list = std::min(text.find("List<"), text.size());
+  std::string made;
+  if (text.substr(0, list).find('$') != std::string_view::npos) text = made = scope.expanded(text);
+  FoamTokens tokens(text, storage);
+  FoamPatchValues found = values_in(tokens, components);
+  if (!tokens.done()) throw FoamMalformed{"values by '" + std::string(tokens.peek().substr(0, 40)) + "'"};
+  return found;
+}
 
 std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::string& file) {
   try {

@@ -35,6 +35,11 @@ struct FoamPatchValues {
   bool slides = false;  ///< no numbers: nothing of a vector goes through (slip, symmetry)
 };
 
+/// What the text of an entry says of values, "uniform …" or "nonuniform List<…> …". $name stands for what `scope` says.
+/// @throws FoamMalformed.
+[[nodiscard]] FoamPatchValues read_foam_values(std::string_view text, const FoamStorage& storage,
+                                               const FoamScope& scope, std::size_t components);
+
 /// The patches of a file polyMesh/boundary. @throws Error (bad input) with `file`.
 [[nodiscard]] std::vector<FoamPatch> read_foam_patches(std::string_view text, const std::string& file);
 

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/cells/boundary_values.h"
+#include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {
@@ -206,11 +207,11 @@ fs::path FoamBoundaryReader::region_of(const std::string& block) const {
   return {};
 }
 
-/// The last at or before the time that has a mesh of its own: it may move.
-fs::path FoamBoundaryReader::mesh_folder(const fs::path& region, double time) const {
+/// The last at or before the time that has such a file of a mesh of its own: it may move.
+fs::path FoamBoundaryReader::mesh_folder(const fs::path& region, double time, const char* file) const {
   fs::path out = folder_ / "constant" / region / "polyMesh";
   for (const auto& [at, folder] : times_in(folder_)) {
-    if (at <= time && there(folder / region / "polyMesh/faces")) out = folder / region / "polyMesh";
+    if (at <= time && there(folder / region / "polyMesh" / file)) out = folder / region / "polyMesh";
   }
   return out;
 }
@@ -275,17 +276,70 @@ std::string FoamBoundaryReader::included(const fs::path& folder, std::string_vie
   }
 }
 
+void FoamBoundaryReader::restore_points(DataSet& block, const fs::path& region, double time,
+                                        std::set<std::string>& problems) const {
+  DataArray& positions = std::get<UnstructuredTopology>(block.topology).positions;
+  if (positions.type != ScalarType::kFloat32) return;
+  const fs::path file = mesh_folder(region, time, "points") / "points";
+  try {
+    const FoamText text(file);
+    if (is_single_precision(text.text())) return;
+    if (auto exact = in_double(positions, read_foam_points(text.text(), file.string()))) {
+      positions = *std::move(exact);
+      return;
+    }
+    problems.insert("points in single precision: those of " + file.string() + " are others than VTK's");
+  } catch (const Error& error) {
+    problems.insert(std::string("points in single precision: ") + error.what());
+  }
+}
+
+void FoamBoundaryReader::restore_values(DataSet& block, const fs::path& folder,
+                                        std::set<std::string>& problems) const {
+  const FoamInclude include = [&](std::string_view name) { return included(folder, name); };
+  for (DataArray& array : block.arrays) {
+    if (array.association != Association::kCell || array.type != ScalarType::kFloat32 ||
+        !there(folder / array.name))
+      continue;
+    std::string why = "the order of its values is not VTK's";
+    try {
+      const FoamText text(folder / array.name);
+      if (is_single_precision(text.text())) continue;
+      FoamPatchValues values = read_foam_inner_values(text.text(), array.components, include);
+      if (values.uniform) {
+        const std::vector<double> one = std::move(values.numbers);
+        values.numbers.clear();
+        for (std::size_t cell = 0; cell < array.tuples; ++cell)
+          values.numbers.insert(values.numbers.end(), one.begin(), one.end());
+      } else if (array.components == 6) {
+        order_as_vtk(values);
+      }
+      if (auto exact = in_double(array, values.numbers)) {
+        array = *std::move(exact);
+        continue;
+      }
+    } catch (const FoamMalformed& problem) {
+      why = problem.found;
+    } catch (const Error& error) {
+      why = error.what();
+    }
+    problems.insert("'" + array.name + "' in single precision: " + why);
+  }
+}
+
 std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, double time) {
   std::set<std::string> problems;
   for (DataSet& block : blocks) {
     const auto* mesh_of_block = std::get_if<UnstructuredTopology>(&block.topology);
     if (mesh_of_block == nullptr) continue;
     const fs::path region = region_of(block.name);
+    restore_points(block, region, time, problems);
     fs::path at;
     for (const auto& [when, folder] : times_in(folder_)) {
       if (when == time) at = folder / region;
     }
     if (at.empty()) continue;
+    restore_values(block, at, problems);
     const FoamInclude include = [&](std::string_view name) { return included(at, name); };
     std::size_t points = 0;
     try {

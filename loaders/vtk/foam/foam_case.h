@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,14 +20,16 @@ namespace palpate {
 /// The folder of the case that `file` (a marker, system/controlDict, or the folder) belongs to.
 [[nodiscard]] std::filesystem::path foam_folder(const std::string& file);
 
-/// Adds what fields are at the boundary to blocks of a case, and parts cells at baffles.
+/// Adds what fields are at the boundary to blocks of a case, parts cells at baffles, and gives points and values of
+/// cells the precision of their files.
 class FoamBoundaryReader {
  public:
   FoamBoundaryReader() = default;
   explicit FoamBoundaryReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// For each array of cells of each block its point array (boundary_array_of()), where patches give values.
-  /// @returns in words what could not be read, and is interpolated from the cells therefore.
+  /// @returns in words what could not be read, and is interpolated from the cells therefore, and what stays rounded to
+  /// single precision.
   std::vector<std::string> add(std::vector<DataSet>& blocks, double time);
 
  private:
@@ -37,7 +40,12 @@ class FoamBoundaryReader {
     FoamBaffles baffles;
   };
   [[nodiscard]] std::filesystem::path region_of(const std::string& block) const;
-  [[nodiscard]] std::filesystem::path mesh_folder(const std::filesystem::path& region, double time) const;
+  [[nodiscard]] std::filesystem::path mesh_folder(const std::filesystem::path& region, double time,
+                                                  const char* file = "faces") const;
+  void restore_points(DataSet& block, const std::filesystem::path& region, double time,
+                      std::set<std::string>& problems) const;
+  void restore_values(DataSet& block, const std::filesystem::path& folder,
+                      std::set<std::string>& problems) const;
   [[nodiscard]] std::string included(const std::filesystem::path& folder, std::string_view name) const;
   const Mesh& mesh_in(const std::filesystem::path& folder);
 

@@ -366,6 +366,61 @@ TEST(Pathlines, GoWithAMeshThatMoves) {
   }
 }
 
+/// Points along axes that move and stretch with x(t) = (1 + 0.3 t) X + s sin(t) along x and 1 + 0.1 t along z, and the
+/// flow of that motion.
+struct StretchedBox {
+  bool uniform;
+  double shift;
+
+  [[nodiscard]] Vec3 moved(const Vec3& x, double t) const {
+    return {(1.0 + 0.3 * t) * x.x + shift * std::sin(t), x.y, (1.0 + 0.1 * t) * x.z};
+  }
+  [[nodiscard]] Vec3 velocity(const Vec3& x, double t) const {
+    const double along = (x.x - shift * std::sin(t)) / (1.0 + 0.3 * t);
+    return {0.3 * along + shift * std::cos(t), 0.0, 0.1 * x.z / (1.0 + 0.1 * t)};
+  }
+  [[nodiscard]] std::shared_ptr<const VectorField> at(double t) const {
+    const test::AtMoment formula([&](const Vec3& x) { return velocity(moved(x, t), t); });
+    constexpr auto kDouble = test::SampledType::kFloat64;
+    DataSet block = uniform ? test::sample_uniform(formula, Index3{5}, kDouble)
+                            : test::sample_rectilinear(formula, Index3{5}, 3.0, kDouble);
+    if (auto* const image = std::get_if<UniformTopology>(&block.topology)) {
+      image->origin = moved(image->origin, t);
+      image->axes[0] *= 1.0 + 0.3 * t;
+      image->axes[2] *= 1.0 + 0.1 * t;
+    } else {
+      auto& lines = std::get<RectilinearTopology>(block.topology).coordinates;
+      for (double& x : lines[0]) x = moved({x, 0.0, 0.0}, t).x;
+      for (double& z : lines[2]) z *= 1.0 + 0.1 * t;
+    }
+    return test::field_of(block);
+  }
+};
+
+TEST(Pathlines, GoWithAGridThatMoves) {
+  for (const StretchedBox box : {StretchedBox{true, 0.3}, StretchedBox{false, 0.3}, StretchedBox{true, 40.0}}) {
+    const std::vector<double> times = test::steps_until(2.0, 40);
+    const auto read = [&](std::size_t step) { return box.at(times[step]); };
+    std::vector<Vec3> seeds{{1.0, 0.1, 0.2}};  // on the border, which moves with the flow
+    seeds.insert(seeds.end(), kSeeds.begin(), kSeeds.end());
+    const std::vector<Vec3> first = seeds;
+    for (Vec3& x : seeds) x = box.moved(x, 0.12);  // between two steps
+    const UnsteadyResult result = trace_unsteady(
+        times, read, seeds, {.order = TimeOrder::kCubic, .from = 0.12, .trace = {.max_length = 1e3}});
+    EXPECT_TRUE(result.in_time.moving_mesh);
+    EXPECT_FALSE(result.in_time.other_meshes);
+    std::size_t whole = 0;
+    for (const Line& line : result.trace.lines) {
+      whole += line.end == End::kEndOfTime ? 1 : 0;
+      for (const LinePoint& point : line.points) {
+        const Vec3 there = box.moved(first[line.seed], 0.12 + point.time);
+        EXPECT_LT(glm::distance(point.position, there), 2e-4 * (1.0 + box.shift)) << box.shift;
+      }
+    }
+    EXPECT_GE(whole, kSeeds.size()) << box.shift;
+  }
+}
+
 TEST(Pathlines, TakeOtherCellsWhereTheyLie) {
   const std::vector<double> times = test::steps_until(2.0, 40);
   const auto read = [&](std::size_t step) {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/field/analytic/analytic_field.h"
+#include "common/field/cells/constant_cells.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/grid/tet_seams.h"
 #include "common/trace/trace.h"
@@ -239,6 +240,111 @@ TEST(Seams, JumpsCountIntoTheError) {
         EXPECT_LT(last.error, 1.0);
       }
     }
+  }
+}
+
+/// Values constant over the n unit cubes of a lattice from the origin.
+struct ConstantCubes {
+  Index3 n{0};
+  std::vector<Vec3> values;
+
+  [[nodiscard]] Field field() const {
+    DataSet block;
+    block.topology = UniformTopology{.points = n + 1, .origin = Vec3{0.0}, .axes = Mat3{1.0}};
+    std::vector<double> numbers;
+    for (const Vec3& v : values) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+    block.arrays = {make_array("v", Association::kCell, 3, std::span<const double>(numbers))};
+    const ConstantCells made =
+        constant_cells({block}, {VectorChoice::Kind::kArray, Association::kCell, {"v"}, "v"});
+    return make_vector_field(made.blocks, made.choice, "test");
+  }
+  /// Where the flow carries x in so long a time, or where it leaves. @pre it goes up along each axis.
+  [[nodiscard]] Vec3 carried(Vec3 x, double time) const {
+    Index3 cell(glm::floor(x));
+    while (cell.x < n.x && cell.y < n.y && cell.z < n.z) {
+      const Vec3 v = values[static_cast<std::size_t>(cell.x + n.x * (cell.y + n.y * cell.z))];
+      int axis = 0;
+      double step = HUGE_VAL;
+      for (int a = 0; a < 3; ++a) {
+        const double to_face = (cell[a] + 1 - x[a]) / v[a];
+        if (to_face < step) {
+          step = to_face;
+          axis = a;
+        }
+      }
+      if (step >= time) return x + time * v;
+      x += step * v;
+      x[axis] = ++cell[axis];
+      time -= step;
+    }
+    return x;
+  }
+};
+
+TEST(Seams, LinesOfConstantCellsAreExact) {
+  ConstantCubes cubes{{6, 5, 7}, {}};
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> part(0.05, 1.0);
+  for (int c = 0; c < 6 * 5 * 7; ++c) {
+    const double x = part(random), y = part(random);
+    cubes.values.emplace_back(x, y, part(random));
+  }
+  std::vector<Vec3> from;
+  for (int s = 0; s < 40; ++s) {
+    const double x = 4.0 * part(random), y = 3.0 * part(random);
+    from.emplace_back(x, y, 5.0 * part(random));
+  }
+  const Field field = cubes.field();
+  for (const Integrator integrator : {Integrator::kExact, Integrator::kDp54}) {
+    SCOPED_TRACE(name_of(integrator));
+    TraceOptions options;
+    options.integrator = integrator;
+    options.threads = 1;
+    double largest = 0.0;
+    for (const Line& line : trace_lines(*field, from, options).lines) {
+      EXPECT_EQ(line.end, End::kLeftDomain) << name_of(line.end) << " seed " << line.seed;
+      for (const LinePoint& point : line.points) {
+        EXPECT_LE(glm::distance(point.position, cubes.carried(from[line.seed], point.time)),
+                  1e-9 + point.error)
+            << line.seed;
+        largest = std::max(largest, point.error);
+      }
+      const Vec3& end = line.points.back().position;
+      EXPECT_NEAR(std::max({end.x / 6.0, end.y / 5.0, end.z / 7.0}), 1.0, 1e-9);
+    }
+    EXPECT_LT(largest, 1e-6) << "no jump is an error";
+  }
+}
+
+TEST(Seams, AnErrorGrowsAtAJumpAsTheFlowDoes) {
+  // Slowly towards the face and fast behind it: who is late by e is off by as much as the flow goes in that time.
+  const ConstantCubes cubes{{2, 1, 1}, {{0.01, 0.5, 0.0}, {1.0, 0.0, 0.0}}};
+  const Field field = cubes.field();
+  TraceOptions options;
+  options.threads = 1;
+  const std::vector<Vec3> from{{0.999, 0.2, 0.3}};
+  const TraceResult result = trace_lines(*field, from, options);
+  const Line& line = result.lines.front();
+  EXPECT_GT(line.points.back().error, 5.0 * line.points.front().error);
+  EXPECT_LT(line.points.back().error, 1e-10);
+}
+
+TEST(Seams, CellsThatPointAtTheirFaceEndTheLine) {
+  const ConstantCubes cubes{{2, 1, 1}, {{1.0, 0.1, 0.0}, {-0.5, 0.1, 0.0}}};
+  const Field field = cubes.field();
+  const std::vector<Vec3> from{{0.3, 0.2, 0.4}, {1.7, 0.3, 0.6}};
+  for (const Integrator integrator : {Integrator::kExact, Integrator::kDp54, Integrator::kRk4}) {
+    SCOPED_TRACE(name_of(integrator));
+    TraceOptions options;
+    options.integrator = integrator;
+    options.threads = 1;
+    for (const Line& line : trace_lines(*field, from, options).lines) {
+      EXPECT_EQ(line.end, End::kOpposedCells) << name_of(line.end);
+      EXPECT_NEAR(line.points.back().position.x, 1.0, 1e-12);
+    }
+    options.forward = false;
+    options.backward = true;
+    for (const Line& line : trace_lines(*field, from, options).lines) EXPECT_EQ(line.end, End::kLeftDomain);
   }
 }
 
