@@ -92,7 +92,8 @@ bool is_zip(std::string_view text) { return text.starts_with("PK\3\4"); }
 bool is_vtk_xml_grid(const FileHead& head, const FormatRow&) { return is_grid_type(vtk_xml_type(head)); }
 bool is_vtk_multi_block(const FileHead& head, const FormatRow&) {
   const std::string_view type = vtk_xml_type(head);
-  return type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet";
+  return type == "vtkMultiBlockDataSet" || type == "vtkPartitionedDataSet" || type == "vtkOverlappingAMR" ||
+         type == "vtkNonOverlappingAMR" || type == "vtkHierarchicalBoxDataSet";
 }
 bool is_vtk_parallel(const FileHead& head, const FormatRow&) {
   const std::string_view type = vtk_xml_type(head);
@@ -102,6 +103,38 @@ bool is_paraview_series(const FileHead& head, const FormatRow&) {
   const std::string_view text = text_after_blanks(head);
   return vtk_xml_type(head) == "Collection" ||
          (text.starts_with('{') && has(text, "\"file-series-version\""));
+}
+
+bool is_cgns(const FileHead& head, const FormatRow& row) {
+  const std::string_view text = text_of(head);
+  if (lowered(text.substr(0, 64)).starts_with("@(#)adf database")) return true;
+  return is_hdf5(text) && (has_ending(head, row) || has(text, "CGNSLibraryVersion"));
+}
+bool is_vtkhdf(const FileHead& head, const FormatRow&) {
+  const std::string_view text = text_of(head);
+  return is_hdf5(text) && (head.ending == ".vtkhdf" || has(text, "VTKHDF"));
+}
+/// Cells in lists, as UGRID has them, are no grid.
+bool is_ugrid(std::string_view text) { return has(text, "mesh_topology"); }
+bool is_netcdf_grid(const FileHead& head, const FormatRow& row) {
+  const std::string_view text = text_of(head);
+  if (is_ugrid(text)) return false;
+  return (is_netcdf(text) && !has(text, "num_nodes")) || (is_hdf5(text) && has_ending(head, row));
+}
+/// Sections in brackets, the first of them a comment, a header or the number of dimensions.
+bool is_fluent(const FileHead& head) {
+  const std::string_view text = text_after_blanks(head);
+  return text.starts_with("(0 ") || text.starts_with("(1 ") || text.starts_with("(2 ");
+}
+bool is_fluent_case(const FileHead& head, const FormatRow& row) {
+  return is_fluent(head) && has_ending(head, row);
+}
+bool is_gambit(const FileHead& head, const FormatRow&) {
+  return text_after_blanks(head).starts_with("CONTROL INFO");
+}
+bool is_star_cd(const FileHead& head, const FormatRow&) {
+  const std::string start = lowered(text_after_blanks(head).substr(0, 16));
+  return start.starts_with("prostar_vertex") || start.starts_with("prostar_cell");
 }
 
 /// A netCDF-4 file is HDF5: whether it is Exodus II only its reader can tell, so the ending decides.
@@ -298,17 +331,16 @@ constexpr const char* kByParaview = "write it as .vtu or .vtm, in ParaView for o
 
 Sniffed hdf5_file(const FileHead& head) {
   const std::string_view text = text_of(head);
-  if (head.ending == ".cgns" || has(text, "CGNSLibraryVersion"))
-    return {{}, "a CGNS file (in HDF5)", kByParaview};
-  if (head.ending == ".vtkhdf" || has(text, "VTKHDF")) return {{}, "a VTKHDF file", kByParaview};
+  if (is_ugrid(text)) return {{}, "a netCDF file of a mesh (UGRID)", kByParaview};
   if (head.ending == ".h5" && has(text, "settings"))
     return {{}, "an HDF5 file, perhaps of Fluent (.cas.h5, .dat.h5)", kByParaview};
   if (head.ending == ".med") return {{}, "a MED file (in HDF5)", kByMeshio};
-  return {{}, "an HDF5 file", "only Exodus II (.ex2, .exo, .e) is read from HDF5"};
+  return {{}, "an HDF5 file", "read from HDF5 are Exodus II (.ex2, .exo, .e), CGNS, VTKHDF and netCDF (.nc)"};
 }
 
 /// Meshes and results of other programs.
-std::optional<Sniffed> known_mesh(std::string_view text, std::string_view ending) {
+std::optional<Sniffed> known_mesh(const FileHead& head) {
+  const std::string_view text = text_of(head), ending = head.ending;
   struct Known {
     std::string_view starts;  ///< without blanks before it, in small letters
     const char* found;
@@ -318,14 +350,12 @@ std::optional<Sniffed> known_mesh(std::string_view text, std::string_view ending
       Known{"#std", "a Nek5000 file", "open the .nek5000 file beside it in ParaView, and write a .vtu"},
       Known{"#!tdv", "a binary Tecplot file", "write it as Tecplot ASCII (.dat)"},
       Known{"#!szplt", "a Tecplot SZL file", "write it as Tecplot ASCII (.dat)"},
-      Known{"@(#)adf database", "a CGNS file (in ADF)", kByParaview},
       Known{"*heading", "an Abaqus input file", kByMeshio},
       Known{"*node", "an Abaqus input file", kByMeshio},
       Known{"meshversionformatted", "a Medit mesh", kByMeshio},
       Known{"mfem mesh", "an MFEM mesh", "save it by ParaViewDataCollection"},
       Known{"mesh3d", "a Netgen mesh", kByMeshio},
       Known{"$nod", "a Gmsh file of version 1", "write it again: gmsh THIS -save -format msh41"},
-      Known{"control info", "a GAMBIT neutral file, which holds no flow", "open the solution"},
       Known{"solid ", "an STL surface", "a flow is in a volume: open the solution"},
       Known{"ply\n", "a PLY surface", "a flow is in a volume: open the solution"},
       Known{"prostar", "a STAR-CD file", "export the solution as EnSight Gold"},
@@ -335,9 +365,9 @@ std::optional<Sniffed> known_mesh(std::string_view text, std::string_view ending
   for (const Known& known : kKnown) {
     if (start.starts_with(known.starts)) return Sniffed{{}, known.found, known.remedy};
   }
-  const bool fluent = start.starts_with("(0 ") || start.starts_with("(1 ") || start.starts_with("(2 ");
-  if (fluent && (ending == ".cas" || ending == ".msh" || ending == ".dat"))
-    return Sniffed{{}, "a Fluent file", "export the solution as EnSight Gold, or write a .vtu in ParaView"};
+  const bool fluent = is_fluent(head);
+  if (fluent && ending == ".dat") return Sniffed{{}, "the values of a Fluent case", "open its .cas beside it"};
+  if (fluent && ending == ".msh") return Sniffed{{}, "a Fluent mesh, which holds no flow", "open the .cas of a solution"};
   if (ending == ".nek5000") return Sniffed{{}, "a Nek5000 index", kByParaview};
   if (ending == ".sim") return Sniffed{{}, "a STAR-CCM+ file", "export the solution as EnSight Gold"};
   if (ending == ".unv") return Sniffed{{}, "an I-DEAS universal file", "convert it to .vtu"};
@@ -362,13 +392,9 @@ std::optional<Sniffed> known_other(const FileHead& head) {
   if (is_xml(head) && has(text, "<Xdmf"))
     return Sniffed{{}, "an XDMF file", "write it as .vtu: 'meshio convert THIS out.vtu', or in ParaView"};
   if (is_xml(head)) return Sniffed{{}, "an XML file that is not VTK's", ""};
-  if (is_netcdf(text)) {
-    return Sniffed{{},
-                   "a netCDF file that is not Exodus II (it has no num_nodes)",
-                   "write its grid as .vtr or .vts, in ParaView for one"};
-  }
+  if (is_netcdf(text)) return Sniffed{{}, "a netCDF file of a mesh (UGRID)", kByParaview};
   if (is_hdf5(text)) return hdf5_file(head);
-  if (auto mesh = known_mesh(text, head.ending)) return *std::move(mesh);
+  if (auto mesh = known_mesh(head)) return *std::move(mesh);
   if (head.ending == ".toml" && has(text, "format = ") && has(text, "program = "))
     return Sniffed{{}, "a session", "open it with --session THIS"};
   if (head.ending == ".tt")

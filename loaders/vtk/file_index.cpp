@@ -37,29 +37,32 @@ bool lists_blocks(const std::filesystem::path& file) {
   }
 }
 
-/// The blocks of a .vtm, also of those inside it.
+/// The blocks of a .vtm or .vthb, also of those inside it.
 void add_blocks(const std::filesystem::path& file, int depth, std::vector<FilePiece>& pieces) {
   if (depth > kMaxDepth) throw input_error({file.string(), "", "multi-block files are nested too deeply"});
   const MappedFile mapped(file.string());
   XmlTags tags(mapped.text());
   XmlTag tag;
   std::vector<std::string> groups;  // names of the <Block>s around
+  int level = -1;
   bool complete = false;
   while (tags.next(tag)) {
     if (tag.name == "VTKFile" && tag.closes) complete = true;
     if (tag.name == "Block" || tag.name == "Partition") {
-      if (tag.opens && !tag.closes) groups.push_back(tag.at("name"));
+      if (tag.opens) level = parsed<int>(tag.at("level")).value_or(-1);
+      if (tag.opens && !tag.closes)
+        groups.push_back(level < 0 ? tag.at("name") : "level " + std::to_string(level));
       if (tag.closes && !tag.opens && !groups.empty()) groups.pop_back();
       continue;
     }
     if (tag.name != "DataSet" || !tag.opens || tag.at("file").empty()) continue;
     std::string name = tag.at("name");
-    if (name.empty() && !groups.empty()) name = groups.back();
+    if (name.empty() && !groups.empty()) name = groups.back() + (level < 0 ? "" : "/" + tag.at("index"));
     const std::filesystem::path path = file.parent_path() / tag.at("file");
     if (lists_blocks(path)) {
       add_blocks(path, depth + 1, pieces);
     } else {
-      pieces.push_back({path, name});
+      pieces.push_back({path, name, level});
     }
     if (pieces.size() > kMaxPieces) throw input_error({file.string(), "", "names too many blocks"});
   }

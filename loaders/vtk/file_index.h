@@ -1,4 +1,4 @@
-/// Which files make which blocks at which time, as an index file says (.vtm, .pvtu, .pvd, .vtu.series).
+/// Which files make which blocks at which time, as an index file says (.vtm, .vthb, .pvtu, .pvd, .vtu.series).
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@ namespace palpate {
 struct FilePiece {
   std::filesystem::path file;
   std::string name;  ///< of the block; may be empty
+  int level = -1;    ///< of refinement, 0 the coarsest; -1: none is stated
 };
 
 struct FileStep {

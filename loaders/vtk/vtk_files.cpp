@@ -26,6 +26,7 @@
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/legacy_file.h"
 #include "loaders/vtk/parallel_index.h"
+#include "loaders/vtk/refined_levels.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/xml_file.h"
 
@@ -154,6 +155,9 @@ class VtkFiles : public Loader {
                              "': six numbers taken as a tensor in VTK's order (xx yy zz xy yz xz)");
       }
     }
+    const auto& first = steps_.front().pieces;
+    if (std::ranges::any_of(first, [](const FilePiece& piece) { return piece.level > 0; }))
+      info.notes.emplace_back("where levels of refinement lie over one another, the finest counts");
     if (info.blocks.empty()) throw input_error({request.files.front().string(), "", why, "a volume"});
     has_volume_ = std::any_of(info.blocks.begin(), info.blocks.end(),
                               [](const BlockInfo& block) { return block.not_volume.empty(); });
@@ -174,6 +178,7 @@ class VtkFiles : public Loader {
     }
     const std::set<std::string> wanted(names.begin(), names.end());
     std::vector<DataSet> blocks;
+    std::vector<int> levels;
     std::string why = "holds no data";
     const auto& pieces = steps_[step].pieces;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
@@ -187,6 +192,7 @@ class VtkFiles : public Loader {
           continue;
         }
         blocks.push_back(convert_block(block.data, name_of_block(pieces[p], block), wanted, file));
+        levels.push_back(pieces[p].level);
         if (auto* const cells = std::get_if<UnstructuredTopology>(&blocks.back().topology);
             cells != nullptr && space_of(file, !opened.xml, block.data) == "LPS") {
           cells->positions = from_lps(cells->positions);
@@ -198,6 +204,7 @@ class VtkFiles : public Loader {
       if (on_progress) on_progress(static_cast<double>(p + 1) / static_cast<double>(pieces.size()));
     }
     if (blocks.empty()) throw input_error({pieces.front().file.string(), "", why, "a volume"});
+    (void)hide_refined_cells(blocks, levels);
     return blocks;
   }
 

@@ -25,6 +25,8 @@ struct CellKind {
   std::vector<NodeOf> gmsh_nodes;  ///< behind the corners ("Node ordering" of its manual)
   const char* ucd;
   std::vector<int> ucd_corners;  ///< in its order
+  int cgns = 0;
+  std::vector<NodeOf> cgns_nodes = {};  ///< behind the corners (SIDS, "Unstructured grid element numbering")
 };
 
 inline const std::vector<CellKind>& cell_kinds() {
@@ -37,6 +39,10 @@ inline const std::vector<CellKind>& cell_kinds() {
                                            {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
   static const std::vector<NodeOf> kHexGmsh{{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
                                             {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
+  static const std::vector<NodeOf> kHexCgns{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 5},
+                                            {2, 6}, {3, 7}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
+  static const std::vector<NodeOf> kWedgeCgns{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4},
+                                              {2, 5}, {3, 4}, {4, 5}, {5, 3}};
   static const std::vector<NodeOf> kWedgeVtk{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
                                              {5, 3}, {0, 3}, {1, 4}, {2, 5}};
   static const std::vector<NodeOf> kWedgeGmsh{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4},
@@ -46,10 +52,10 @@ inline const std::vector<CellKind>& cell_kinds() {
     return nodes;
   };
   static const std::vector<CellKind> kKinds{
-      {"tetrahedron", 10, 4, tet, {}, {}, "tet", {0, 1, 2, 3}},
-      {"hexahedron", 12, 5, hex, {}, {}, "hex", {4, 5, 6, 7, 0, 1, 2, 3}},
-      {"wedge", 13, 6, wedge, {}, {}, "prism", {0, 1, 2, 3, 4, 5}},
-      {"pyramid", 14, 7, pyramid, {}, {}, "pyr", {4, 0, 1, 2, 3}},
+      {"tetrahedron", 10, 4, tet, {}, {}, "tet", {0, 1, 2, 3}, 10},
+      {"hexahedron", 12, 5, hex, {}, {}, "hex", {4, 5, 6, 7, 0, 1, 2, 3}, 17},
+      {"wedge", 13, 6, wedge, {}, {}, "prism", {0, 1, 2, 3, 4, 5}, 14},
+      {"pyramid", 14, 7, pyramid, {}, {}, "pyr", {4, 0, 1, 2, 3}, 12},
       {"tetrahedron, 10 nodes",
        24,
        11,
@@ -57,8 +63,10 @@ inline const std::vector<CellKind>& cell_kinds() {
        {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
        {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {2, 3}, {1, 3}},
        nullptr,
-       {}},
-      {"hexahedron, 20", 25, 17, hex, kHexVtk, kHexGmsh, nullptr, {}},
+       {},
+       11,
+       {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}},
+      {"hexahedron, 20", 25, 17, hex, kHexVtk, kHexGmsh, nullptr, {}, 18, kHexCgns},
       {"hexahedron, 27",
        29,
        12,
@@ -78,8 +86,16 @@ inline const std::vector<CellKind>& cell_kinds() {
                        {4, 5, 6, 7},
                        {0, 1, 2, 3, 4, 5, 6, 7}}),
        nullptr,
-       {}},
-      {"wedge, 15", 26, 18, wedge, kWedgeVtk, kWedgeGmsh, nullptr, {}},
+       {},
+       19,
+       with(kHexCgns, {{0, 1, 2, 3},
+                       {0, 1, 4, 5},
+                       {1, 2, 5, 6},
+                       {2, 3, 6, 7},
+                       {0, 3, 4, 7},
+                       {4, 5, 6, 7},
+                       {0, 1, 2, 3, 4, 5, 6, 7}})},
+      {"wedge, 15", 26, 18, wedge, kWedgeVtk, kWedgeGmsh, nullptr, {}, 15, kWedgeCgns},
       {"wedge, 18",
        32,
        13,
@@ -87,7 +103,9 @@ inline const std::vector<CellKind>& cell_kinds() {
        with(kWedgeVtk, {{0, 1, 3, 4}, {1, 2, 4, 5}, {2, 0, 5, 3}}),
        with(kWedgeGmsh, {{0, 1, 3, 4}, {0, 2, 3, 5}, {1, 2, 4, 5}}),
        nullptr,
-       {}},
+       {},
+       16,
+       with(kWedgeCgns, {{0, 1, 3, 4}, {1, 2, 4, 5}, {2, 0, 5, 3}})},
       {"pyramid, 13",
        27,
        19,
@@ -95,7 +113,9 @@ inline const std::vector<CellKind>& cell_kinds() {
        {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
        {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 4}, {2, 3}, {2, 4}, {3, 4}},
        nullptr,
-       {}}};
+       {},
+       21,
+       {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}}};
   return kKinds;
 }
 
@@ -239,6 +259,28 @@ inline std::string su2_file(const CellKind& kind) {
   out += " 0\nNPOIN= " + std::to_string(nodes.size()) + "\n";
   for (std::size_t i = 0; i < nodes.size(); ++i) out += words_of(nodes[i]) + " " + std::to_string(i) + "\n";
   return out + "NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n";
+}
+
+/// One cell of a GAMBIT neutral file, whose corners go along rows.
+inline std::string gambit_file(const CellKind& kind) {
+  int type = 0;
+  std::vector<int> order;
+  if (kind.vtk == 10) type = 6, order = {0, 1, 2, 3};
+  if (kind.vtk == 12) type = 4, order = {0, 1, 3, 2, 4, 5, 7, 6};
+  if (kind.vtk == 13) type = 5, order = {0, 1, 2, 3, 4, 5};
+  if (kind.vtk == 14) type = 7, order = {0, 1, 3, 2, 4};
+  if (type == 0) return {};
+  const std::vector<Vec3> nodes = places(kind, {});
+  std::string out = "        CONTROL INFO 2.3.16\n** GAMBIT NEUTRAL FILE\none cell\n"
+                    "PROGRAM:                Gambit     VERSION:  2.3.16\n Jan 2009\n"
+                    "     NUMNP     NELEM     NGRPS    NBSETS     NDFCD     NDFVL\n         " +
+                    std::to_string(nodes.size()) +
+                    " 1 1 0 3 3\nENDOFSECTION\n   NODAL COORDINATES 2.3.16\n";
+  for (std::size_t i = 0; i < nodes.size(); ++i) out += std::to_string(i + 1) + " " + words_of(nodes[i]) + "\n";
+  out += "ENDOFSECTION\n      ELEMENTS/CELLS 2.3.16\n1 " + std::to_string(type) + " " + std::to_string(nodes.size());
+  for (const int corner : order) out += " " + std::to_string(corner + 1);
+  return out + "\nENDOFSECTION\n       ELEMENT GROUP 2.3.16\nGROUP:          1 ELEMENTS:          1 MATERIAL:          "
+               "2 NFLAGS:          1\n                           fluid\n       0\n       1\nENDOFSECTION\n";
 }
 
 }  // namespace palpate::test

@@ -14,6 +14,7 @@
 #include "common/base/error.h"
 #include "common/load/load.h"
 #include "tests/loaders/cell_kinds.h"
+#include "tests/loaders/hdf5_file.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
@@ -149,7 +150,13 @@ std::vector<Dialect> dialects() {
        [](const CellKind& kind, const Variant&) { return tecplot_file(kind, true); }},
       {"AVS UCD", "ascii", "a.inp", one, [](const CellKind& kind, const Variant&) { return ucd_file(kind); }},
       {"SU2", "mesh alone", "a.su2", one, [](const CellKind& kind, const Variant&) { return su2_file(kind); },
-       false}};
+       false},
+      {"GAMBIT", "mesh alone", "a.neu", one, [](const CellKind& kind, const Variant&) { return gambit_file(kind); },
+       false},
+      {"CGNS", "HDF5", "a.cgns", text,
+       [](const CellKind& kind, const Variant& v) { return cgns_file(kind, v.wide); }},
+      {"VTKHDF", "1.0", "a.vtkhdf", text,
+       [](const CellKind& kind, const Variant& v) { return vtkhdf_file(kind, v.wide); }}};
 }
 
 /// Empty: the cell is of that kind, its nodes lie where VTK has them, and have their values.
@@ -169,7 +176,8 @@ std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool 
     if (glm::distance(x, nodes[i]) > 1e-6) return "node " + std::to_string(i) + " lies elsewhere";
     if (!has_values) continue;
     Vec3 v{NAN};
-    const DataArray* const whole = block.find("U", Association::kPoint);
+    const DataArray* const velocity = block.find("Velocity", Association::kPoint);
+    const DataArray* const whole = velocity != nullptr ? velocity : block.find("U", Association::kPoint);
     for (int c = 0; c < 3; ++c) {
       const DataArray* const part = block.find(std::string(1, "UVW"[c]), Association::kPoint);
       if (whole != nullptr && whole->components == 3) v[c] = whole->at(point, c);

@@ -1,0 +1,17 @@
+/// Looks at files of Fluent, GAMBIT and STAR-CD before their readers, which allocate what a header claims.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace palpate {
+
+/// What is wrong with a Fluent case, or empty: its sections of nodes (10), cells (12) and faces (13) claim no more of
+/// each than the file has bytes. Fluent's user guide, "Case and data file formats".
+[[nodiscard]] std::string fluent_problem(std::string_view text);
+
+/// What is wrong with a GAMBIT neutral file, or empty: its counts fit the file, and its sections end.
+/// GAMBIT user's guide, "Neutral file format".
+[[nodiscard]] std::string gambit_problem(std::string_view text);
+
+}  // namespace palpate

@@ -1,0 +1,115 @@
+/// Fluent, GAMBIT and STAR-CD through VTK's readers.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include <vtkFLUENTReader.h>
+#include <vtkGAMBITReader.h>
+#include <vtkProStarReader.h>
+#include <vtkSmartPointer.h>
+
+#include "common/base/error.h"
+#include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
+#include "loaders/cfd/cfd_check.h"
+#include "loaders/vtk/one_reader.h"
+
+namespace palpate {
+namespace {
+
+void refuse(const std::string& file, const std::string& problem) {
+  if (!problem.empty()) throw input_error({file, "", problem, "", "the file may be damaged"});
+}
+
+/// Values of cells, from the .dat beside.
+class FluentReader : public OneReader {
+ protected:
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
+    refuse(file, fluent_problem(MappedFile(file).text()));
+    const std::string values = std::filesystem::path(file).replace_extension(".dat").string();
+    std::error_code error;
+    if (!std::filesystem::exists(values, error))
+      throw input_error({file, "", "has no values beside it", "its data in " + values});
+    reader_ = vtkSmartPointer<vtkFLUENTReader>::New();
+    reader_->SetFileName(file.c_str());
+    return reader_;
+  }
+  void select(const std::set<std::string>* wanted) override {
+    for (int i = 0; i < reader_->GetNumberOfCellArrays(); ++i) {
+      const std::string name = reader_->GetCellArrayName(i);
+      reader_->SetCellArrayStatus(name.c_str(), wanted == nullptr || wanted->count(name) > 0 ? 1 : 0);
+    }
+  }
+
+ private:
+  vtkSmartPointer<vtkFLUENTReader> reader_;
+};
+
+constexpr const char* kMeshAlone = "the mesh alone: no values are read of this format";
+
+/// A mesh alone.
+class GambitReader : public OneReader {
+ protected:
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>& notes) override {
+    refuse(file, gambit_problem(MappedFile(file).text()));
+    notes.emplace_back(kMeshAlone);
+    const auto reader = vtkSmartPointer<vtkGAMBITReader>::New();
+    reader->SetFileName(file.c_str());
+    return reader;
+  }
+  void select(const std::set<std::string>*) override {}
+  /// VTK leaves the corners in GAMBIT's order, which goes along rows, not around.
+  void finish(DataSet& block) override {
+    constexpr std::uint8_t kHexahedron = 12, kPyramid = 14;
+    auto& mesh = std::get<UnstructuredTopology>(block.topology);
+    for (std::size_t c = 0; c < mesh.types.size(); ++c) {
+      if (mesh.types[c] != kHexahedron && mesh.types[c] != kPyramid) continue;
+      const std::size_t first = as_size(mesh.offsets[c]);
+      std::swap(mesh.connectivity[first + 2], mesh.connectivity[first + 3]);
+      if (mesh.types[c] == kHexahedron) std::swap(mesh.connectivity[first + 6], mesh.connectivity[first + 7]);
+    }
+  }
+};
+
+/// A mesh alone: .vrt and .cel.
+class StarCdReader : public OneReader {
+ protected:
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>& notes) override {
+    for (const char* const ending : {".vrt", ".cel"}) {
+      const std::string part = std::filesystem::path(file).replace_extension(ending).string();
+      std::error_code error;
+      if (!std::filesystem::exists(part, error)) throw input_error({file, "", "lacks its other half", part});
+    }
+    notes.emplace_back(kMeshAlone);
+    const auto reader = vtkSmartPointer<vtkProStarReader>::New();
+    reader->SetFileName(file.c_str());
+    return reader;
+  }
+  void select(const std::set<std::string>*) override {}
+};
+
+class CfdLoader : public Loader {
+ public:
+  FileInfo open(const LoadRequest& request, Format format) override {
+    if (format == Format::kFluent) reader_ = std::make_unique<FluentReader>();
+    if (format == Format::kGambit) reader_ = std::make_unique<GambitReader>();
+    if (format == Format::kStarCd) reader_ = std::make_unique<StarCdReader>();
+    if (!reader_) throw input_error({request.files.front().string(), "", "is of another format", "Fluent, GAMBIT or STAR-CD"});
+    reader_->on_progress = on_progress;
+    return reader_->open(request, format);
+  }
+  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
+    if (!reader_) throw work_error("nothing was opened");
+    return reader_->read(names, step);
+  }
+
+ private:
+  std::unique_ptr<Loader> reader_;
+};
+
+}  // namespace
+
+[[nodiscard]] std::unique_ptr<Loader> make_cfd_loader() { return std::make_unique<CfdLoader>(); }
+
+}  // namespace palpate

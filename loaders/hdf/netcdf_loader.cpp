@@ -1,0 +1,110 @@
+/// netCDF by the CF conventions through vtkNetCDFCFReader: the variables along one set of three axes, as they stand, and
+/// time.
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include <vtkInformation.h>
+#include <vtkNetCDFCFReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkStdString.h>
+#include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkStringArray.h>
+
+#include "common/base/error.h"
+#include "common/base/text.h"
+#include "loaders/hdf/hdf5_check.h"
+#include "loaders/vtk/netcdf_check.h"
+#include "loaders/vtk/one_reader.h"
+
+namespace palpate {
+namespace {
+
+class NetcdfLoader : public OneReader {
+ protected:
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
+    check_netcdf(file);
+    check_hdf5(file);
+    reader_ = vtkSmartPointer<vtkNetCDFCFReader>::New();
+    reader_->SetFileName(file.c_str());
+    reader_->SphericalCoordinatesOff();
+    reader_->ReplaceFillValueWithNanOn();
+    return reader_;
+  }
+
+  /// Takes the axes with the most variables along three of which there is more than one place.
+  void look(const std::string& file, std::vector<std::string>& notes) override {
+    std::map<std::string, std::vector<std::string>> by_axes;
+    vtkStringArray* const axes = reader_->GetVariableDimensions();
+    for (int v = 0; v < reader_->GetNumberOfVariableArrays(); ++v)
+      by_axes[axes->GetValue(v)].emplace_back(reader_->GetVariableArrayName(v));
+    std::string chosen;
+    for (const auto& [these, names] : by_axes) {
+      if (names.size() > names_.size() && is_volume(these)) {
+        chosen = these;
+        names_ = names;
+      }
+    }
+    if (chosen.empty()) throw input_error({file, "", "has no variable along three axes", "a volume"});
+    reader_->SetDimensions(chosen.c_str());
+    reader_->UpdateInformation();
+    std::string others;
+    for (const auto& [these, names] : by_axes) {
+      for (const std::string& name : names) {
+        if (these != chosen) others += (others.empty() ? "'" : ", '") + name + "' " + these;
+      }
+    }
+    if (!others.empty()) notes.push_back("variables along other axes than " + chosen + " left out: " + others);
+    warn_of_units(chosen, notes);
+  }
+
+  void select(const std::set<std::string>* wanted) override {
+    const bool any = wanted == nullptr || std::ranges::any_of(names_, [&](const std::string& name) {
+                       return wanted->count(name) > 0;
+                     });
+    for (int v = 0; v < reader_->GetNumberOfVariableArrays(); ++v) {
+      const std::string name = reader_->GetVariableArrayName(v);
+      const bool along = std::ranges::find(names_, name) != names_.end();
+      // The grid is that of a variable.
+      const bool takes = along && (any ? wanted == nullptr || wanted->count(name) > 0 : name == names_.front());
+      reader_->SetVariableArrayStatus(name.c_str(), takes ? 1 : 0);
+    }
+  }
+
+ private:
+  bool is_volume(const std::string& axes) {
+    reader_->SetDimensions(axes.c_str());
+    reader_->UpdateInformation();
+    vtkInformation* const about = reader_->GetOutputInformation(0);
+    auto* const key = vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT();
+    if (about->Has(key) == 0) return false;
+    const int* const extent = about->Get(key);
+    return extent[1] > extent[0] && extent[3] > extent[2] && extent[5] > extent[4];
+  }
+
+  /// @param axes "(time, z, lat, lon)"
+  void warn_of_units(const std::string& axes, std::vector<std::string>& notes) {
+    std::string names = axes;
+    std::ranges::replace_if(names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+    for (const std::string_view name : words(names)) {
+      const std::string units = lowered(reader_->QueryArrayUnits(std::string(name).c_str()));
+      if (units.starts_with("degree")) {
+        notes.push_back("WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +
+                        "'): lines of a velocity in metres a second are not those of the flow; write x and y in metres");
+      }
+    }
+    const char* const time = reader_->GetTimeUnits();
+    const std::string units = time == nullptr ? "" : lowered(trimmed(time));
+    if (!units.empty() && !units.starts_with("s ") && !units.starts_with("sec"))
+      notes.push_back("WARNING: times are in '" + units + "': lines in time take them in the unit of the velocity");
+  }
+
+  vtkSmartPointer<vtkNetCDFCFReader> reader_;
+  std::vector<std::string> names_;  ///< of the variables along the axes that are read
+};
+
+}  // namespace
+
+[[nodiscard]] std::unique_ptr<Loader> make_netcdf_loader() { return std::make_unique<NetcdfLoader>(); }
+
+}  // namespace palpate

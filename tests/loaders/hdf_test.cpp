@@ -1,0 +1,297 @@
+// CGNS, VTKHDF and netCDF: fields and times beyond the single cells of flow_matrix_test, and damaged files.
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/load/load.h"
+#include "tests/loaders/hdf5_file.h"
+#include "tests/support/temp_folder.h"
+
+namespace palpate::test {
+namespace {
+
+constexpr int kNx = 4, kNy = 3, kNz = 2;
+
+Vec3 lattice_point(int i, int j, int k) { return {0.5 * i, 1.0 * j, 2.0 * k}; }
+
+std::vector<Vec3> lattice() {
+  std::vector<Vec3> out;
+  for (int k = 0; k < kNz; ++k) {
+    for (int j = 0; j < kNy; ++j) {
+      for (int i = 0; i < kNx; ++i) out.push_back(lattice_point(i, j, k));
+    }
+  }
+  return out;
+}
+
+bool says(const std::vector<std::string>& notes, const std::string& words) {
+  for (const std::string& note : notes) {
+    if (note.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    (void)Source::open({{file}, {}});
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    return error.what();
+  }
+  ADD_FAILURE() << file << " was accepted";
+  return {};
+}
+
+// --- CGNS -------------------------------------------------------------------------------------------------
+
+/// Two zones of a lattice, the second moved along z, with the flow at the nodes at two times.
+std::string structured_cgns(bool cut_short = false) {
+  const CgnsTree tree;
+  tree.whole("/Base", "CGNSBase_t", {3, 3});
+  tree.empty("/Base/Times", "BaseIterativeData_t");
+  tree.whole("/Base/Times/NumberOfSteps", "DataArray_t", {2});
+  tree.real("/Base/Times/TimeValues", "DataArray_t", {0.25, 0.75}, true);
+  for (const std::string zone : {"low", "high"}) {
+    const std::string at = "/Base/" + zone;
+    const double lift = zone == "low" ? 0.0 : 2.0;
+    tree.whole(at, "Zone_t", {kNx, kNy, kNz, kNx - 1, kNy - 1, kNz - 1, 0, 0, 0}, {3, 3});
+    tree.text(at + "/ZoneType", "ZoneType_t", "Structured");
+    tree.empty(at + "/GridCoordinates", "GridCoordinates_t");
+    std::vector<Vec3> nodes = lattice();
+    for (Vec3& x : nodes) x.z += lift;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> line = along(nodes, axis);
+      if (cut_short) line.resize(line.size() / 2);
+      const std::vector<hsize_t> counts =
+          cut_short ? std::vector<hsize_t>{line.size()} : std::vector<hsize_t>{kNz, kNy, kNx};
+      tree.real(at + "/GridCoordinates/Coordinate" + std::string(1, "XYZ"[axis]), "DataArray_t", line, true, counts);
+    }
+    tree.empty(at + "/Steps", "ZoneIterativeData_t");
+    std::string names;
+    for (const std::string step : {"Flow#1", "Flow#2"}) {
+      std::string name = step;
+      name.resize(32, ' ');
+      names += name;
+      tree.empty(at + "/" + step, "FlowSolution_t");
+      tree.text(at + "/" + step + "/GridLocation", "GridLocation_t", "Vertex");
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> values = along(flows_at(nodes), axis);
+        for (double& v : values) v *= step == "Flow#1" ? 1.0 : 3.0;
+        tree.real(at + "/" + step + "/Velocity" + std::string(1, "XYZ"[axis]), "DataArray_t", values, true,
+                  {kNz, kNy, kNx});
+      }
+    }
+    tree.text(at + "/Steps/FlowSolutionPointers", "DataArray_t", names, {2, 32});
+  }
+  return tree.bytes();
+}
+
+TEST(Cgns, ZonesAreBlocksAndSolutionsTimes) {
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.cgns", structured_cgns())}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.25, 0.75}));
+  ASSERT_EQ(source.info().blocks.size(), 2U);
+  EXPECT_EQ(source.info().blocks[0].points, (Index3{kNx, kNy, kNz}));
+  for (std::size_t step = 0; step < 2; ++step) {
+    const auto blocks = source.read({"Velocity"}, step);
+    ASSERT_EQ(blocks.size(), 2U);
+    for (std::size_t b = 0; b < 2; ++b) {
+      const auto* const grid = std::get_if<StructuredTopology>(&blocks[b].topology);
+      const DataArray* const v = blocks[b].find("Velocity", Association::kPoint);
+      ASSERT_TRUE(grid != nullptr && v != nullptr);
+      const std::vector<Vec3> nodes = lattice();
+      for (std::size_t p = 0; p < nodes.size(); ++p) {
+        const Vec3 x = nodes[p] + Vec3{0.0, 0.0, blocks[b].name.find("high") != std::string::npos ? 2.0 : 0.0};
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_EQ(grid->positions.at(p, c), x[c]);
+          EXPECT_EQ(v->at(p, c), flow_at(x)[c] * (step == 0 ? 1.0 : 3.0));
+        }
+      }
+    }
+  }
+}
+
+TEST(Cgns, DamagedFilesAreRefused) {
+  const TempFolder folder;
+  EXPECT_NE(refusal(folder.write("short.cgns", structured_cgns(true))), "");
+  std::string cut = structured_cgns();
+  cut.resize(cut.size() * 2 / 3);
+  EXPECT_NE(refusal(folder.write("cut.cgns", cut)).find("truncated"), std::string::npos);
+  EXPECT_NE(refusal(folder.write("a.cgns", "@(#)ADF Database Version B02012>")), "");
+}
+
+// --- VTKHDF -----------------------------------------------------------------------------------------------
+
+TEST(VtkHdf, ImagesAreImages) {
+  const Hdf5File file;
+  file.group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  file.word("/VTKHDF", "Type", "ImageData", 9);
+  file.attribute("/VTKHDF", "WholeExtent", std::vector<std::int64_t>{0, kNx - 1, 0, kNy - 1, 0, kNz - 1});
+  file.attribute("/VTKHDF", "Origin", std::vector<double>{0.0, 0.0, 0.0});
+  file.attribute("/VTKHDF", "Spacing", std::vector<double>{0.5, 1.0, 2.0});
+  file.attribute("/VTKHDF", "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+  file.group("/VTKHDF/PointData");
+  file.set("/VTKHDF/PointData/velocity", tuples_of(flows_at(lattice())), {kNz, kNy, kNx, 3});
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.vtkhdf", file.bytes())}, {}});
+  const auto blocks = source.read({"velocity"});
+  const auto* const grid = std::get_if<UniformTopology>(&blocks.at(0).topology);
+  ASSERT_NE(grid, nullptr);
+  EXPECT_EQ(grid->points, (Index3{kNx, kNy, kNz}));
+  EXPECT_EQ(grid->axes[2], (Vec3{0.0, 0.0, 2.0}));
+  const DataArray* const v = blocks[0].find("velocity", Association::kPoint);
+  ASSERT_NE(v, nullptr);
+  const std::vector<Vec3> nodes = lattice();
+  for (std::size_t p = 0; p < nodes.size(); ++p)
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(v->at(p, c), flow_at(nodes[p])[c]);
+}
+
+TEST(VtkHdf, ClaimsBeyondTheFileAreRefused) {
+  const TempFolder folder;
+  const Hdf5File file;
+  file.group("/VTKHDF");
+  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+  file.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
+  file.claim("/VTKHDF/Points", {std::uint64_t{1} << 40U, 3});
+  EXPECT_NE(refusal(folder.write("claims.vtkhdf", file.bytes())).find("data set 'VTKHDF/Points'"), std::string::npos);
+  const Hdf5File other;
+  other.group("/VTKHDF");
+  other.claim("/VTKHDF/Points", {4, 3});
+  EXPECT_NE(refusal(folder.write("never.vtkhdf", other.bytes())).find("never written"), std::string::npos);
+  const Hdf5File newer;
+  newer.group("/VTKHDF");
+  newer.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{2, 0});
+  newer.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
+  EXPECT_NE(refusal(folder.write("newer.vtkhdf", newer.bytes())), "");
+}
+
+// --- netCDF -----------------------------------------------------------------------------------------------
+
+/// A classic file ("The NetCDF Classic Format Specification"), version 1. Dimensions and variables in their order.
+class ClassicFile {
+ public:
+  struct Variable {
+    std::string name;
+    std::vector<std::uint32_t> dimensions;
+    std::vector<std::pair<std::string, std::string>> words;  ///< attributes
+    std::vector<double> values;
+    std::vector<std::pair<std::string, double>> numbers = {};
+  };
+  std::vector<std::pair<std::string, std::uint32_t>> dimensions;
+  std::vector<Variable> variables;
+
+  [[nodiscard]] std::string bytes() const {
+    std::string head = header(std::vector<std::uint32_t>(variables.size(), 0));
+    std::vector<std::uint32_t> begins;
+    std::size_t at = head.size();
+    for (const Variable& v : variables) {
+      begins.push_back(static_cast<std::uint32_t>(at));
+      at += 8 * v.values.size();
+    }
+    std::string out = header(begins);
+    for (const Variable& v : variables)
+      for (const double value : v.values) out += raw(value, true);
+    return out;
+  }
+
+ private:
+  static std::string number(std::size_t value) { return raw(static_cast<std::uint32_t>(value), true); }
+  static std::string name_of(const std::string& name) {
+    return number(name.size()) + name + std::string((4 - name.size() % 4) % 4, '\0');
+  }
+  [[nodiscard]] std::string header(const std::vector<std::uint32_t>& begins) const {
+    constexpr std::size_t kDimension = 10, kVariable = 11, kAttribute = 12, kChar = 2, kDouble = 6;
+    std::string out = std::string("CDF\1", 4) + number(0) + number(kDimension) + number(dimensions.size());
+    for (const auto& [name, length] : dimensions) out += name_of(name) + number(length);
+    out += number(0) + number(0) + number(kVariable) + number(variables.size());
+    for (std::size_t v = 0; v < variables.size(); ++v) {
+      const Variable& variable = variables[v];
+      out += name_of(variable.name) + number(variable.dimensions.size());
+      for (const std::uint32_t d : variable.dimensions) out += number(d);
+      const std::size_t attributes = variable.words.size() + variable.numbers.size();
+      out += number(attributes > 0 ? kAttribute : 0) + number(attributes);
+      for (const auto& [name, text] : variable.words) out += name_of(name) + number(kChar) + name_of(text);
+      for (const auto& [name, value] : variable.numbers)
+        out += name_of(name) + number(kDouble) + number(1) + raw(value, true);
+      out += number(kDouble) + number(8 * variable.values.size()) + number(begins[v]);
+    }
+    return out;
+  }
+};
+
+/// u, v, w at two times along x, y, z, and depth along x and y alone. @param units of x and y.
+ClassicFile ocean(const std::string& units) {
+  ClassicFile file;
+  file.dimensions = {{"time", 2}, {"z", kNz}, {"y", kNy}, {"x", kNx}};
+  file.variables = {{"time", {0}, {{"units", "seconds since 2000-01-01"}}, {10.0, 20.0}},
+                    {"z", {1}, {{"units", "m"}, {"axis", "Z"}}, {0.0, 2.0}},
+                    {"y", {2}, {{"units", units}}, {0.0, 1.0, 2.0}},
+                    {"x", {3}, {{"units", units}}, {0.0, 0.5, 1.5, 2.0}}};
+  for (int axis = 0; axis < 3; ++axis) {
+    ClassicFile::Variable variable{std::string(1, "uvw"[axis]), {0, 1, 2, 3}, {}, {}, {{"_FillValue", -999.0}}};
+    for (int t = 0; t < 2; ++t) {
+      for (const Vec3& x : lattice()) variable.values.push_back(flow_at(x)[axis] + 100.0 * t);
+    }
+    if (axis == 0) variable.values[5] = -999.0;
+    file.variables.push_back(variable);
+  }
+  file.variables.push_back({"depth", {2, 3}, {}, std::vector<double>(kNx * kNy, 5.0)});
+  return file;
+}
+
+TEST(Netcdf, GridsWithTimesAreRead) {
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.nc", ocean("m").bytes())}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{10.0, 20.0}));
+  EXPECT_TRUE(says(source.info().notes, "'depth'"));
+  EXPECT_FALSE(says(source.info().notes, "WARNING"));
+  for (std::size_t step = 0; step < 2; ++step) {
+    const auto blocks = source.read({"u", "v", "w"}, step);
+    const auto* const grid = std::get_if<RectilinearTopology>(&blocks.at(0).topology);
+    ASSERT_NE(grid, nullptr);
+    EXPECT_EQ(grid->coordinates[0], (std::vector<double>{0.0, 0.5, 1.5, 2.0}));
+    const DataArray* const u = blocks[0].find("u", Association::kPoint);
+    const DataArray* const w = blocks[0].find("w", Association::kPoint);
+    ASSERT_TRUE(u != nullptr && w != nullptr);
+    const std::vector<Vec3> nodes = lattice();
+    for (std::size_t p = 0; p < nodes.size(); ++p) {
+      EXPECT_EQ(w->at(p), flow_at(nodes[p]).z + 100.0 * static_cast<double>(step));
+      if (p == 5 && step == 0) {
+        EXPECT_TRUE(std::isnan(u->at(p))) << "a fill value is no value";
+      } else {
+        EXPECT_EQ(u->at(p), flow_at(nodes[p]).x + 100.0 * static_cast<double>(step));
+      }
+    }
+  }
+  EXPECT_EQ(source.read({}).at(0).point_count(), lattice().size()) << "the grid alone";
+}
+
+TEST(Netcdf, DegreesAndDaysAreWarnedOf) {
+  const TempFolder folder;
+  ClassicFile file = ocean("degrees_north");
+  file.variables[0].words[0].second = "days since 2000-01-01";
+  Source source = Source::open({{folder.write("a.nc", file.bytes())}, {}});
+  EXPECT_TRUE(says(source.info().notes, "in degrees"));
+  EXPECT_TRUE(says(source.info().notes, "days since"));
+}
+
+TEST(Netcdf, DamagedFilesAreRefused) {
+  const TempFolder folder;
+  std::string cut = ocean("m").bytes();
+  cut.resize(cut.size() - 40);
+  EXPECT_NE(refusal(folder.write("cut.nc", cut)).find("does not fit"), std::string::npos);
+  ClassicFile flat;
+  flat.dimensions = {{"y", 3}, {"x", 4}};
+  flat.variables = {{"a", {0, 1}, {}, std::vector<double>(12, 1.0)}};
+  EXPECT_NE(refusal(folder.write("flat.nc", flat.bytes())).find("three axes"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::test
