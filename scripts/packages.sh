@@ -7,8 +7,8 @@ packages_build="g++ cmake ninja-build pkg-config ccache libtbb-dev libglm-dev li
 # The drivers of devices: modules that only --device opens.
 packages_drivers="libusb-1.0-0-dev"
 # What one program needs besides: the libraries of its helper programs. loaders/ has a folder for each.
-packages_flow="libvtk9-dev libteem-dev libopenvdb-dev"
-packages_grid="libvtk9-dev libteem-dev libopenvdb-dev libnifti2-dev libgdcm-dev"
+packages_flow="libvtk9-dev libhdf5-dev libxdmf-dev libteem-dev libopenvdb-dev"
+packages_grid="libvtk9-dev libhdf5-dev libxdmf-dev libteem-dev libopenvdb-dev libnifti2-dev libgdcm-dev"
 packages_dtmri="libvtk9-dev libteem-dev libnifti2-dev libgdcm-dev libzip-dev"
 packages_cardiac="libvtk9-dev libcgal-dev libtet1.5-dev"
 packages_workbench="libceres-dev"

@@ -105,6 +105,7 @@ bool is_paraview_series(const FileHead& head, const FormatRow&) {
          (text.starts_with('{') && has(text, "\"file-series-version\""));
 }
 
+bool is_xdmf(const FileHead& head, const FormatRow&) { return is_xml(head) && has(text_of(head), "<Xdmf"); }
 bool is_cgns(const FileHead& head, const FormatRow& row) {
   const std::string_view text = text_of(head);
   if (lowered(text.substr(0, 64)).starts_with("@(#)adf database")) return true;
@@ -389,8 +390,6 @@ std::optional<Sniffed> known_other(const FileHead& head) {
     return Sniffed{
         {}, "a VTK XML file of type " + type, "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
   }
-  if (is_xml(head) && has(text, "<Xdmf"))
-    return Sniffed{{}, "an XDMF file", "write it as .vtu: 'meshio convert THIS out.vtu', or in ParaView"};
   if (is_xml(head)) return Sniffed{{}, "an XML file that is not VTK's", ""};
   if (is_netcdf(text)) return Sniffed{{}, "a netCDF file of a mesh (UGRID)", kByParaview};
   if (is_hdf5(text)) return hdf5_file(head);

@@ -5,6 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
+#include "loaders/hdf/cgns_check.h"
 #include "loaders/hdf/hdf5_check.h"
 #include "loaders/vtk/one_reader.h"
 
@@ -15,6 +16,7 @@ class CgnsLoader : public OneReader {
  protected:
   vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
     check_hdf5(file);
+    check_cgns(file);
     reader_ = vtkSmartPointer<vtkCGNSReader>::New();
     reader_->SetFileName(file.c_str());
     reader_->DoublePrecisionMeshOn();

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include <netcdf.h>
 #include <vtkInformation.h>
 #include <vtkNetCDFCFReader.h>
 #include <vtkSmartPointer.h>
@@ -19,6 +20,34 @@
 
 namespace palpate {
 namespace {
+
+/// The attribute `units` of variables, in small letters; empty where there is none.
+class Units {
+ public:
+  explicit Units(const std::string& file) : opened_(nc_open(file.c_str(), NC_NOWRITE, &file_) == NC_NOERR) {}
+  ~Units() {
+    if (opened_) nc_close(file_);
+  }
+  Units(const Units&) = delete;
+  Units& operator=(const Units&) = delete;
+
+  [[nodiscard]] std::string of(const std::string& variable) const {
+    constexpr std::size_t kLongest = 200;
+    int id = 0;
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    if (!opened_ || nc_inq_varid(file_, variable.c_str(), &id) != NC_NOERR ||
+        nc_inq_att(file_, id, "units", &type, &length) != NC_NOERR || type != NC_CHAR || length > kLongest)
+      return {};
+    std::string text(length, ' ');
+    if (nc_get_att_text(file_, id, "units", text.data()) != NC_NOERR) return {};
+    return lowered(trimmed(text));
+  }
+
+ private:
+  int file_ = 0;
+  bool opened_;
+};
 
 class NetcdfLoader : public OneReader {
  protected:
@@ -55,7 +84,7 @@ class NetcdfLoader : public OneReader {
       }
     }
     if (!others.empty()) notes.push_back("variables along other axes than " + chosen + " left out: " + others);
-    warn_of_units(chosen, notes);
+    warn_of_units(file, chosen, notes);
   }
 
   void select(const std::set<std::string>* wanted) override {
@@ -83,11 +112,12 @@ class NetcdfLoader : public OneReader {
   }
 
   /// @param axes "(time, z, lat, lon)"
-  void warn_of_units(const std::string& axes, std::vector<std::string>& notes) {
+  void warn_of_units(const std::string& file, const std::string& axes, std::vector<std::string>& notes) {
+    const Units of_file(file);
     std::string names = axes;
     std::ranges::replace_if(names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
     for (const std::string_view name : words(names)) {
-      const std::string units = lowered(reader_->QueryArrayUnits(std::string(name).c_str()));
+      const std::string units = of_file.of(std::string(name));
       if (units.starts_with("degree")) {
         notes.push_back("WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +
                         "'): lines of a velocity in metres a second are not those of the flow; write x and y in metres");

@@ -8,6 +8,7 @@
 #include <vtkDataSet.h>
 #include <vtkInformation.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
+#include <vtkUnstructuredGrid.h>
 
 #include "common/base/error.h"
 
@@ -35,7 +36,7 @@ FileInfo OneReader::open(const LoadRequest& request, Format format) {
   if (times_.size() > 1) info.times = times_;
   select(nullptr);
   update(0);
-  for (const VtkBlock& block : usable_blocks(leaves_of(reader_->GetOutputDataObject(0)), "block", file_, &info.notes))
+  for (const VtkBlock& block : usable(&info.notes))
     info.blocks.push_back(describe_block(block.data, block.name));
   return info;
 }
@@ -46,7 +47,7 @@ std::vector<DataSet> OneReader::read(const std::vector<std::string>& names, std:
   select(&wanted);
   update(step);
   std::vector<DataSet> blocks;
-  for (const VtkBlock& block : usable_blocks(leaves_of(reader_->GetOutputDataObject(0)), "block", file_, nullptr))
+  for (const VtkBlock& block : usable(nullptr))
     finish(blocks.emplace_back(convert_block(block.data, block.name, wanted, file_)));
   return blocks;
 }
@@ -60,6 +61,20 @@ void OneReader::select_in(vtkDataArraySelection* selection, const std::set<std::
     const std::string name = selection->GetArrayName(i);
     selection->SetArraySetting(name.c_str(), wanted == nullptr || wanted->count(name) > 0 ? 1 : 0);
   }
+}
+
+/// VTK's readers make empty cells of kinds that they do not know.
+std::vector<VtkBlock> OneReader::usable(std::vector<std::string>* notes) {
+  const std::vector<VtkBlock> leaves = leaves_of(reader_->GetOutputDataObject(0));
+  for (const VtkBlock& leaf : leaves) {
+    auto* const mesh = vtkUnstructuredGrid::SafeDownCast(leaf.data);
+    for (vtkIdType c = 0; mesh != nullptr && c < mesh->GetNumberOfCells(); ++c) {
+      if (mesh->GetCellType(c) != VTK_EMPTY_CELL) continue;
+      throw input_error({file_, "cell " + std::to_string(c) + (leaf.name.empty() ? "" : " of '" + leaf.name + "'"),
+                         "is of a kind that VTK's reader does not know"});
+    }
+  }
+  return usable_blocks(leaves, "block", file_, notes);
 }
 
 void OneReader::update(std::size_t step) {

@@ -36,6 +36,7 @@ class OneReader : public Loader {
   static void select_in(vtkDataArraySelection* selection, const std::set<std::string>* wanted);
 
  private:
+  std::vector<VtkBlock> usable(std::vector<std::string>* notes);
   void update(std::size_t step);
 
   VtkErrors errors_;

@@ -180,8 +180,8 @@ TEST(FoamPrecision, IsThatOfTheFiles) {
     box.write_vectors(folder.path("0/U"), binary, value, kFree);
     const std::string pressure = "0.1234567890123456789";
     FoamBox::write(folder.path("0/p"), FoamBox::header("volScalarField", "p", false) +
-                                           "dimensions [0 2 -2 0 0 0 0];\nlevel " + pressure +
-                                           ";\ninternalField uniform $level;\nboundaryField\n{\n" + kFree + "}\n");
+                                           "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform " + pressure +
+                                           ";\nboundaryField\n{\n" + kFree + "}\n");
     Source source = Source::open({{folder.path()}, {}});
     for (const ArrayInfo& array : source.info().blocks.at(0).arrays)
       EXPECT_EQ(array.type, ScalarType::kFloat64) << array.name;
@@ -205,6 +205,14 @@ TEST(FoamPrecision, IsThatOfTheFiles) {
       }
     }
   }
+}
+
+TEST(FoamPrecision, NamesStandForValuesThere) {
+  const std::string head = FoamBox::header("volScalarField", "p", false);
+  EXPECT_EQ(read_foam_inner_values(head + "level 0.1;\ninternalField uniform $level;\n", 1).numbers,
+            (std::vector<double>{0.1}));
+  EXPECT_THROW((void)read_foam_inner_values(head + "internalField #calc \"1\";\n", 1), FoamMalformed);
+  EXPECT_THROW((void)read_foam_inner_values(head, 1), FoamMalformed);
 }
 
 TEST(FoamPrecision, TakesOneValueForAllAndNoOtherOrder) {

@@ -22,7 +22,8 @@ class Hdf5File {
     constexpr std::size_t kGrow = 1U << 16U;
     H5Pset_fapl_core(access, kGrow, false);
     H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
-    file_ = H5Fcreate("in memory", H5F_ACC_TRUNC, creation, access);
+    static int made = 0;  // no two have one name at a time
+    file_ = H5Fcreate(("in memory " + std::to_string(++made)).c_str(), H5F_ACC_TRUNC, creation, access);
     H5Pclose(creation);
     H5Pclose(access);
   }
@@ -166,17 +167,17 @@ inline std::vector<Vec3> flows_at(const std::vector<Vec3>& all) {
   return out;
 }
 
-/// One cell in a CGNS file, with velocities at its nodes.
-inline std::string cgns_file(const CellKind& kind, bool wide) {
+/// One cell in a CGNS file, with velocities at its nodes. @param cells that it claims to have.
+inline std::string cgns_file(const CellKind& kind, bool wide, std::int32_t cells = 1) {
   const std::vector<Vec3> nodes = places(kind, kind.cgns_nodes);
   const auto n = static_cast<std::int32_t>(nodes.size());
   const CgnsTree tree;
   tree.whole("/Base", "CGNSBase_t", {3, 3});
-  tree.whole("/Base/Zone", "Zone_t", {n, 1, 0}, {3, 1});
+  tree.whole("/Base/Zone", "Zone_t", {n, cells, 0}, {3, 1});
   tree.text("/Base/Zone/ZoneType", "ZoneType_t", "Unstructured");
   tree.empty("/Base/Zone/GridCoordinates", "GridCoordinates_t");
   tree.whole("/Base/Zone/Cells", "Elements_t", {kind.cgns, 0});
-  tree.whole("/Base/Zone/Cells/ElementRange", "IndexRange_t", {1, 1});
+  tree.whole("/Base/Zone/Cells/ElementRange", "IndexRange_t", {1, cells});
   std::vector<std::int32_t> order;
   for (std::int32_t i = 1; i <= n; ++i) order.push_back(i);
   tree.whole("/Base/Zone/Cells/ElementConnectivity", "DataArray_t", order);
