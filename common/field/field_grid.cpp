@@ -8,6 +8,7 @@
 #include "common/base/index.h"
 #include "common/field/cells/coincident_points.h"
 #include "common/field/cells/curved_split.h"
+#include "common/field/cells/loose_points.h"
 #include "common/field/cells/thin_walls.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
@@ -460,9 +461,16 @@ std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, cons
     if (std::holds_alternative<UniformTopology>(block.topology)) grid = make_uniform(block, file);
   }
   if (!grid) grid = make_tetrahedra(blocks, file, threads, value);
+  std::size_t loose = 0;
   for (const DataSet& block : blocks) {
     grid->input_points += block.point_count();
     grid->input_cells += block.cell_count();
+    if (const auto* mesh = std::get_if<UnstructuredTopology>(&block.topology))
+      loose += as_size(std::ranges::count(points_of_cells(*mesh), std::uint8_t{0}));
+  }
+  if (loose > 0) {
+    grid->notes.lines.push_back(count_text(loose, "point that no cell has is", "points that no cell has are") +
+                                " counted among the file's, and nothing else");
   }
   return grid;
 }

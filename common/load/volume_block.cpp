@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/index.h"
+#include "common/field/cells/loose_points.h"
 
 namespace palpate {
 
@@ -57,8 +58,10 @@ BlockInfo describe_mesh(const DataSet& mesh) {
   if (!cells.types.empty() && std::ranges::all_of(cells.types, is_flat_cell))
     block.not_volume = kOnlyFlatCells;
   const DataArray& positions = cells.positions;
-  for (std::size_t p = 0; p < positions.tuples; ++p)
-    block.bounds.include(Vec3(positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)));
+  const std::vector<std::uint8_t> used = points_of_cells(cells);
+  for (std::size_t p = 0; p < positions.tuples; ++p) {
+    if (used[p] != 0) block.bounds.include(Vec3(positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)));
+  }
   for (const DataArray& array : mesh.arrays)
     block.arrays.push_back({array.name, array.association, array.components, array.type, array.tuples});
   return block;

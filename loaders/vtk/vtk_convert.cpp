@@ -310,6 +310,24 @@ vtkSmartPointer<vtkDataSet> without_ghost_cells(vtkUnstructuredGrid* grid) {
   return copy;
 }
 
+/// Around the points that cells have. What names points that are not there is refused when it is read.
+Box bounds_of_cells(vtkUnstructuredGrid* mesh) {
+  Box bounds;
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell) {
+    vtkIdType count = 0;
+    const vtkIdType* corners = nullptr;
+    mesh->GetCells()->GetCellAtId(cell, count, corners);
+    for (vtkIdType i = 0; i < count; ++i) {
+      if (corners[i] < 0 || corners[i] >= points) continue;
+      double x[3];
+      mesh->GetPoint(corners[i], x);
+      bounds.include({x[0], x[1], x[2]});
+    }
+  }
+  return bounds;
+}
+
 }  // namespace
 
 bool scalar_type_of(int vtk_type, ScalarType& type) {
@@ -434,14 +452,17 @@ BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
   if (vtkUnstructuredGrid::SafeDownCast(data) != nullptr) info.grid = "unstructured";
   if (vtkPolyData::SafeDownCast(data) != nullptr) info.grid = "polygonal";
   info.not_volume = why_not_volume(data);
-  double b[6];
-  if (auto* points = vtkPointSet::SafeDownCast(data)) {
-    points->GetPoints()->GetBounds(b);
+  if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(data); mesh != nullptr && mesh->GetNumberOfCells() > 0) {
+    info.bounds = bounds_of_cells(mesh);
   } else {
-    data->GetBounds(b);
+    double b[6];
+    if (auto* points = vtkPointSet::SafeDownCast(data)) {
+      points->GetPoints()->GetBounds(b);
+    } else {
+      data->GetBounds(b);
+    }
+    info.bounds = {{b[0], b[2], b[4]}, {b[1], b[3], b[5]}};
   }
-  info.bounds.lower = {b[0], b[2], b[4]};
-  info.bounds.upper = {b[1], b[3], b[5]};
   for_each_array(data, [&info](vtkDataArray* array, Association association, const std::string& array_name) {
     ArrayInfo about{array_name, association, array->GetNumberOfComponents(), ScalarType::kFloat32,
                     static_cast<std::size_t>(array->GetNumberOfTuples())};
