@@ -1,10 +1,12 @@
 // VTK files as other programs write them, right and wrong: read through the helper program.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/field/field_grid.h"
 #include "common/load/load.h"
 #include "tests/support/temp_folder.h"
 
@@ -80,6 +82,27 @@ TEST(TextDialects, PiecesWithoutPointsStandAnywhere) {
     EXPECT_EQ(block.find("U", Association::kPoint)->at(7, 0), 3.0);
     EXPECT_EQ(block.cell_count(), 1U);
   }
+}
+
+TEST(TextDialects, PointsOfNoCellAreSaidAndInNoBox) {
+  const test::TempFolder folder;
+  const auto file = folder.write(
+      "a.vtu",
+      "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"6\" NumberOfCells=\"1\"><PointData>"
+      "<DataArray type=\"Float64\" Name=\"u\" NumberOfComponents=\"3\" format=\"ascii\">1 0 0 1 0 0 1 0 0 1 0 0 1 0 0 1 0 0"
+      "</DataArray></PointData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">"
+      "-50 0 0 0 0 0 1 0 0 0 1 0 0 0 1 70 0 0</DataArray></Points><Cells>"
+      "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">1 2 3 4</DataArray>"
+      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+      "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>");
+  Source source = Source::open({{file}, {}});
+  EXPECT_EQ(source.info().blocks.at(0).bounds.lower, (Vec3{0.0, 0.0, 0.0}));
+  EXPECT_EQ(source.info().blocks[0].bounds.upper, (Vec3{1.0, 1.0, 1.0}));
+  const auto blocks = source.read({"u"});
+  const auto grid = make_field_grid(blocks, "a.vtu", 1);
+  EXPECT_TRUE(std::ranges::any_of(grid->notes.lines, [](const std::string& line) {
+    return line.starts_with("2 points that no cell has");
+  }));
 }
 
 TEST(TextDialects, AnArrayThatAPieceLacksIsNamed) {
