@@ -114,7 +114,7 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
   return size_of_zone(file, above(group), place == "CellCenter");
 }
 
-herr_t visit(hid_t, const char* name, const H5O_info_t* about, void* data) {
+herr_t check_node(hid_t, const char* name, const H5O_info_t* about, void* data) {
   auto& walk = *static_cast<Walk*>(data);
   const std::string node(name);
   if (about->type != H5O_TYPE_GROUP || node.find('/') == std::string::npos || walk.file.label(node) != "DataArray_t")
@@ -133,7 +133,7 @@ void check_cgns(const std::string& file) {
   const CgnsFile opened(file);
   if (opened.id() < 0) return;
   Walk walk{.file = opened, .node = {}, .problem = {}};
-  H5Ovisit(opened.id(), H5_INDEX_NAME, H5_ITER_NATIVE, visit, &walk);
+  H5Ovisit(opened.id(), H5_INDEX_NAME, H5_ITER_NATIVE, check_node, &walk);
   if (!walk.problem.empty())
     throw input_error({file, "'" + walk.node + "'", walk.problem, "", "the file may be damaged"});
 }

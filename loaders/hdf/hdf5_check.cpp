@@ -42,7 +42,7 @@ std::string problem_of(hid_t set, std::uint64_t file_size) {
   return {};
 }
 
-herr_t visit(hid_t root, const char* name, const H5O_info_t* about, void* data) {
+herr_t check_set(hid_t root, const char* name, const H5O_info_t* about, void* data) {
   auto& search = *static_cast<Search*>(data);
   if (about->type != H5O_TYPE_DATASET) return 0;
   const hid_t set = H5Dopen2(root, name, H5P_DEFAULT);
@@ -66,7 +66,7 @@ void check_hdf5(const std::string& file) {
   if (opened < 0) throw input_error({file, "", "cannot be opened as HDF5", "", "it may be truncated"});
   Search search;
   search.file_size = head.file_size;
-  const herr_t result = H5Ovisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &search);
+  const herr_t result = H5Ovisit(opened, H5_INDEX_NAME, H5_ITER_NATIVE, check_set, &search);
   H5Fclose(opened);
   if (result < 0) throw input_error({file, "", "its groups cannot be read", "", "the file may be damaged"});
   if (!search.problem.empty())
