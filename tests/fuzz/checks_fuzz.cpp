@@ -9,14 +9,17 @@
 #include "common/base/error.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
+#include "loaders/cfd/cfd_check.h"
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight_check.h"
 #include "loaders/vtk/foam/foam_baffles.h"
 #include "loaders/vtk/foam/foam_boundary.h"
+#include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/xml_scan.h"
+#include "loaders/xdmf/xdmf_text.h"
 
 using namespace palpate;
 
@@ -44,6 +47,19 @@ void read_foam(std::string_view text) {
     const FoamBaffles baffles(faces, patches, owner, {}, 4);
     if (baffles.points() < 4 || baffles.point_of(0, 1) < 0) __builtin_trap();
   }
+  try {
+    if (read_foam_points(text, "points").size() % 3 != 0) __builtin_trap();
+  } catch (const Error&) {
+  }
+  for (const int components : {1, 3}) {
+    try {
+      const FoamPatchValues values = read_foam_inner_values(text, components);
+      const DataArray rounded = make_array("p", Association::kCell, components, std::vector<float>(6, 1.0F));
+      if (in_double(rounded, values.numbers) && values.numbers.size() != 6) __builtin_trap();
+    } catch (const FoamMalformed&) {
+    } catch (const Error&) {
+    }
+  }
   const std::vector<Vec3> positions{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (const int components : {1, 3}) {
     std::vector<std::string> problems;
@@ -63,7 +79,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
   const auto bytes = std::as_bytes(std::span(text));
   const auto tail = bytes.last(std::min(bytes.size(), kPlot3dTailBytes));
-  switch (data[0] % 10) {
+  switch (data[0] % 13) {
     case 0:
       (void)sniff({bytes, tail, bytes.size(), ".ex2"});
       break;
@@ -105,6 +121,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     case 9:
       read_foam(text);
+      break;
+    case 10:
+      (void)fluent_problem(text);
+      break;
+    case 11:
+      (void)gambit_problem(text);
+      break;
+    case 12:
+      for (const std::string& name : look_at_xdmf(text).hdf5) {
+        if (name.empty() || name.front() == '/') __builtin_trap();
+      }
       break;
     default: {
       XmlTags tags(text);
