@@ -207,12 +207,7 @@ class XdmfLoader : public Loader {
     for (const std::string& name : text.hdf5) check_hdf5((request.files.front().parent_path() / name).string());
     FileInfo info;
     guarded([&] {
-      const auto root = XdmfReader::New()->read(std::filesystem::absolute(file_).string());
-      domain_ = shared_dynamic_cast<XdmfDomain>(root);
-      if (!domain_) throw Unusable{"has no domain"};
-      collect(*domain_, std::nullopt);
-      if (steps_.size() > 1) steps_.erase(std::nullopt);  // the mesh by itself, beside its times
-      if (steps_.empty()) throw Unusable{"has no grid"};
+      read_document();
       for (const auto& [time, grids] : steps_) {
         if (time) info.times.push_back(*time);
       }
@@ -228,7 +223,10 @@ class XdmfLoader : public Loader {
     if (!domain_) throw work_error("nothing was opened");
     const std::set<std::string> wanted(names.begin(), names.end());
     std::vector<DataSet> blocks;
-    guarded([&] { blocks = blocks_of(std::next(steps_.begin(), static_cast<std::ptrdiff_t>(step))->second, &wanted, nullptr); });
+    guarded([&] {
+      read_document();  // libxdmf holds the numbers of every step that was read
+      blocks = blocks_of(std::next(steps_.begin(), static_cast<std::ptrdiff_t>(step))->second, &wanted, nullptr);
+    });
     return blocks;
   }
 
@@ -247,6 +245,16 @@ class XdmfLoader : public Loader {
       throw input_error({file_, "", "libxdmf: " + printable(std::string(error.what()).substr(0, 200)), "",
                          "the file may be damaged"});
     }
+  }
+
+  void read_document() {
+    steps_.clear();
+    reader_ = XdmfReader::New();
+    domain_ = shared_dynamic_cast<XdmfDomain>(reader_->read(std::filesystem::absolute(file_).string()));
+    if (!domain_) throw Unusable{"has no domain"};
+    collect(*domain_, std::nullopt);
+    if (steps_.size() > 1) steps_.erase(std::nullopt);  // the mesh by itself, beside its times
+    if (steps_.empty()) throw Unusable{"has no grid"};
   }
 
   void add(const Grid& grid, std::optional<double> time) {
@@ -282,7 +290,6 @@ class XdmfLoader : public Loader {
       read_topology(grid, block);
       read_attributes(*grid, wanted, block, left_out);
       if (notes != nullptr) notes->insert(notes->end(), left_out.begin(), left_out.end());
-      grid->release();
       const auto same = std::ranges::find_if(blocks, [&](const DataSet& other) { return same_grid(other, block); });
       if (same == blocks.end()) {
         blocks.push_back(std::move(block));
@@ -325,6 +332,7 @@ class XdmfLoader : public Loader {
   }
 
   std::string file_;
+  shared_ptr<XdmfReader> reader_;
   shared_ptr<XdmfDomain> domain_;
   std::map<std::optional<double>, std::vector<Grid>> steps_;  ///< by their times, rising
 };
