@@ -1,6 +1,8 @@
 #include "common/cli/verb_open.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "common/base/parallel.h"
@@ -11,6 +13,7 @@
 #include "common/compose/slice_plane.h"
 #include "common/compose/stereo_text.h"
 #include "common/hand/workbench/head_view.h"
+#include "common/scene/document/setting.h"
 
 namespace palpate {
 namespace {
@@ -20,6 +23,18 @@ void check_view(const Document& options) {
   (void)camera_angles(options.view.camera);
   (void)focal_point_of(options.view);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
+}
+
+/// Whether the window begins with its start page: no data is named, and nothing is said of how to see or feel it
+/// but what holds for all data.
+bool begins_with_start_page(const Document& given) {
+  const auto of_all_data = [](const std::string& name) {
+    return std::ranges::any_of(settings(), [&](const Setting& row) {
+      return row.name == name && (row.preferred || row.groups.has(Group::kCommon));
+    });
+  };
+  return given.input.files.empty() && given.input.example.empty() && given.common.session.empty() &&
+         std::ranges::all_of(given.given, of_all_data);
 }
 
 ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbContext& context) {
@@ -36,6 +51,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   const bool felt = !verb.modes.empty();
   WindowRequest request{.program = context.explorer.name,
                         .command_line = context.command_line,
+                        .start_page = begins_with_start_page(given),
                         .stop_requested = [] { return InterruptGuard::interrupted(); },
                         .note = note};
   apply_appearance(options, request.view);

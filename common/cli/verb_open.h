@@ -27,7 +27,8 @@ struct WindowVerb {
   std::function<std::unique_ptr<WindowModel>(const Document&, const std::string& program)> model;
 };
 
-/// The verb `open`. Without a file it shows the first example; without a display it draws that one.
+/// The verb `open`. Without a file it shows the start page, or where settings of a scene are
+/// given, the first example; without a display it draws that one.
 [[nodiscard]] Verb make_open_verb(WindowVerb window, std::vector<UsageExample> examples);
 
 }  // namespace palpate

@@ -57,6 +57,7 @@ class InputModel : public WindowModel {
     document.input.kind = given_.input.kind;
     document.input.files = files.files;
     document.input.solution = files.solution;
+    document.input.example = files.example;
     return show(std::move(document), progress);
   }
 
@@ -79,11 +80,14 @@ class InputModel : public WindowModel {
     return scene.shown;
   }
 
-  std::string save_session(const Document& document) final {
+  std::string save_session(const Document& document, const std::filesystem::path& file) final {
     Document saved = document;
     for (const std::string& name : document.input.secondary) saved.input.field += "," + name;
-    return store_session(session_of(saved, program_), saved);
+    palpate::save_session(file, session_of(saved, program_));
+    return file.string();
   }
+
+  void close() final { scene_.reset(); }
 
  protected:
   /// An open input, what was read of it last, and what was shown last.

@@ -27,10 +27,11 @@
 
 namespace palpate {
 
-/// Files that are opened together.
+/// Files that are opened together, or a built-in example.
 struct InputFiles {
   std::vector<std::filesystem::path> files;
-  std::optional<std::filesystem::path> solution;  ///< PLOT3D
+  std::optional<std::filesystem::path> solution = {};  ///< PLOT3D
+  std::string example = {};                            ///< in place of files
 
   bool operator==(const InputFiles&) const = default;
 };
@@ -38,7 +39,7 @@ struct InputFiles {
 /// What is known of an open input.
 struct SceneInfo {
   std::string name;                       ///< file or example, for the title
-  InputFiles files;                       ///< absolute paths; none of an example
+  InputFiles files;                       ///< absolute paths
   std::vector<std::string> facts;         ///< one line each: "legacy VTK, 76x49x45 points", …
   std::vector<std::string> fields;        ///< vector fields that can be chosen
   std::vector<std::string> integrators;   ///< those that this grid can be traced with
@@ -100,8 +101,8 @@ class WindowModel {
   /// @throws Error, Cancelled.
   virtual SceneState start(Progress& progress) = 0;
 
-  /// Opens other files, dropped on the window or opened before, with the program's own settings for a new
-  /// input; or shows them with what is open, where they belong beside it (SceneState::joined).
+  /// Opens another input, chosen in the window or dropped on it, with the program's own settings for a new one;
+  /// before start() too. Or shows its files with what is open, where they belong beside it (SceneState::joined).
   /// @throws Error, Cancelled; what was open before then stays open.
   virtual SceneState open(const InputFiles& files, Progress& progress) = 0;
 
@@ -114,9 +115,12 @@ class WindowModel {
   /// job runs.
   virtual void keep(const SceneView& view, Document& document) const = 0;
 
-  /// Saves the document as a session.
+  /// Saves the document as a session, in place of what `file` was.
   /// @return what was written, for the message line. @throws Error.
-  virtual std::string save_session(const Document& document) = 0;
+  virtual std::string save_session(const Document& document, const std::filesystem::path& file) = 0;
+
+  /// Forgets what is open, and gives its memory back. Called while no job runs.
+  virtual void close() = 0;
 };
 
 /// Which time step a document shows. @param times of the input.

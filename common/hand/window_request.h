@@ -17,6 +17,7 @@ namespace palpate {
 struct WindowRequest {
   std::string program;       ///< in the title bar
   std::string command_line;  ///< for the text of saved pictures
+  bool start_page = false;   ///< in place of what the model was made for
   SceneView view;            ///< what is shown at the start, but for lines, bounds and camera
   std::optional<WorkbenchDisplayOptions> workbench;  ///< the screens of a workbench; none: a desktop
   ProbeSessionOptions touch;                         ///< without modes: the window knows no touch

@@ -30,19 +30,15 @@ Session session_of(const Document& document, const std::string& program) {
   return session;
 }
 
-std::filesystem::path session_path(const Document& document, const std::string& program) {
+std::string session_name(const Document& document, const std::string& program) {
   const auto& files = document.input.files;
-  const std::string name =
-      (files.empty() ? program + "-" + document.input.example : files.front().stem().string()) +
-      ".palpate.toml";
-  std::filesystem::path path = (files.empty() ? std::filesystem::path() : files.front().parent_path()) / name;
-  return may_cache_beside(path) ? path : std::filesystem::path(name);
+  const std::string stem =
+      files.empty() ? program + "-" + document.input.example : files.front().stem().string();
+  return stem + std::string(kSessionEnding);
 }
 
-std::string store_session(const Session& session, const Document& document) {
-  const std::filesystem::path path = session_path(document, session.program);
-  save_session(path, session);
-  return path.string();
+std::filesystem::path lines_of_session(std::filesystem::path session) {
+  return session.replace_extension(".lines.csv");
 }
 
 std::vector<const Setting*> take_settings(const Session& session, FieldKind kind,

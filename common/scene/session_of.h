@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/scene/document/document.h"
@@ -19,12 +20,14 @@ namespace palpate {
 /// file cannot be read.
 [[nodiscard]] Session session_of(const Document& document, const std::string& program);
 
-/// Where the session of `document` is saved: beside its first input, or where that cannot be written, or there
-/// is none, in the current folder.
-[[nodiscard]] std::filesystem::path session_path(const Document& document, const std::string& program);
+/// What names of session files end with.
+inline constexpr std::string_view kSessionEnding = ".palpate.toml";
 
-/// Writes it to session_path(). @return what was written. @throws Error (work failed).
-std::string store_session(const Session& session, const Document& document);
+/// The name proposed for the session of `document`, without a folder: after its first input, or its example.
+[[nodiscard]] std::string session_name(const Document& document, const std::string& program);
+
+/// The file of drawn lines that goes with a session, beside it: "carotid.palpate.lines.csv".
+[[nodiscard]] std::filesystem::path lines_of_session(std::filesystem::path session);
 
 /// Takes the settings of `session` into `document`, for programs of `kind`.
 /// @param file of the session, for messages. @param notes gets a sentence on each thing that was left out of a

@@ -1,6 +1,7 @@
 #include "common/window/explorer_window.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -40,10 +41,11 @@ std::optional<Vec2> place_of_control(const ScriptedEvent& scripted) {
 ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
     : model_(model),
       options_(options),
-      jobs_(model),
+      jobs_(model, !options.start_page),
       glfw_(options),
       view_(options.view),
       focal_point_(options.focal_point),
+      start_page_(options.program, options.kind),
       touch_(options.touch, [] { glfwPostEmptyEvent(); }),
       controls_(touch_, options.region),
       files_(options.picture_folder, options.program, touch_, state_) {
@@ -67,6 +69,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   state_.recent = options_.recent;
   state_.plotted = options_.plotted;
   state_.play_rate = options_.play_rate;
+  files_.note_opened(options_.session);
 }
 
 WindowResult ExplorerWindow::run() {
@@ -75,7 +78,7 @@ WindowResult ExplorerWindow::run() {
     wait_for_events();
     if (options_.stop_requested && options_.stop_requested()) break;
     take_outcome();
-    const bool counted = scene_.has_value() && !(options_.frames_wait && jobs_.running());
+    const bool counted = (scene_ || on_start_page()) && !(options_.frames_wait && jobs_.running());
     if (counted) inject(frame_);
     if (touch_.servo().replaying()) inject_replayed();
     const double seconds = frame_clock.seconds();
@@ -90,6 +93,7 @@ WindowResult ExplorerWindow::run() {
   }
   touch_.finish();
   WindowResult result{.frames = frame_,
+                      .shown = shown_,
                       .recent = state_.recent,
                       .view = view_,
                       .document = state_.document,
@@ -132,7 +136,7 @@ bool ExplorerWindow::lively() const {
 bool ExplorerWindow::closes() {
   if (screens_ && screens_->close_asked()) glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
   if (glfwWindowShouldClose(glfw_.get()) == GLFW_FALSE) return false;
-  if (leave_ || !files_.ask(std::nullopt)) return true;
+  if (leave_ || !files_.ask({})) return true;
   controls_.touch().let_go();
   glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
   return false;
@@ -159,10 +163,10 @@ void ExplorerWindow::inject_replayed() {
     const auto event = event_from_text(text);
     if (!event) continue;
     const auto command = command_of(*event);
-    if (command == Command::kQuit || command == Command::kFullScreen || command == Command::kSavePicture ||
-        command == Command::kSaveSession || command == Command::kSaveLines) {
-      continue;
-    }
+    constexpr std::array kOfTheWindow{Command::kQuit,      Command::kFullScreen,    Command::kSavePicture,
+                                      Command::kSaveLines, Command::kOpen,          Command::kSaveSession,
+                                      Command::kClose,     Command::kSaveSessionAs, Command::kStartPage};
+    if (command && std::ranges::find(kOfTheWindow, *command) != kOfTheWindow.end()) continue;
     glfw_.events().push_back(*event);
   }
   if (const std::string verdict = touch_.servo().replay_verdict(); verdict != state_.replay_verdict) {

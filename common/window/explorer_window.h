@@ -31,6 +31,7 @@
 #include "common/window/pane_pictures.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/probe_plot.h"
+#include "common/window/panels/start_page.h"
 #include "common/window/scene_jobs.h"
 #include "common/window/shown_scene.h"
 #include "common/window/window.h"
@@ -76,6 +77,11 @@ class ExplorerWindow {
   /// @name What is open
   /// @{
   void take_outcome();
+  /// What was of places and values of the input that was open.
+  void forget_input();
+  /// The start page is shown: nothing is open, or the user asked for it.
+  [[nodiscard]] bool on_start_page() const { return start_asked_ || (!scene_ && !jobs_.busy()); }
+  void close_data();
   void adopt(SceneState scene);
   /// The hand feels what the lines show.
   void adopt_field();
@@ -119,9 +125,15 @@ class ExplorerWindow {
   [[nodiscard]] std::vector<InputEvent> take_events();
   /// Panels first: what happens over them is not for the camera.
   void handle_events(const std::vector<InputEvent>& events);
-  void open(const InputFiles& files);
+  /// Asks first where something would be lost.
+  void leave(const Leaving& leaving);
+  void go_on(const Leaving& leaving);
   void obey(const PanelActions& actions);
-  void answer_question();
+  /// Questions and dialogs of files.
+  void answer_questions();
+  void handle_on_start_page(const InputEvent& event);
+  [[nodiscard]] PanelActions draw_start_page(const WindowLayout& parts);
+  void save_session(bool asks);
   void run_command(Command command);
   void toggle_volume();
   void say(const std::optional<std::string>& words) {
@@ -162,11 +174,14 @@ class ExplorerWindow {
   bool needs_camera_ = true;
   std::optional<Vec3> focal_point_;  ///< of the first camera
   std::optional<SceneState> scene_;
+  bool shown_ = false;  // there was one
   PanelState state_;
   SceneView kept_;                          // that the document was kept of last
   std::optional<History<Edited>> history_;  // from the first picture of an input on
   PlanePoses cut_planes_;                   // those of the hand for which the first cuts stand
   bool leave_ = false;                      // what is not saved is to be forgotten, or was saved
+  StartPage start_page_;
+  bool start_asked_ = false;  // though something is open
   int frame_ = 0, lively_frames_ = 3;
   std::vector<std::string> missing_;  // controls that a script named
   Stopwatch since_step_;              // in time

@@ -49,7 +49,12 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'A', 0, Command::kAxes, "A", "axes"},
       {'T', 0, Command::kRates, "T", "rates: time for a frame"},
       {'P', 0, Command::kSavePicture, "P", "save the picture"},
-      {'S', kModifierControl, Command::kSaveSession, "Ctrl+S", "save the session"},
+      {'O', kModifierControl, Command::kOpen, "Ctrl+O", "open data, or a session"},
+      {'N', kModifierControl, Command::kStartPage, "Ctrl+N", "the start page: recent files and examples"},
+      {'S', kModifierControl, Command::kSaveSession, "Ctrl+S",
+       "save the session: what is open, and how it is seen"},
+      {'S', kModifierControl | kModifierShift, Command::kSaveSessionAs, "Ctrl+Shift+S", "under another name"},
+      {'W', kModifierControl, Command::kClose, "Ctrl+W", "close the data"},
       {'1', 0, Command::kMode1, "1, 2, …", "haptic mode"},
       {'2', 0, Command::kMode2, "", ""},
       {'3', 0, Command::kMode3, "", ""},
@@ -59,7 +64,8 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'7', 0, Command::kMode7, "", ""},
       {'8', 0, Command::kMode8, "", ""},
       {'9', 0, Command::kMode9, "", ""},
-      {'Q', 0, Command::kQuit, "Q", "quit"},
+      {'Q', kModifierControl, Command::kQuit, "Ctrl+Q, Q", "quit"},
+      {'Q', 0, Command::kQuit, "", ""},
   });
   return kBindings;
 }

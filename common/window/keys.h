@@ -25,7 +25,11 @@ enum class Command : std::uint8_t {
   kAxes,
   kRates,
   kSavePicture,
+  kOpen,
   kSaveSession,
+  kSaveSessionAs,
+  kStartPage,
+  kClose,  ///< what is open
   kGrab,
   kKeepLine,
   kSaveLines,

@@ -15,9 +15,15 @@ constexpr double kPatience = 0.4;
 
 }  // namespace
 
-SceneJobs::SceneJobs(WindowModel& model) : model_(model), job_([] { glfwPostEmptyEvent(); }) {
+SceneJobs::SceneJobs(WindowModel& model, bool starts) : model_(model), job_([] { glfwPostEmptyEvent(); }) {
   require_glfw();
-  job_.start([&model](Progress& progress) { return model.start(progress); });
+  if (starts) job_.start([&model](Progress& progress) { return model.start(progress); });
+}
+
+void SceneJobs::close() {
+  to_open_.reset();
+  to_close_ = true;
+  if (running()) job_.cancel();
 }
 
 const Progress* SceneJobs::shown_progress(bool playing) const {
@@ -27,6 +33,10 @@ const Progress* SceneJobs::shown_progress(bool playing) const {
 
 void SceneJobs::start_next(const Document& wanted) {
   if (running()) return;
+  if (std::exchange(to_close_, false)) {
+    model_.close();
+    requested_ = wanted;  // nothing is to be made of it
+  }
   if (to_open_) {
     kind_ = Kind::kOpen;
     job_.start([this, files = *std::exchange(to_open_, {})](Progress& progress) {

@@ -15,8 +15,8 @@ class SceneJobs {
   enum class Kind : std::uint8_t { kStart, kOpen, kUpdate };
 
   /// Begins to read what the model was made for: before there is a window, which takes its own while.
-  /// `model` outlives this.
-  explicit SceneJobs(WindowModel& model);
+  /// `model` outlives this. @param starts false: nothing is read yet.
+  SceneJobs(WindowModel& model, bool starts);
 
   [[nodiscard]] bool running() const noexcept { return job_.running(); }
   /// Of the job that runs, or ended last.
@@ -29,6 +29,11 @@ class SceneJobs {
 
   /// Opens other files as soon as nothing runs.
   void open(InputFiles files) { to_open_ = std::move(files); }
+  /// Whether something is read or made, or about to be.
+  [[nodiscard]] bool busy() const noexcept { return running() || to_open_; }
+  /// Has the model forget what is open as soon as nothing runs; what runs is cancelled, and comes to nothing.
+  void close();
+  [[nodiscard]] bool closing() const noexcept { return to_close_; }
   /// Starts what is next, where nothing runs: opening files, else an update where `wanted` makes another scene
   /// than what was requested.
   void start_next(const Document& wanted);
@@ -45,6 +50,7 @@ class SceneJobs {
   Kind kind_ = Kind::kStart;
   Document requested_;
   std::optional<InputFiles> to_open_;
+  bool to_close_ = false;
   BackgroundJob job_;  // last: its thread uses the model
 };
 

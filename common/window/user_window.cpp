@@ -19,7 +19,7 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options, const Do
   WindowResult result = run_window(model, options);
   UserSettings after{
       .width = result.width, .height = result.height, .look = before.look, .recent = result.recent};
-  note_preferences(given, result.document, after.look);
+  if (result.shown) note_preferences(given, result.document, after.look);
   try {
     save_user_settings(*files, after, before);
   } catch (const Error& error) {

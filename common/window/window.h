@@ -34,6 +34,9 @@ struct WindowOptions {
   std::optional<Vec3> focal_point;             ///< of the first view; none: the middle of what is shown
   std::string command_line;                    ///< for the text of saved pictures
   std::string version;                         ///< version_text() (common/base/version.h), likewise
+  FieldKind kind = FieldKind::kVector;         ///< of the fields that the program shows
+  bool start_page = false;                     ///< in place of what the model was made for
+  std::filesystem::path session;               ///< that Ctrl+S saves to; empty: it asks
   std::vector<InputFiles> recent;              ///< offered for opening, newest first
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
@@ -50,7 +53,7 @@ struct WindowOptions {
   /// @name For tests and demonstrations
   /// @{
   /// Events put in at their frame as if they came from mouse and keyboard. Frames are counted from the
-  /// moment when the first scene is shown.
+  /// moment when the first scene is shown, or the start page.
   std::vector<ScriptedEvent> script;
   int frames = 0;                    ///< > 0: closes after that many frames
   bool frames_wait = true;           ///< for background jobs; else they are counted while these run, too
@@ -61,8 +64,9 @@ struct WindowOptions {
 
 /// What happened, for tests.
 struct WindowResult {
-  int frames = 0;  ///< drawn since the first scene was shown
-  int width = 0;   ///< at the end, before a full screen [screen coordinates]
+  int frames = 0;      ///< drawn since the first scene was shown, or the start page
+  bool shown = false;  ///< there was a scene, of which `document` is
+  int width = 0;       ///< at the end, before a full screen [screen coordinates]
   int height = 0;
   std::vector<InputFiles> recent;  ///< with what was opened in this window
   SceneView view;                  ///< at the end

@@ -47,9 +47,8 @@ void ExplorerWindow::draw_frame(double seconds) {
   work_in_space();
   if (needs_camera_ && scene_) reset_camera();
   update_panels();
-  const PanelActions actions = draw_panels(options_.panels, state_, view_, parts);
-  obey(actions);
-  answer_question();
+  obey(on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts));
+  answer_questions();
   follow_hand();
   news_.follow(touch_, state_);
   play();

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <optional>
@@ -19,7 +21,9 @@
 #include "common/window/explorer_window.h"
 #include "common/window/files/dropped_files.h"
 #include "common/window/keys.h"
+#include "common/window/panels/panel_parts.h"
 #include "common/window/panels/panes_panel.h"
+#include "common/window/panels/picture_panels.h"
 
 namespace palpate {
 namespace {
@@ -62,8 +66,9 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const InputEvent& event : events) {
     if (event.kind == InputKind::kDrop && !files_.asking())
-      open(sort_dropped(event.files, scene_ ? &scene_->info->files : nullptr));
-    if (const std::string text = event_text(event); !text.empty())
+      leave({Leaving::Way::kOpen, sort_dropped(event.files, scene_ ? &scene_->info->files : nullptr)});
+    // What is typed into a dialog is for no replay.
+    if (const std::string text = event_text(event); !text.empty() && !files_.asking())
       touch_.servo().record_event(static_cast<std::uint64_t>(frame_), text);
     const auto command = command_of(event);
     // The one key that works in text fields, too.
@@ -72,6 +77,10 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     // Notch by notch the wheel moves what is looked at.
     if (event.kind == InputKind::kWheel && !io.WantCaptureMouse) live_->moved(glfwGetTime());
     if (files_.handle(event)) continue;
+    if (on_start_page()) {
+      handle_on_start_page(event);
+      continue;
+    }
     say(controls_.handle(event, controlled(), io.WantCaptureMouse, io.WantTextInput));
     // Esc closes an open list, and nothing else.
     const bool of_list =
@@ -82,22 +91,74 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   }
 }
 
-void ExplorerWindow::open(const InputFiles& files) {
-  if (files_.ask(files)) {
+void ExplorerWindow::handle_on_start_page(const InputEvent& event) {
+  const auto command = command_of(event);
+  if (command == Command::kLetGo && !state_.show_help && scene_) {
+    start_asked_ = false;
+    return;
+  }
+  if (start_page_.handle(event) || !command) return;
+  constexpr std::array kHere{Command::kOpen,       Command::kQuit,      Command::kHelp, Command::kLetGo,
+                             Command::kFullScreen, Command::kStartPage, Command::kClose};
+  if (std::ranges::find(kHere, *command) != kHere.end()) run_command(*command);
+}
+
+PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
+  begin_controls();
+  const StartPage::Actions asked = start_page_.draw(
+      state_.recent, [](const InputFiles&) { return 0U; }, scene_.has_value());
+  draw_overlays(state_, parts);
+  PanelActions actions;
+  actions.ask_to_open = asked.ask_to_open;
+  actions.open = asked.open;
+  return actions;
+}
+
+void ExplorerWindow::leave(const Leaving& leaving) {
+  if (files_.ask(leaving)) {
     controls_.touch().let_go();
   } else {
-    jobs_.open(files);
+    go_on(leaving);
   }
 }
 
-void ExplorerWindow::answer_question() {
-  const auto leave = files_.answer();
-  if (!leave) return;
-  if (leave->opens) {
-    jobs_.open(*leave->opens);
+void ExplorerWindow::go_on(const Leaving& leaving) {
+  switch (leaving.way) {
+    case Leaving::Way::kOpen:
+      jobs_.open(leaving.files);
+      break;
+    case Leaving::Way::kClose:
+      close_data();
+      break;
+    case Leaving::Way::kQuit:
+      leave_ = true;
+      glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+  }
+}
+
+void ExplorerWindow::answer_questions() {
+  if (const auto leaving = files_.answer()) go_on(*leaving);
+  const auto chosen = files_.chosen();
+  if (!chosen) return;
+  switch (chosen->what) {
+    case WindowFiles::Chosen::What::kOpen:
+      leave({Leaving::Way::kOpen, sort_dropped(chosen->files, scene_ ? &scene_->info->files : nullptr)});
+      break;
+    case WindowFiles::Chosen::What::kSession:
+      keep_document();
+      files_.save_session(model_, state_.document, chosen->files.front());
+  }
+}
+
+void ExplorerWindow::save_session(bool asks) {
+  keep_document();
+  if (!scene_) {
+    state_.say(kNothingOpen);
+  } else if (asks || files_.session().empty()) {
+    controls_.touch().let_go();
+    files_.ask_for_session(state_.document);
   } else {
-    leave_ = true;
-    glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
+    files_.save_session(model_, state_.document, files_.session());
   }
 }
 
@@ -107,7 +168,8 @@ void ExplorerWindow::obey(const PanelActions& actions) {
   if (actions.look) run_command(*actions.look);
   if (actions.time && has_times())
     set_time_step(state_.document, scene_->info->times, nearest_step(scene_->info->times, *actions.time));
-  if (actions.open) open(*actions.open);
+  if (actions.open) leave({Leaving::Way::kOpen, *actions.open});
+  if (actions.ask_to_open) run_command(Command::kOpen);
   if (actions.save_picture) run_command(Command::kSavePicture);
   if (actions.save_session) run_command(Command::kSaveSession);
   if (actions.touch.grab) run_command(Command::kGrab);
@@ -192,9 +254,20 @@ void ExplorerWindow::run_command(Command command) {
       files_.save_picture(whole_picture(), picture_texts());
       break;
     case Command::kSaveSession:
-      keep_document();
-      if (scene_) {
-        files_.save_session(model_, state_.document);
+    case Command::kSaveSessionAs:
+      save_session(command == Command::kSaveSessionAs);
+      break;
+    case Command::kOpen:
+      controls_.touch().let_go();
+      files_.ask_to_open(options_.kind);
+      break;
+    case Command::kStartPage:
+      controls_.touch().let_go();
+      start_asked_ = !start_asked_;
+      break;
+    case Command::kClose:
+      if (scene_ || jobs_.busy()) {
+        leave({Leaving::Way::kClose});
       } else {
         state_.say(kNothingOpen);
       }

@@ -22,7 +22,9 @@ constexpr const char* kCancelled = "cancelled; what is shown is as before";
 
 void ExplorerWindow::take_outcome() {
   if (auto outcome = jobs_.take()) {
-    if (outcome->scene) {
+    if (jobs_.closing()) {
+      // What was being read is not wanted any more.
+    } else if (outcome->scene) {
       adopt(std::move(*outcome->scene));
     } else {
       fail(outcome->error);
@@ -45,12 +47,10 @@ void ExplorerWindow::adopt(SceneState scene) {
     state_.closed_notes = {scene_->notes.begin(), scene_->notes.end()};
     state_.closed_notes.insert(scene_->volume_notes.begin(), scene_->volume_notes.end());
     controls_.menu().hide();
+    start_asked_ = false;
+    shown_ = true;
     if (jobs_.kind() == Kind::kOpen) {
-      controls_.forget_region();
-      controls_.touch().mark(false);
-      touch_.forget();
-      files_.note_opened();
-      cut_planes_ = {};
+      forget_input();
       const std::vector<std::string>& plotted = scene_->info->plotted;
       if (std::ranges::find(plotted, state_.plotted) == plotted.end()) state_.plotted.clear();
     }
@@ -75,6 +75,37 @@ void ExplorerWindow::adopt(SceneState scene) {
   if (new_input) state_.lines_file = touch_.data().has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
   if (new_input || state_.message == kCancelled) state_.say({});
   if (new_input || state_.error_of_job) state_.error.clear();
+}
+
+void ExplorerWindow::forget_input() {
+  controls_.forget_region();
+  controls_.touch().mark(false);
+  touch_.forget();
+  files_.note_opened({});
+  cut_planes_ = {};
+}
+
+void ExplorerWindow::close_data() {
+  jobs_.close();
+  start_asked_ = false;
+  if (!scene_) return;
+  let_go();
+  controls_.menu().hide();
+  touch_.close_field();
+  forget_input();
+  plot_.forget();
+  history_.reset();
+  scene_.reset();
+  SceneView empty = options_.view;
+  empty.background = view_.background;
+  empty.stereo = view_.stereo;
+  view_ = std::move(empty);
+  kept_ = {};
+  needs_camera_ = true;
+  state_.say({});
+  state_.error.clear();
+  live_->damage();
+  glfwSetWindowTitle(glfw_.get(), options_.program.c_str());
 }
 
 void ExplorerWindow::adopt_field() {

@@ -32,7 +32,8 @@ double layer_of(const WindowResult& result) { return std::atof(result.document.h
 Session saved_session(CardiacModel& model, const SceneState& state, const SceneView& view) {
   Document document = state.document;
   model.keep(view, document);
-  return load_session(model.save_session(document));
+  const TempFolder folder;
+  return load_session(model.save_session(document, folder.path("heart.palpate.toml")));
 }
 
 double distance_to(const Vec3& x, const Vec3& a, const Vec3& b) {

@@ -66,6 +66,7 @@ class GridPanes : public ExplorerTest {
                          .height = kHeight,
                          .angles = camera_angles(parsed.options.view.camera),
                          .focal_point = focal_point_of(parsed.options.view),
+                         .session = folder_.path("a.palpate.toml"),
                          .picture_folder = folder_.path(),
                          .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
                          .panels = {draw_volume},

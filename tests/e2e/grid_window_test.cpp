@@ -64,6 +64,7 @@ class GridWindow : public ExplorerTest {
     window.frames = next_ + rest_;
     if (parsed.options.view.frame_budget > 0.0) window.frame_budget = parsed.options.view.frame_budget;
     window.screenshot = folder_.path("window.png");
+    window.session = folder_.path("tooth.palpate.toml");
     GridModel model(parsed.options, "grid");
     WindowResult result = run_window(model, window);
     if (const char* folder = std::getenv("PALPATE_PICTURES"))

@@ -34,20 +34,59 @@ std::string WindowFiles::write_lines() {
   return saved_.save_lines(lines, state_.lines_file).string();
 }
 
-void WindowFiles::save_session(WindowModel& model, Document document) {
+void WindowFiles::ask_to_open(FieldKind kind) {
+  std::filesystem::path from = opened_from_;
+  if (from.empty() && state_.scene != nullptr && !state_.scene->info->files.files.empty())
+    from = state_.scene->info->files.files.front().parent_path();
+  if (from.empty() && !state_.recent.empty()) from = state_.recent.front().files.front().parent_path();
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(from, unknown)) from = std::filesystem::current_path(unknown);
+  asked_ = Chosen::What::kOpen;
+  dialog_.ask({.title = "Open data, or a session",
+               .folder = from,
+               .shows = [kind](const std::filesystem::path& path, bool folder) {
+                 return can_open(path, folder, kind);
+               }});
+}
+
+void WindowFiles::ask_for_session(const Document& document) {
+  std::filesystem::path to = saved_to_;
+  if (to.empty()) to = session_.empty() ? documents_folder() : session_.parent_path();
+  asked_ = Chosen::What::kSession;
+  dialog_.ask({.title = "Save the session as",
+               .button = "Save",
+               .writes = true,
+               .folder = to,
+               .name = session_.empty() ? session_name(document, program_) : session_.filename().string(),
+               .ending = std::string(kSessionEnding),
+               .shows = [](const std::filesystem::path& path, bool folder) {
+                 return !folder && path.filename().string().ends_with(kSessionEnding);
+               }});
+}
+
+std::optional<WindowFiles::Chosen> WindowFiles::chosen() {
+  auto files = dialog_.draw();
+  if (!files) return std::nullopt;
+  (asked_ == Chosen::What::kOpen ? opened_from_ : saved_to_) = files->front().parent_path();
+  return Chosen{asked_, std::move(*files)};
+}
+
+void WindowFiles::save_session(WindowModel& model, Document document, const std::filesystem::path& file) {
   const bool done = attempt([&] {
     const DrawnLines& lines = all_lines();
-    std::filesystem::path& file = document.touch.drawn_lines;
-    file.clear();
-    if (lines.entries().empty()) return model.save_session(document);
-    file = session_path(document, program_).replace_extension(".lines.csv");
-    lines.save(file, true);
-    const std::string session = model.save_session(document);
+    std::filesystem::path& drawn = document.touch.drawn_lines;
+    drawn.clear();
+    if (lines.entries().empty()) return model.save_session(document, file);
+    drawn = lines_of_session(file);
+    lines.save(drawn, true);
+    const std::string session = model.save_session(document, file);
     saved_.note_saved(lines);
     return session + " with " +
            counted(lines.entries().size(), touch_.data().has_tensors() ? "tract" : "line");
   });
-  if (done) saved_notes_ = touch_.notes().entries();
+  if (!done) return;
+  saved_notes_ = touch_.notes().entries();
+  session_ = file;
 }
 
 void WindowFiles::save_lines() {
@@ -101,28 +140,30 @@ std::size_t WindowFiles::unsaved_notes() const {
   return static_cast<std::size_t>(std::ranges::count_if(touch_.notes().entries(), unsaved));
 }
 
-bool WindowFiles::ask(std::optional<InputFiles> opens) {
+bool WindowFiles::ask(const Leaving& leaving) {
   const std::size_t lines = unsaved_lines(), notes = unsaved_notes(), count = lines + notes;
   if (count == 0 || touch_.servo().replaying()) return false;
   std::string what;
   if (lines > 0) what = counted(lines, touch_.data().has_tensors() ? "tract" : "line");
   if (notes > 0) what += (what.empty() ? "" : " and ") + counted(notes, "annotation");
-  question_.ask(what + (count == 1 ? " is" : " are") + " not saved." +
-                    (opens ? " Opening another input in place of this one forgets " +
-                                 std::string(count == 1 ? "it." : "them.")
-                           : " Save before the window closes?"),
-                std::move(opens));
+  const std::string forgets = std::string(" forgets ") + (count == 1 ? "it." : "them.");
+  question_.ask(
+      what + (count == 1 ? " is" : " are") + " not saved." +
+          (leaving.way == Leaving::Way::kOpen    ? " Opening another input in place of this one" + forgets
+           : leaving.way == Leaving::Way::kClose ? " Closing the data" + forgets
+                                                 : " Save before the window closes?"),
+      leaving);
   return true;
 }
 
-std::optional<WindowFiles::Leave> WindowFiles::answer() {
+std::optional<Leaving> WindowFiles::answer() {
   const auto answer = question_.draw();
   if (answer == UnsavedQuestion::Answer::kNone || answer == UnsavedQuestion::Answer::kCancel)
     return std::nullopt;
   const bool saves = answer == UnsavedQuestion::Answer::kSave;
   if (saves && unsaved_lines() > 0 && !attempt([this] { return write_lines(); })) return std::nullopt;
   if (saves && unsaved_notes() > 0 && !attempt([this] { return write_notes(".csv"); })) return std::nullopt;
-  return Leave{.opens = question_.opens()};
+  return question_.leaving();
 }
 
 }  // namespace palpate

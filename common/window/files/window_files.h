@@ -1,7 +1,9 @@
-/// What a window writes on request, and what is asked before lines or tracts are forgotten that are in no
-/// file.
+/// What a window writes on request and where, what it is asked to open, and what is asked before lines or tracts
+/// are forgotten that are in no file.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +11,8 @@
 
 #include "common/geometry/annotation.h"
 #include "common/hand/probe_session.h"
+#include "common/scene/document/field_kind.h"
+#include "common/window/files/file_dialog.h"
 #include "common/window/files/saved_files.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/unsaved_question.h"
@@ -21,37 +25,51 @@ class WindowFiles {
   WindowFiles(const std::filesystem::path& folder, const std::string& program, ProbeSession& touch,
               PanelState& state)
       : program_(program), saved_(folder, program), touch_(touch), state_(state) {
-    note_opened();
+    note_opened({});
   }
 
   /// What is there now is in a file: another input has been opened.
-  void note_opened() {
+  /// @param session that it was opened by; empty: none.
+  void note_opened(const std::filesystem::path& session) {
     saved_.note_saved(touch_.trail().drawn_lines());
     saved_notes_ = touch_.notes().entries();
+    session_ = session;
   }
+
+  /// Asks which files to open.
+  void ask_to_open(FieldKind kind);
+  /// Asks where to save the session of `document`, proposing the user's folder.
+  void ask_for_session(const Document& document);
+  /// The session that is saved again without asking; empty: none is yet.
+  [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
+  /// What was chosen in a dialog.
+  struct Chosen {
+    enum class What : std::uint8_t { kOpen, kSession };
+    What what = What::kOpen;
+    std::vector<std::filesystem::path> files;  ///< one, but for those to open
+  };
+  /// Once a frame, drawing the dialog. @return what was chosen in it.
+  [[nodiscard]] std::optional<Chosen> chosen();
 
   /// Says what `save` wrote, or why it did not. @return whether it did.
   bool attempt(const std::function<std::string()>& save);
   /// Saves the lines or tracts that are kept, those that are drawn and not kept yet too.
   void save_lines();
-  /// Saves the session of `document`, and beside it the lines or tracts, likewise.
-  void save_session(WindowModel& model, Document document);
+  /// Saves the session of `document` to `file`, and beside it the lines or tracts, likewise.
+  void save_session(WindowModel& model, Document document, const std::filesystem::path& file);
   void save_picture(const Image& image, const std::vector<PngText>& texts);
   /// The files that the panels have a button for.
   void save_asked(const PanelActions& actions, const SceneView& view, const std::optional<Box>& region);
 
-  /// Asks what to do with lines, tracts and annotations that are in no file. @param opens in place of closing the window.
-  /// @return false where there are none.
-  bool ask(std::optional<InputFiles> opens);
-  [[nodiscard]] bool asking() const noexcept { return question_.asking(); }
-  /// Whether the event was for the question.
-  bool handle(const InputEvent& event) { return question_.handle(event); }
-  /// What was answered: lines are saved, or may be forgotten.
-  struct Leave {
-    std::optional<InputFiles> opens;  ///< none: the window closes
-  };
-  /// Once a frame, drawing the question. @return what goes on; none where nothing was answered, or not that.
-  [[nodiscard]] std::optional<Leave> answer();
+  /// Asks what to do with lines, tracts and annotations that are in no file. @return false where there are none.
+  bool ask(const Leaving& leaving);
+  /// Whether a question or a dialog waits for an answer.
+  [[nodiscard]] bool asking() const noexcept { return question_.asking() || dialog_.asking(); }
+  /// Whether the event was for that.
+  bool handle(const InputEvent& event) { return question_.handle(event) || dialog_.handle(event); }
+  /// Once a frame, drawing the question. @return what goes on, for lines are saved or may be forgotten; none where
+  /// nothing was answered, or not that.
+  [[nodiscard]] std::optional<Leaving> answer();
 
  private:
   /// Those that are kept, after keeping those that are drawn.
@@ -63,6 +81,10 @@ class WindowFiles {
 
   std::string program_;
   SavedFiles saved_;
+  FileDialog dialog_;
+  Chosen::What asked_ = Chosen::What::kOpen;      // of the dialog
+  std::filesystem::path opened_from_, saved_to_;  // folders that the user has chosen; empty: none yet
+  std::filesystem::path session_;
   std::vector<Annotation> saved_notes_;
   UnsavedQuestion question_;
   ProbeSession& touch_;

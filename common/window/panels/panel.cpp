@@ -13,15 +13,10 @@
 
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/picture_panels.h"
+#include "common/window/panels/start_page.h"
 
 namespace palpate {
 namespace {
-
-std::string name_of(const InputFiles& input) {
-  std::string name;
-  for (const auto& file : input.files) name += (name.empty() ? "" : " ") + file.filename().string();
-  return input.solution ? name + " " + input.solution->filename().string() : name;
-}
 
 // What was open before; the line above says what is open now.
 void draw_recent(const PanelState& state, PanelActions& actions) {
@@ -39,8 +34,17 @@ void draw_recent(const PanelState& state, PanelActions& actions) {
   ImGui::EndCombo();
 }
 
-void draw_input(const SceneState& scene) {
+void draw_input(const SceneState& scene, PanelActions& actions) {
+  const ImVec2 place = ImGui::GetCursorPos();
   section("INPUT");
+  const ImVec2 below = ImGui::GetCursorPos();
+  // Beside the heading.
+  ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("Open…").x -
+                           2.0F * ImGui::GetStyle().FramePadding.x,
+                       place.y + ImGui::GetStyle().ItemSpacing.y});
+  actions.ask_to_open |= small_button("Open…");
+  hint("other data, or a session (Ctrl+O); Ctrl+N shows recent files and examples");
+  ImGui::SetCursorPos(below);
   ImGui::TextWrapped("%s", scene.info->name.c_str());
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   for (const std::string& fact : scene.info->facts) ImGui::TextWrapped("%s", fact.c_str());
@@ -138,7 +142,7 @@ PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, Sc
   ImGui::PushItemWidth(0.62F * ImGui::GetContentRegionAvail().x);
   if (state.job != nullptr) draw_job(*state.job, actions);
   if (state.scene != nullptr) {
-    draw_input(*state.scene);
+    draw_input(*state.scene, actions);
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       section("TOUCH");

@@ -271,11 +271,15 @@ std::string size_text(const SceneState& scene) {
   return std::to_string(n.x) + " x " + std::to_string(n.y) + " x " + std::to_string(n.z) + " voxels";
 }
 
+void draw_overlays(PanelState& state, const WindowLayout& layout) {
+  draw_banners(state, layout);
+  draw_help(state, layout);
+}
+
 void draw_picture_panels(PanelState& state, const WindowLayout& layout) {
   draw_status(state, layout);
   draw_readouts(state, layout);
-  draw_banners(state, layout);
-  draw_help(state, layout);
+  draw_overlays(state, layout);
 }
 
 }  // namespace palpate

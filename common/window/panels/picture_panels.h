@@ -17,7 +17,10 @@ constexpr ImGuiWindowFlags kFixedPanel =
 /// "300 lines", or "103 x 94 x 161 voxels" of a volume.
 [[nodiscard]] std::string size_text(const SceneState& scene);
 
-/// Draws them; closing the cheat sheet changes `state`.
+/// Banners and the cheat sheet alone; closing these changes `state`.
+void draw_overlays(PanelState& state, const WindowLayout& layout);
+
+/// Draws all, with these.
 void draw_picture_panels(PanelState& state, const WindowLayout& layout);
 
 }  // namespace palpate

@@ -23,9 +23,9 @@ constexpr std::array<Choice, 3> kChoices{{{"Save  (S)", 'S', UnsavedQuestion::An
 
 }  // namespace
 
-void UnsavedQuestion::ask(std::string words, std::optional<InputFiles> opens) {
+void UnsavedQuestion::ask(std::string words, Leaving leaving) {
   words_ = std::move(words);
-  opens_ = std::move(opens);
+  leaving_ = std::move(leaving);
   key_ = Answer::kNone;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,15 +11,22 @@
 
 namespace palpate {
 
+/// What is done once nothing is lost by it.
+struct Leaving {
+  enum class Way : std::uint8_t { kQuit, kClose, kOpen };
+  Way way = Way::kQuit;
+  InputFiles files = {};  ///< that are opened
+};
+
 class UnsavedQuestion {
  public:
   enum class Answer : std::uint8_t { kNone, kSave, kDiscard, kCancel };
 
-  /// Asks with these words. @param opens what is to be opened then; none: the window is to be closed.
-  void ask(std::string words, std::optional<InputFiles> opens);
+  /// Asks with these words. @param leaving what is to be done then.
+  void ask(std::string words, Leaving leaving);
   [[nodiscard]] bool asking() const noexcept { return !words_.empty(); }
   /// The question was about this.
-  [[nodiscard]] const std::optional<InputFiles>& opens() const noexcept { return opens_; }
+  [[nodiscard]] const Leaving& leaving() const noexcept { return leaving_; }
 
   /// While it is asked, presses, keys and dropped files are not for the picture. @return whether it took it.
   bool handle(const InputEvent& event);
@@ -29,7 +35,7 @@ class UnsavedQuestion {
 
  private:
   std::string words_;
-  std::optional<InputFiles> opens_;
+  Leaving leaving_;
   Answer key_ = Answer::kNone;  ///< answered by a key
 };
 

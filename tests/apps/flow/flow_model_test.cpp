@@ -175,7 +175,7 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
   apply_appearance(options, view);
   Document document = state.document;
   model.keep(view, document);
-  const Session session = load_session(model.save_session(document));
+  const Session session = load_session(model.save_session(document, folder.path("flow.palpate.toml")));
   EXPECT_TRUE(has_option(session, "volume", "speed,mass"));
   EXPECT_TRUE(has_option(session, "resample", "7"));
   EXPECT_TRUE(has_option(session, "transfer-function", "ct"));

@@ -24,7 +24,10 @@ class BlobModel final : public WindowModel {
   SceneState open(const InputFiles&, Progress& progress) override { return start(progress); }
   SceneState update(const Document& document, Progress&) override { return make(document); }
   void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
-  std::string save_session(const Document& document) override { return settings_text(document); }
+  void close() override {}
+  std::string save_session(const Document& document, const std::filesystem::path&) override {
+    return settings_text(document);
+  }
 
  private:
   static SceneState make(const Document& document) {

@@ -56,7 +56,8 @@ class HelixModel final : public WindowModel {
     return make(document);
   }
   void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
-  std::string save_session(const Document& document) override {
+  void close() override {}
+  std::string save_session(const Document& document, const std::filesystem::path&) override {
     saved = document;
     return "a file";
   }
@@ -103,6 +104,7 @@ class TouchWindowTest : public ::testing::Test {
     options_.height = kHeight;
     options_.touch.modes = sample_modes();
     options_.picture_folder = folder_.path();
+    options_.session = folder_.path("helix.palpate.toml");
     if (const char* folder = std::getenv("PALPATE_PICTURES")) {
       std::filesystem::create_directories(folder);
       options_.screenshot =

@@ -35,7 +35,8 @@ class VolumeModel : public WindowModel {
     keep_camera(view, document);
     if (view.volume) keep_volume(*view.volume, document);
   }
-  std::string save_session(const Document& document) override {
+  void close() override {}
+  std::string save_session(const Document& document, const std::filesystem::path&) override {
     saved = document;
     return "voxel.toml";
   }
@@ -76,6 +77,7 @@ class VolumeWindow : public ::testing::Test {
     options_.height = 480;
     options_.frames = 8;
     options_.program = "grid";
+    options_.session = "voxel.palpate.toml";
     options_.panels = {draw_volume};
     options_.view.camera.projection = Projection::kOrthographic;
     if (const char* folder = std::getenv("PALPATE_PICTURES")) {

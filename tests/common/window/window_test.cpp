@@ -64,7 +64,8 @@ class FakeModel : public WindowModel {
     keep_camera(view, document);
     keep_appearance(view, document);
   }
-  std::string save_session(const Document&) override {
+  void close() override {}
+  std::string save_session(const Document&, const std::filesystem::path&) override {
     ++saved;
     return "whirlwind.toml";
   }
@@ -140,6 +141,7 @@ class WindowTest : public ::testing::Test {
     options_.frames = 12;
     options_.program = "flow";
     options_.version = "flow 0";
+    options_.session = "whirlwind.palpate.toml";
     if (const char* folder = std::getenv("PALPATE_PICTURES")) {
       options_.screenshot =
           std::filesystem::path(folder) /
