@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/parallel.h"
+#include "common/cli/draw_example.h"
 #include "common/cli/verbs.h"
 #include "common/cli/window_touch.h"
 #include "common/compose/appearance.h"
@@ -52,6 +53,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   WindowRequest request{.program = context.explorer.name,
                         .command_line = context.command_line,
                         .start_page = begins_with_start_page(given),
+                        .draw_example = draw_example,
                         .stop_requested = [] { return InterruptGuard::interrupted(); },
                         .note = note};
   apply_appearance(options, request.view);

@@ -2,8 +2,10 @@
 /// know each other: a program hands the one to the other.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "common/compose/window_model.h"
@@ -14,6 +16,11 @@
 
 namespace palpate {
 
+/// Draws a built-in example into a picture of `width` x `height` pixels. Called on another thread; it returns soon
+/// once stop is asked for. @throws Error.
+using DrawExample = std::function<void(const std::string& example, const std::filesystem::path& to, int width,
+                                       int height, const std::stop_token& stop)>;
+
 struct WindowRequest {
   std::string program;       ///< in the title bar
   std::string command_line;  ///< for the text of saved pictures
@@ -21,6 +28,7 @@ struct WindowRequest {
   SceneView view;            ///< what is shown at the start, but for lines, bounds and camera
   std::optional<WorkbenchDisplayOptions> workbench;  ///< the screens of a workbench; none: a desktop
   ProbeSessionOptions touch;                         ///< without modes: the window knows no touch
+  DrawExample draw_example;                          ///< for small pictures of examples; may be empty
   std::function<bool()> stop_requested;              ///< asked a few times a second; true closes the window
   std::function<void(const std::string&)> note;      ///< told what of the user's files cannot be written
 };

@@ -56,6 +56,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   constexpr float kTextHeight = 14.0F;
   gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
   live_ = std::make_unique<LivePicture>(options_.frame_budget);
+  thumbnails_ = std::make_unique<Thumbnails>(options_.thumbnails, options_.program, options_.draw_example);
   if (options_.workbench) {
     workbench_ = std::make_unique<WorkbenchDisplay>(*options_.workbench);
     if (options_.workbench->several) {
@@ -91,6 +92,7 @@ WindowResult ExplorerWindow::run() {
     glfwSwapBuffers(glfw_.get());
     if (workbench_) workbench_->finished(WorkbenchDisplay::now());
   }
+  keep_thumbnail();
   touch_.finish();
   WindowResult result{.frames = frame_,
                       .shown = shown_,

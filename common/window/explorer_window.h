@@ -21,6 +21,7 @@
 #include "common/hand/workbench/workbench_display.h"
 #include "common/render/png.h"
 #include "common/window/controls/scene_controls.h"
+#include "common/window/files/thumbnails.h"
 #include "common/window/files/window_files.h"
 #include "common/window/glfw_window.h"
 #include "common/window/gui.h"
@@ -82,6 +83,8 @@ class ExplorerWindow {
   /// The start page is shown: nothing is open, or the user asked for it.
   [[nodiscard]] bool on_start_page() const { return start_asked_ || (!scene_ && !jobs_.busy()); }
   void close_data();
+  /// The picture that is shown becomes that of the data on the start page.
+  void keep_thumbnail();
   void adopt(SceneState scene);
   /// The hand feels what the lines show.
   void adopt_field();
@@ -166,6 +169,7 @@ class ExplorerWindow {
   GlfwWindow glfw_;  // first in, last out: the others need its context
   std::unique_ptr<Gui> gui_;
   std::unique_ptr<LivePicture> live_;
+  std::unique_ptr<Thumbnails> thumbnails_;
   std::unique_ptr<PanePictures> slices_;  // beside it; none until they are asked for
 
   SceneView view_;       // as the user wants it

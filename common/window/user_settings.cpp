@@ -134,9 +134,10 @@ void remember(std::vector<InputFiles>& recent, const InputFiles& input) {
 std::optional<UserFiles> user_files(const std::string& program) {
   const auto config = folder_of("XDG_CONFIG_HOME", ".config");
   const auto state = folder_of("XDG_STATE_HOME", ".local/state");
-  if (!config || !state) return std::nullopt;
-  return UserFiles{*config / "palpate" / (program + ".toml"),
-                   *state / "palpate" / (program + "-recent.toml")};
+  const auto cache = folder_of("XDG_CACHE_HOME", ".cache");
+  if (!config || !state || !cache) return std::nullopt;
+  return UserFiles{*config / "palpate" / (program + ".toml"), *state / "palpate" / (program + "-recent.toml"),
+                   *cache / "palpate" / "thumbnails"};
 }
 
 UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>& notes) {

@@ -2,8 +2,9 @@
 ///
 ///   $XDG_CONFIG_HOME/palpate/flow.toml         size of the window and preferences; made to be edited
 ///   $XDG_STATE_HOME/palpate/flow-recent.toml   inputs, the newest first
+///   $XDG_CACHE_HOME/palpate/thumbnails         small pictures of inputs, which may be deleted at any time
 ///
-/// where an unset variable means ~/.config and ~/.local/state (XDG Base Directory Specification 0.8). Preferences
+/// where an unset variable means ~/.config, ~/.local/state and ~/.cache (XDG Base Directory Specification 0.8). Preferences
 /// are settings (Setting::preferred) in the grammar of sessions. What the command line says wins, and so does a
 /// session, also in what it leaves at the default.
 #pragma once
@@ -45,6 +46,7 @@ void remember(std::vector<InputFiles>& recent, const InputFiles& input);
 struct UserFiles {
   std::filesystem::path settings;
   std::filesystem::path recent;
+  std::filesystem::path thumbnails;  ///< a folder that all programs share
 };
 /// None where neither the variables nor HOME name an absolute folder.
 [[nodiscard]] std::optional<UserFiles> user_files(const std::string& program);

@@ -15,6 +15,7 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options, const Do
   options.width = before.width;
   options.height = before.height;
   options.recent = before.recent;
+  options.thumbnails = files->thumbnails;
   options.touch.fault_folder = files->recent.parent_path();
   WindowResult result = run_window(model, options);
   UserSettings after{

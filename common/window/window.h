@@ -15,6 +15,7 @@
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_view.h"
+#include "common/window/files/thumbnails.h"
 #include "common/window/input_event.h"
 #include "common/window/panels/panel.h"
 
@@ -41,12 +42,14 @@ struct WindowOptions {
   std::filesystem::path picture_folder = ".";  ///< where "Save picture" and "Save lines" write
   /// Shows the data as a screen of a workbench does to the head before it; none: a desktop.
   std::optional<WorkbenchDisplayOptions> workbench;
-  ProbeSessionOptions touch;      ///< without modes: the window knows no touch
-  std::vector<PanelPart> panels;  ///< the program's parts of the panel, from above
-  std::optional<Box> region;      ///< of interest, in a volume
-  std::string plotted;            ///< one of SceneInfo::plotted, or empty
-  double play_rate = kPlayRate;   ///< time steps a second
-  int threads = 0;                ///< of what is read beside the picture; 0: all cores
+  ProbeSessionOptions touch;         ///< without modes: the window knows no touch
+  std::vector<PanelPart> panels;     ///< the program's parts of the panel, from above
+  std::optional<Box> region;         ///< of interest, in a volume
+  std::string plotted;               ///< one of SceneInfo::plotted, or empty
+  double play_rate = kPlayRate;      ///< time steps a second
+  int threads = 0;                   ///< of what is read beside the picture; 0: all cores
+  std::filesystem::path thumbnails;  ///< where small pictures of inputs are kept; empty: nowhere
+  DrawExample draw_example;          ///< for those of examples; may be empty
   /// Asked a few times a second; true closes the window (Ctrl-C in the terminal).
   std::function<bool()> stop_requested;
 

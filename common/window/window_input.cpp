@@ -105,8 +105,9 @@ void ExplorerWindow::handle_on_start_page(const InputEvent& event) {
 
 PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
   begin_controls();
+  thumbnails_->draw_missing(start_page_.examples(), [] { glfwPostEmptyEvent(); });
   const StartPage::Actions asked = start_page_.draw(
-      state_.recent, [](const InputFiles&) { return 0U; }, scene_.has_value());
+      state_.recent, [this](const InputFiles& input) { return thumbnails_->of(input); }, scene_.has_value());
   draw_overlays(state_, parts);
   PanelActions actions;
   actions.ask_to_open = asked.ask_to_open;

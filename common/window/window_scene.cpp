@@ -36,6 +36,7 @@ void ExplorerWindow::take_outcome() {
 
 void ExplorerWindow::adopt(SceneState scene) {
   const bool settled = history_ && edited() == history_->now();
+  if (!scene.joined && jobs_.kind() == SceneJobs::Kind::kOpen) keep_thumbnail();
   if (scene_) keep_colors(scene_->document, scene, state_.picture.automatic_range, view_.style);
   scene_ = std::move(scene);
   using Kind = SceneJobs::Kind;
@@ -85,10 +86,16 @@ void ExplorerWindow::forget_input() {
   cut_planes_ = {};
 }
 
+void ExplorerWindow::keep_thumbnail() {
+  if (scene_ && !scene_->info->files.files.empty() && frame_ > 0)
+    thumbnails_->keep(scene_->info->files, whole_picture());
+}
+
 void ExplorerWindow::close_data() {
   jobs_.close();
   start_asked_ = false;
   if (!scene_) return;
+  keep_thumbnail();
   let_go();
   controls_.menu().hide();
   touch_.close_field();

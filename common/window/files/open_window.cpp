@@ -35,6 +35,7 @@ WindowOutcome open_window(const std::vector<PanelPart>& panels, WindowModel& mod
        .plotted = options.series.plot,
        .play_rate = options.view.play_rate,
        .threads = options.common.threads,
+       .draw_example = std::move(request.draw_example),
        .stop_requested = std::move(request.stop_requested)},
       options, request.note);
   return {.servo = result.probe.servo, .fault = result.probe.fault, .replay = result.replay};

@@ -71,7 +71,7 @@ bool StartPage::handle(const InputEvent& event) {
   return true;
 }
 
-bool StartPage::draw_card(const Card& card, std::size_t place, float width, unsigned texture) {
+bool StartPage::draw_card(const Card& card, std::size_t place, float width, const SmallPicture& seen) {
   const float em = ImGui::GetFontSize();
   const float picture = width * static_cast<float>(kPictureHeight) / static_cast<float>(kPictureWidth);
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -88,12 +88,13 @@ bool StartPage::draw_card(const Card& card, std::size_t place, float width, unsi
   drawing.AddRectFilled(corner, across, ImGui::GetColorU32(hovered ? ImGuiCol_Button : ImGuiCol_FrameBg),
                         round);
   const ImVec2 below{across.x, corner.y + picture};
-  if (texture != 0) {
+  if (seen.texture != 0) {
     // NOLINTNEXTLINE(performance-no-int-to-ptr): Dear ImGui's renderer for OpenGL takes names so
-    drawing.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture)), corner, below,
-                            {0.0F, 0.0F}, {1.0F, 1.0F}, IM_COL32_WHITE, round, ImDrawFlags_RoundCornersTop);
+    drawing.AddImageRounded(reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(seen.texture)), corner,
+                            below, {0.0F, 0.0F}, {1.0F, 1.0F}, IM_COL32_WHITE, round,
+                            ImDrawFlags_RoundCornersTop);
   } else {
-    const std::string words = card.input.example.empty() ? "no picture yet" : "being drawn…";
+    const std::string words(seen.instead);
     const ImVec2 text = ImGui::CalcTextSize(words.c_str());
     drawing.AddText({corner.x + 0.5F * (width - text.x), corner.y + 0.5F * (picture - text.y)},
                     ImGui::GetColorU32(ImGuiCol_TextDisabled), words.c_str());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/compose/window_model.h"
@@ -13,8 +14,12 @@
 
 namespace palpate {
 
-/// OpenGL's name of a texture with a small picture of an input; 0: there is none (yet).
-using PictureOf = std::function<unsigned(const InputFiles&)>;
+/// A small picture of an input.
+struct SmallPicture {
+  unsigned texture = 0;           ///< OpenGL's name; 0: there is none (yet)
+  std::string_view instead = {};  ///< what is said then
+};
+using PictureOf = std::function<SmallPicture(const InputFiles&)>;
 
 /// "carotid.vtk", or the names of all its files.
 [[nodiscard]] std::string name_of(const InputFiles& input);
@@ -47,7 +52,7 @@ class StartPage {
   };
   void draw_cards(const std::vector<Card>& cards, std::size_t first, const PictureOf& picture,
                   Actions& actions);
-  [[nodiscard]] bool draw_card(const Card& card, std::size_t place, float width, unsigned texture);
+  [[nodiscard]] bool draw_card(const Card& card, std::size_t place, float width, const SmallPicture& picture);
 
   std::string program_;
   std::vector<InputFiles> examples_;

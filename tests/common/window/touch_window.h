@@ -50,21 +50,28 @@ class HelixModel final : public WindowModel {
     if (!file.empty()) document.input.files = {file};
     return make(document);
   }
-  SceneState open(const InputFiles&, Progress&) override { return make({}); }
+  SceneState open(const InputFiles& files, Progress&) override {
+    last_opened = files;
+    return make({});
+  }
   SceneState update(const Document& document, Progress&) override {
     ++updated;
     return make(document);
   }
   void keep(const SceneView& view, Document& document) const override { keep_camera(view, document); }
-  void close() override {}
-  std::string save_session(const Document& document, const std::filesystem::path&) override {
+  void close() override { ++closed; }
+  std::string save_session(const Document& document, const std::filesystem::path& to) override {
     saved = document;
+    saved_to.push_back(to);
     return "a file";
   }
 
   std::atomic<int> updated{0};
   std::filesystem::path file;  ///< of the input, beside which sessions are saved
   Document saved;
+  std::vector<std::filesystem::path> saved_to;
+  InputFiles last_opened;
+  std::atomic<int> closed{0};
 
  private:
   SceneState make(Document document) {
@@ -188,6 +195,12 @@ class TouchWindowTest : public ::testing::Test {
     const int frame = next();
     key_down(frame, code, modifiers);
     key_up(frame + 1, code);
+  }
+
+  /// Into the field that has the keyboard, a letter a frame.
+  void type(const std::string& words) {
+    int frame = next();
+    for (const char letter : words) at(frame++, {.kind = InputKind::kText, .key = letter});
   }
 
   TempFolder folder_;

@@ -1,0 +1,172 @@
+// Files in a window, by keyboard and mouse alone: opening, saving, closing, the start page.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/scene/input.h"
+#include "tests/common/window/touch_window.h"
+
+namespace palpate::test {
+namespace {
+
+class FileWindow : public TouchWindowTest {
+ protected:
+  void SetUp() override {
+    TouchWindowTest::SetUp();
+    if (IsSkipped()) return;
+    const char* const home = std::getenv("HOME");
+    if (home != nullptr) home_ = home;
+    ::setenv("HOME", folder_.path().c_str(), 1);
+    for (const char* name : {"a.vtk", "b.vtk", "notes.txt"}) folder_.write(name, "x");
+    std::filesystem::create_directory(folder_.path("deep"));
+    std::ofstream(folder_.path("deep/c.vtk")) << "x";
+    options_.session.clear();
+    options_.recent = {{{folder_.path("a.vtk")}}};  // where the dialog begins
+  }
+  void TearDown() override {
+    if (!home_.empty()) ::setenv("HOME", home_.c_str(), 1);
+  }
+  void control(int code, int more = 0) { key(code, kModifierControl | more); }
+
+  std::string home_;
+};
+
+TEST_F(FileWindow, AFileIsOpenedByTheKeyboardAlone) {
+  control('O');
+  type("de");
+  key(kEnter);  // goes into the folder
+  type("c");
+  key(kEnter);
+  (void)run();
+  EXPECT_EQ(model_.last_opened, (InputFiles{{folder_.path("deep/c.vtk")}}));
+}
+
+TEST_F(FileWindow, AFileIsOpenedByTheMouseAndWhatCannotBeOpenedIsNotListed) {
+  control('O');
+  press("b.vtk");
+  press("Open");
+  (void)run();
+  EXPECT_EQ(model_.last_opened, (InputFiles{{folder_.path("b.vtk")}}));
+  options_.script.clear();
+  last_ = 0;
+  control('O');
+  options_.frames = last_ + 2 * kPause;
+  at_control(next(), {.kind = InputKind::kMove}, "notes.txt");
+  options_.frames = last_ + 2 * kPause;
+  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"notes.txt"});
+}
+
+TEST_F(FileWindow, SeveralAreMarkedAndOpenedTogether) {
+  constexpr int kInsert = 260, kDown = 264;
+  control('O');
+  key(kDown);  // deep
+  key(kDown);
+  key(kInsert);
+  key(kDown);
+  key(kInsert);
+  key(kEnter);
+  (void)run();
+  EXPECT_EQ(model_.last_opened, (InputFiles{{folder_.path("a.vtk"), folder_.path("b.vtk")}}));
+}
+
+TEST_F(FileWindow, EscapeLeavesTheDialogAndNothingIsOpened) {
+  control('O');
+  type("b");
+  key(kEscape);
+  (void)run();
+  EXPECT_TRUE(model_.last_opened.files.empty());
+  EXPECT_EQ(options_.recent.size(), 1U);
+}
+
+TEST_F(FileWindow, ASessionAsksForItsNameOnceInTheFolderOfTheUser) {
+  std::filesystem::create_directory(folder_.path("Documents"));
+  model_.file = folder_.path("deep/c.vtk");
+  control('S');
+  key(kEnter);
+  control('S');  // there it goes again
+  control('S', kModifierShift);
+  type("other");
+  key(kEnter);
+  const WindowResult result = run();
+  ASSERT_EQ(model_.saved_to.size(), 3U) << result.message;
+  EXPECT_EQ(model_.saved_to[0], folder_.path("Documents/c.palpate.toml")) << "never beside the data";
+  EXPECT_EQ(model_.saved_to[1], model_.saved_to[0]);
+  EXPECT_EQ(model_.saved_to[2], folder_.path("Documents/other.palpate.toml")) << "the name is replaced";
+}
+
+TEST_F(FileWindow, ASessionOfThatNameIsReplacedOnlyWhereAskedForTwice) {
+  model_.file = folder_.path("deep/c.vtk");
+  folder_.write("c.palpate.toml", "of another");
+  control('S');
+  key(kEnter);
+  key(kEscape);
+  (void)run();
+  EXPECT_TRUE(model_.saved_to.empty());
+  options_.script.clear();
+  last_ = 0;
+  control('S');
+  key(kEnter);
+  key(kEnter);
+  (void)run();
+  EXPECT_EQ(model_.saved_to.size(), 1U);
+}
+
+TEST_F(FileWindow, DataAreClosedAndOthersOpenedFromTheStartPage) {
+  control('W');
+  const WindowResult closed = run();
+  EXPECT_EQ(model_.closed, 1);
+  EXPECT_TRUE(closed.view.lines == nullptr || closed.view.lines->empty());
+  EXPECT_FALSE(closed.probe.held);
+  press("a.vtk");  // the card of what was open lately
+  const WindowResult opened = run();
+  EXPECT_EQ(model_.last_opened, options_.recent.front());
+  ASSERT_TRUE(opened.view.lines);
+  EXPECT_FALSE(opened.view.lines->empty());
+}
+
+TEST_F(FileWindow, ClosingAsksForWhatIsNotSaved) {
+  grab();
+  key('K');
+  key('G');
+  control('W');
+  key(kEscape);
+  (void)run();
+  EXPECT_EQ(model_.closed, 0);
+  control('W');
+  key('D');
+  (void)run();
+  EXPECT_EQ(model_.closed, 1);
+}
+
+TEST_F(FileWindow, WithoutAFileItBeginsWithExamples) {
+  options_.start_page = true;
+  (void)run();
+  EXPECT_EQ(model_.updated, 0);
+  EXPECT_TRUE(model_.last_opened.example.empty());
+  const std::string first = examples_of(FieldKind::kVector).front().name;
+  press(first);
+  EXPECT_TRUE(run().shown);
+  EXPECT_EQ(model_.last_opened.example, first);
+}
+
+TEST_F(FileWindow, TheStartPageLeadsBackToWhatIsOpen) {
+  constexpr int kRight = 262;
+  control('N');
+  key('V');  // nothing that is behind it hears keys
+  key(kEscape);
+  EXPECT_EQ(run().message, "");
+  EXPECT_TRUE(model_.last_opened.files.empty());
+  options_.script.clear();
+  last_ = 0;
+  control('N');
+  key(kRight);  // shows which card Enter opens
+  key(kEnter);
+  (void)run();
+  EXPECT_EQ(model_.last_opened, options_.recent.front());
+}
+
+}  // namespace
+}  // namespace palpate::test
