@@ -178,18 +178,24 @@ void take_session(const Verb& verb, FieldKind kind, const std::vector<const Sett
     document.given.emplace_back(row->name);
   }
   const Setting& lines = setting("drawn-lines");
-  if (session.lines && lines.belongs(kind, groups_of(verb)) &&
-      std::ranges::find(typed, &lines) == typed.end()) {
-    document.touch.drawn_lines = session.lines->file;
-    // One that is missing is told where it is read.
-    std::string change = std::filesystem::exists(session.lines->file) ? change_of(*session.lines) : "";
-    if (!change.empty()) parsed.notes.push_back(std::move(change));
+  if (lines.belongs(kind, groups_of(verb)) && std::ranges::find(typed, &lines) == typed.end()) {
+    take_drawn_lines(session, document, parsed.notes);
   }
-  if (input_typed) return;
-  for (const SessionInput& input : session.inputs) {
-    if (!input.solution) document.input.files.push_back(input.file);
-    if (input.solution && !document.input.solution) document.input.solution = input.file;
+  if (!input_typed) take_inputs(session, document);
+}
+
+/// A session among the files opens like one of them: "flow carotid.palpate.toml". @throws Error (usage) for two.
+void find_session(Document& document) {
+  std::vector<std::filesystem::path>& files = document.input.files;
+  const auto session = std::ranges::find_if(files, is_session);
+  if (session == files.end()) return;
+  if (!document.common.session.empty()) {
+    throw usage_error(session->string() + " and " + document.common.session.string() +
+                      " are two sessions; give one");
   }
+  document.common.session = *session;
+  files.erase(session);
+  find_session(document);
 }
 
 }  // namespace
@@ -251,6 +257,7 @@ ParsedCommand parse_command_line(const Explorer& explorer, const std::vector<std
     typed.push_back(bound.row);
     parsed.options.given.emplace_back(bound.row->name);
   }
+  find_session(parsed.options);
   if (!parsed.options.common.session.empty()) take_session(*parsed.verb, explorer.kind, typed, parsed);
   return parsed;
 }

@@ -25,6 +25,14 @@ namespace palpate {
 /// A scene of `input` without lines, with its notes and the seconds that loading took.
 [[nodiscard]] SceneState begin_state(const Input& input, const Document& document);
 
+/// The document by which `files.session` shows its inputs, or `files` where these are named.
+/// @param program that opens it. @param given by the command line: what holds for all data stays.
+/// @param notes gets a sentence on what has changed since it was saved.
+/// @throws Error (bad input), also for a session of another program; Cancelled.
+[[nodiscard]] Document document_of_session(const InputFiles& files, const std::string& program,
+                                           const Document& given, std::vector<std::string>& notes,
+                                           Progress& progress);
+
 /// @tparam Content what one field at one time step gave: pointers to immutable things, cheap to copy.
 template <typename Content>
 class InputModel : public WindowModel {
@@ -32,6 +40,14 @@ class InputModel : public WindowModel {
   SceneState start(Progress& progress) final { return show(given_, progress); }
 
   SceneState open(const InputFiles& files, Progress& progress) final {
+    if (!files.session.empty()) {
+      std::vector<std::string> notes;
+      Document document = document_of_session(files, program_, given_, notes, progress);
+      SceneState state = show(std::move(document), progress);
+      state.notes.insert(state.notes.begin(), notes.begin(), notes.end());
+      scene_->shown.notes = state.notes;
+      return state;
+    }
     if (scene_) {
       if (const std::optional<Document> with = join(files, scene_->shown.document, progress)) {
         SceneState state = update(*with, progress);
@@ -58,6 +74,7 @@ class InputModel : public WindowModel {
     document.input.files = files.files;
     document.input.solution = files.solution;
     document.input.example = files.example;
+    take_tables(files, document);
     return show(std::move(document), progress);
   }
 

@@ -32,6 +32,9 @@ struct InputFiles {
   std::vector<std::filesystem::path> files;
   std::optional<std::filesystem::path> solution = {};  ///< PLOT3D
   std::string example = {};                            ///< in place of files
+  std::filesystem::path session = {};   ///< by which they are shown, or in place of them: those that it names
+  std::filesystem::path seeds = {};     ///< a table of places at which lines begin
+  std::filesystem::path transfer = {};  ///< a transfer function of a volume
 
   bool operator==(const InputFiles&) const = default;
 };
@@ -89,6 +92,10 @@ struct SceneState {
   double seconds_trace = 0.0;
   std::vector<std::string> notes;  ///< what the user should know, one line each
 };
+
+/// Takes the tables of seeds and colours into `document`.
+/// @throws Error (usage) where programs of its kind, or what it shows, have no use for them.
+void take_tables(const InputFiles& files, Document& document);
 
 class WindowModel {
  public:

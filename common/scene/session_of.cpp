@@ -30,6 +30,8 @@ Session session_of(const Document& document, const std::string& program) {
   return session;
 }
 
+bool is_session(const std::filesystem::path& file) { return file.extension() == ".toml"; }
+
 std::string session_name(const Document& document, const std::string& program) {
   const auto& files = document.input.files;
   const std::string stem =
@@ -70,6 +72,20 @@ std::vector<const Setting*> take_settings(const Session& session, FieldKind kind
     taken.push_back(row);
   }
   return taken;
+}
+
+void take_inputs(const Session& session, Document& document) {
+  for (const SessionInput& input : session.inputs) {
+    if (!input.solution) document.input.files.push_back(input.file);
+    if (input.solution && !document.input.solution) document.input.solution = input.file;
+  }
+}
+
+void take_drawn_lines(const Session& session, Document& document, std::vector<std::string>& notes) {
+  if (!session.lines) return;
+  document.touch.drawn_lines = session.lines->file;
+  std::string change = std::filesystem::exists(session.lines->file) ? change_of(*session.lines) : "";
+  if (!change.empty()) notes.push_back(std::move(change));
 }
 
 }  // namespace palpate

@@ -23,6 +23,9 @@ namespace palpate {
 /// What names of session files end with.
 inline constexpr std::string_view kSessionEnding = ".palpate.toml";
 
+/// Whether a file is to be opened as a session, by its name: no file of data ends with ".toml".
+[[nodiscard]] bool is_session(const std::filesystem::path& file);
+
 /// The name proposed for the session of `document`, without a folder: after its first input, or its example.
 [[nodiscard]] std::string session_name(const Document& document, const std::string& program);
 
@@ -38,5 +41,12 @@ inline constexpr std::string_view kSessionEnding = ".palpate.toml";
 std::vector<const Setting*> take_settings(const Session& session, FieldKind kind,
                                           const std::filesystem::path& file, Document& document,
                                           std::vector<std::string>& notes);
+
+/// Takes the input files of `session` into `document`.
+void take_inputs(const Session& session, Document& document);
+
+/// Takes its drawn lines. @param notes gets a sentence where their file has changed; one that is missing is told
+/// where it is read.
+void take_drawn_lines(const Session& session, Document& document, std::vector<std::string>& notes);
 
 }  // namespace palpate

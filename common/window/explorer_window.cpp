@@ -45,6 +45,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
       glfw_(options),
       view_(options.view),
       focal_point_(options.focal_point),
+      angles_(options.angles),
       start_page_(options.program, options.kind),
       touch_(options.touch, [] { glfwPostEmptyEvent(); }),
       controls_(touch_, options.region),

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -83,6 +84,9 @@ class ExplorerWindow {
   /// The start page is shown: nothing is open, or the user asked for it.
   [[nodiscard]] bool on_start_page() const { return start_asked_ || (!scene_ && !jobs_.busy()); }
   void close_data();
+  /// Shows and feels what a session says besides its scene.
+  void restore_session();
+  void put_region(const std::string& box);
   /// The picture that is shown becomes that of the data on the start page.
   void keep_thumbnail();
   void adopt(SceneState scene);
@@ -128,6 +132,8 @@ class ExplorerWindow {
   [[nodiscard]] std::vector<InputEvent> take_events();
   /// Panels first: what happens over them is not for the camera.
   void handle_events(const std::vector<InputEvent>& events);
+  /// Opens files that were dropped or chosen together; tables alone go into what is open.
+  void open(const std::vector<std::filesystem::path>& files);
   /// Asks first where something would be lost.
   void leave(const Leaving& leaving);
   void go_on(const Leaving& leaving);
@@ -177,6 +183,7 @@ class ExplorerWindow {
   PictureArea picture_;  // the pane of the scene itself
   bool needs_camera_ = true;
   std::optional<Vec3> focal_point_;  ///< of the first camera
+  CameraAngles angles_;              ///< of that, and of a reset
   std::optional<SceneState> scene_;
   bool shown_ = false;  // there was one
   PanelState state_;

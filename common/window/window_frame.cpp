@@ -130,7 +130,7 @@ void ExplorerWindow::reset_camera() {
     view_.camera = workbench_->camera(view_.bounds, options_.touch.workspace_scale);
     return;
   }
-  view_.camera = make_camera(view_.bounds, options_.angles, view_.aspect, view_.camera.projection);
+  view_.camera = make_camera(view_.bounds, angles_, view_.aspect, view_.camera.projection);
   // Of the first view alone: a reset shows all there is.
   view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
 }

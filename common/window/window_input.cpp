@@ -10,6 +10,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
@@ -65,8 +66,7 @@ std::vector<InputEvent> ExplorerWindow::take_events() {
 void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
   for (const InputEvent& event : events) {
-    if (event.kind == InputKind::kDrop && !files_.asking())
-      leave({Leaving::Way::kOpen, sort_dropped(event.files, scene_ ? &scene_->info->files : nullptr)});
+    if (event.kind == InputKind::kDrop && !files_.asking()) open(event.files);
     // What is typed into a dialog is for no replay.
     if (const std::string text = event_text(event); !text.empty() && !files_.asking())
       touch_.servo().record_event(static_cast<std::uint64_t>(frame_), text);
@@ -115,6 +115,21 @@ PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
   return actions;
 }
 
+void ExplorerWindow::open(const std::vector<std::filesystem::path>& files) try {
+  const InputFiles sorted = sort_dropped(files, scene_ ? &scene_->info->files : nullptr);
+  if (!sorted.files.empty() || !sorted.session.empty()) {
+    leave({Leaving::Way::kOpen, sorted});
+    return;
+  }
+  if (!scene_) throw usage_error("open data first: the table goes into what is shown");
+  Document with = state_.document;
+  take_tables(sorted, with);
+  state_.document = with;
+  state_.seeds = seed_choice(with.tracing.seeds);
+} catch (const Error& error) {
+  state_.fail(error.what());
+}
+
 void ExplorerWindow::leave(const Leaving& leaving) {
   if (files_.ask(leaving)) {
     controls_.touch().let_go();
@@ -143,7 +158,7 @@ void ExplorerWindow::answer_questions() {
   if (!chosen) return;
   switch (chosen->what) {
     case WindowFiles::Chosen::What::kOpen:
-      leave({Leaving::Way::kOpen, sort_dropped(chosen->files, scene_ ? &scene_->info->files : nullptr)});
+      open(chosen->files);
       break;
     case WindowFiles::Chosen::What::kSession:
       keep_document();
@@ -381,8 +396,7 @@ void ExplorerWindow::restore(const Edited& to) {
   put_edits(to.view, *scene_, view_);
   if (view_.volume)
     view_.volume->panes = slice_panes_of(state_.document.panes, view_.volume->image->bounds());
-  const std::string& box = to.document.slice.box;
-  controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
+  put_region(to.document.slice.box);
   touch_.restore(to.document.touch);
   // The first cuts stand for as many planes of the hand as there were then.
   if (touch_.planes()) cut_planes_.count = touch_.choice().settings.plane_widget.poses.count;

@@ -8,6 +8,10 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/appearance.h"
+#include "common/compose/line_view.h"
+#include "common/compose/slice_plane.h"
+#include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/probe_picture.h"
 #include "common/window/explorer_window.h"
 #include "common/window/shown_scene.h"
@@ -52,6 +56,7 @@ void ExplorerWindow::adopt(SceneState scene) {
     shown_ = true;
     if (jobs_.kind() == Kind::kOpen) {
       forget_input();
+      angles_ = options_.angles;
       const std::vector<std::string>& plotted = scene_->info->plotted;
       if (std::ranges::find(plotted, state_.plotted) == plotted.end()) state_.plotted.clear();
     }
@@ -70,6 +75,7 @@ void ExplorerWindow::adopt(SceneState scene) {
   jobs_.settle(scene_->document);
   state_.seeds = seed_choice(state_.document.tracing.seeds);
   adopt_field();
+  if (new_input && jobs_.kind() == Kind::kOpen && !scene_->document.common.session.empty()) restore_session();
   keep_document();
   // Defaults that are known now are no edit.
   if (settled && history_ && !scene_->joined) history_->settle(edited());
@@ -84,6 +90,32 @@ void ExplorerWindow::forget_input() {
   touch_.forget();
   files_.note_opened({});
   cut_planes_ = {};
+}
+
+void ExplorerWindow::put_region(const std::string& box) {
+  controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
+}
+
+void ExplorerWindow::restore_session() {
+  const Document& document = scene_->document;
+  files_.note_opened(document.common.session);
+  state_.play_rate = document.view.play_rate;
+  state_.plotted = document.series.plot;
+  try {
+    apply_appearance(document, view_);
+    angles_ = camera_angles(document.view.camera);
+    focal_point_ = focal_point_of(document.view);
+    put_region(document.slice.box);
+    if (!touch_.available()) return;
+    touch_.restore(document.touch);
+    if (document.touch.drawn_lines.empty()) return;
+    HandMade made = touch_.trail().made();
+    made.kept = read_drawn_lines(document.touch.drawn_lines);
+    touch_.trail().put(made);
+    files_.note_opened(document.common.session);
+  } catch (const Error& error) {
+    state_.fail(error.what());
+  }
 }
 
 void ExplorerWindow::keep_thumbnail() {

@@ -1,12 +1,17 @@
 #include "common/window/files/dropped_files.h"
 
+#include <cctype>
 #include <cstddef>
+#include <cstdint>
+#include <fstream>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
+#include "common/scene/session_of.h"
 
 namespace palpate {
 namespace {
@@ -25,12 +30,41 @@ bool is_solution(const std::filesystem::path& file) {
   }
 }
 
+enum class Table : std::uint8_t { kNone, kSeeds, kTransfer };
+
+/// By the first line: no data that can be opened are a table of comma-separated values.
+Table table_of(const std::filesystem::path& file) {
+  if (file.extension() != ".csv" && file.extension() != ".txt") return Table::kNone;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  if (line.find("opacity") != std::string::npos) return Table::kTransfer;
+  std::erase_if(line, [](unsigned char c) { return std::isspace(c) != 0 || c == '"'; });
+  line = "," + line + ",";
+  const auto has = [&](const char* column) { return line.find(column) != std::string::npos; };
+  return has(",x,") && has(",y,") && has(",z,") ? Table::kSeeds : Table::kNone;
+}
+
+/// Puts `file` where there may be one of its kind.
+void put(const std::filesystem::path& file, const char* what, std::filesystem::path& place) {
+  if (!place.empty()) {
+    throw usage_error(place.filename().string() + " and " + file.filename().string() + " are two " + what +
+                      ": open one at a time");
+  }
+  place = file;
+}
+
 }  // namespace
 
 InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const InputFiles* open) {
   InputFiles sorted;
   for (const auto& file : files) {
-    if (!sorted.solution && is_solution(file)) {
+    if (is_session(file)) {
+      put(file, "sessions", sorted.session);
+    } else if (const Table table = table_of(file); table != Table::kNone) {
+      const bool seeds = table == Table::kSeeds;
+      put(file, seeds ? "tables of seeds" : "transfer functions", seeds ? sorted.seeds : sorted.transfer);
+    } else if (!sorted.solution && is_solution(file)) {
       sorted.solution = file;
     } else {
       sorted.files.push_back(file);
@@ -38,7 +72,7 @@ InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const I
   }
   if (sorted.solution && sorted.files.empty() && open != nullptr) sorted.files = open->files;
   // Alone with nothing to go with, it is told by the model what it lacks.
-  if (sorted.files.empty()) return {files, {}};
+  if (sorted.files.empty() && sorted.solution) sorted.files.push_back(*std::exchange(sorted.solution, {}));
   return sorted;
 }
 

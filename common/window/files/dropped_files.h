@@ -8,9 +8,10 @@
 
 namespace palpate {
 
-/// Tells the solution of a PLOT3D grid from the grid, in whichever order they come. A solution alone goes with
-/// the grid that is open.
+/// Sorts files by what they are, in whichever order they come: the solution of a PLOT3D grid, which alone goes with
+/// the grid that is open; a session; tables of seeds and transfer functions, by their first line; data.
 /// @param open the files of what is open; null: nothing is.
+/// @throws Error (usage) for two sessions, or two tables of one kind, naming both.
 [[nodiscard]] InputFiles sort_dropped(const std::vector<std::filesystem::path>& files,
                                       const InputFiles* open);
 
