@@ -166,9 +166,10 @@ void ExplorerWindow::inject_replayed() {
     const auto event = event_from_text(text);
     if (!event) continue;
     const auto command = command_of(*event);
-    constexpr std::array kOfTheWindow{Command::kQuit,      Command::kFullScreen,    Command::kSavePicture,
-                                      Command::kSaveLines, Command::kOpen,          Command::kSaveSession,
-                                      Command::kClose,     Command::kSaveSessionAs, Command::kStartPage};
+    constexpr std::array kOfTheWindow{Command::kExportPicture, Command::kQuit,      Command::kFullScreen,
+                                      Command::kSavePicture,   Command::kSaveLines, Command::kOpen,
+                                      Command::kSaveSession,   Command::kClose,     Command::kSaveSessionAs,
+                                      Command::kStartPage};
     if (command && std::ranges::find(kOfTheWindow, *command) != kOfTheWindow.end()) continue;
     glfw_.events().push_back(*event);
   }

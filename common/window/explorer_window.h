@@ -143,6 +143,9 @@ class ExplorerWindow {
   void handle_on_start_page(const InputEvent& event);
   [[nodiscard]] PanelActions draw_start_page(const WindowLayout& parts);
   void save_session(bool asks);
+  void export_picture(const std::filesystem::path& file);
+  /// Says what became of a picture that was exported.
+  void follow_export();
   void run_command(Command command);
   void toggle_volume();
   void say(const std::optional<std::string>& words) {

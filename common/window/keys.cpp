@@ -49,6 +49,7 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'A', 0, Command::kAxes, "A", "axes"},
       {'T', 0, Command::kRates, "T", "rates: time for a frame"},
       {'P', 0, Command::kSavePicture, "P", "save the picture"},
+      {'P', kModifierShift, Command::kExportPicture, "Shift+P", "export a picture: its size, its background"},
       {'O', kModifierControl, Command::kOpen, "Ctrl+O", "open data, or a session"},
       {'N', kModifierControl, Command::kStartPage, "Ctrl+N", "the start page: recent files and examples"},
       {'S', kModifierControl, Command::kSaveSession, "Ctrl+S",

@@ -25,6 +25,7 @@ enum class Command : std::uint8_t {
   kAxes,
   kRates,
   kSavePicture,
+  kExportPicture,  ///< in another size, on another background
   kOpen,
   kSaveSession,
   kSaveSessionAs,

@@ -49,6 +49,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   update_panels();
   obey(on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts));
   answer_questions();
+  follow_export();
   follow_hand();
   news_.follow(touch_, state_);
   play();

@@ -163,6 +163,28 @@ void ExplorerWindow::answer_questions() {
     case WindowFiles::Chosen::What::kSession:
       keep_document();
       files_.save_session(model_, state_.document, chosen->files.front());
+      break;
+    case WindowFiles::Chosen::What::kPicture:
+      export_picture(chosen->files.front());
+  }
+}
+
+void ExplorerWindow::export_picture(const std::filesystem::path& file) {
+  if (files_.picture().running()) {
+    state_.say("a picture is being drawn: wait until it is there");
+    return;
+  }
+  files_.picture().start(with_focus(), file, picture_texts());
+  state_.say("drawing " + file.string() + " …");
+}
+
+void ExplorerWindow::follow_export() {
+  const auto outcome = files_.picture().take();
+  if (!outcome) return;
+  if (outcome->done) {
+    state_.say("saved " + outcome->words);
+  } else {
+    state_.fail(outcome->words);
   }
 }
 
@@ -187,6 +209,7 @@ void ExplorerWindow::obey(const PanelActions& actions) {
   if (actions.open) leave({Leaving::Way::kOpen, *actions.open});
   if (actions.ask_to_open) run_command(Command::kOpen);
   if (actions.save_picture) run_command(Command::kSavePicture);
+  if (actions.export_picture) run_command(Command::kExportPicture);
   if (actions.save_session) run_command(Command::kSaveSession);
   if (actions.touch.grab) run_command(Command::kGrab);
   if (actions.touch.keep) run_command(Command::kKeepLine);
@@ -272,6 +295,14 @@ void ExplorerWindow::run_command(Command command) {
     case Command::kSaveSession:
     case Command::kSaveSessionAs:
       save_session(command == Command::kSaveSessionAs);
+      break;
+    case Command::kExportPicture:
+      if (!scene_) {
+        state_.say(kNothingOpen);
+        break;
+      }
+      controls_.touch().let_go();
+      files_.ask_for_picture(static_cast<int>(panes_.width), static_cast<int>(panes_.height));
       break;
     case Command::kOpen:
       controls_.touch().let_go();

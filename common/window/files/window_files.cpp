@@ -64,10 +64,33 @@ void WindowFiles::ask_for_session(const Document& document) {
                }});
 }
 
+void WindowFiles::ask_for_picture(int width, int height) {
+  picture_.begin(width, height);
+  asked_ = Chosen::What::kPicture;
+  const std::filesystem::path to = pictures_to_.empty() ? documents_folder() : pictures_to_;
+  std::string name = state_.scene != nullptr && !state_.scene->info->files.files.empty()
+                         ? state_.scene->info->files.files.front().stem().string()
+                         : program_;
+  const auto is_picture = [](const std::filesystem::path& path, bool folder) {
+    return !folder && path.extension() == ".png";
+  };
+  dialog_.ask({.title = "Export a picture as",
+               .button = "Export",
+               .writes = true,
+               .folder = to,
+               .name = std::move(name) + ".png",
+               .ending = ".png",
+               .shows = is_picture,
+               .more = [this] { picture_.draw_choice(); }});
+}
+
 std::optional<WindowFiles::Chosen> WindowFiles::chosen() {
   auto files = dialog_.draw();
   if (!files) return std::nullopt;
-  (asked_ == Chosen::What::kOpen ? opened_from_ : saved_to_) = files->front().parent_path();
+  std::filesystem::path& chosen_folder = asked_ == Chosen::What::kOpen      ? opened_from_
+                                         : asked_ == Chosen::What::kSession ? saved_to_
+                                                                            : pictures_to_;
+  chosen_folder = files->front().parent_path();
   return Chosen{asked_, std::move(*files)};
 }
 

@@ -13,6 +13,7 @@
 #include "common/hand/probe_session.h"
 #include "common/scene/document/field_kind.h"
 #include "common/window/files/file_dialog.h"
+#include "common/window/files/picture_export.h"
 #include "common/window/files/saved_files.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/unsaved_question.h"
@@ -40,11 +41,14 @@ class WindowFiles {
   void ask_to_open(FieldKind kind);
   /// Asks where to save the session of `document`, proposing the user's folder.
   void ask_for_session(const Document& document);
+  /// Asks for the size, the background and the name of a picture. @param width, height of the one that is seen.
+  void ask_for_picture(int width, int height);
+  [[nodiscard]] PictureExport& picture() noexcept { return picture_; }
   /// The session that is saved again without asking; empty: none is yet.
   [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
   /// What was chosen in a dialog.
   struct Chosen {
-    enum class What : std::uint8_t { kOpen, kSession };
+    enum class What : std::uint8_t { kOpen, kSession, kPicture };
     What what = What::kOpen;
     std::vector<std::filesystem::path> files;  ///< one, but for those to open
   };
@@ -84,7 +88,9 @@ class WindowFiles {
   FileDialog dialog_;
   Chosen::What asked_ = Chosen::What::kOpen;      // of the dialog
   std::filesystem::path opened_from_, saved_to_;  // folders that the user has chosen; empty: none yet
+  std::filesystem::path pictures_to_;
   std::filesystem::path session_;
+  PictureExport picture_;
   std::vector<Annotation> saved_notes_;
   UnsavedQuestion question_;
   ProbeSession& touch_;

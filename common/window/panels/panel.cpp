@@ -102,6 +102,9 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
   ImGui::SameLine();
   actions.save_picture |= button("Save picture", size);
   actions.save_session |= button("Save session", size);
+  ImGui::SameLine();
+  actions.export_picture |= button("Export picture…", size);
+  hint("in another size, on another background or none (Shift+P)");
 }
 
 void draw_job(const Progress& job, PanelActions& actions) {

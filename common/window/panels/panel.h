@@ -69,6 +69,7 @@ struct PanelActions {
   bool reset_camera = false;
   std::optional<Command> look;  ///< along an axis
   bool save_picture = false;
+  bool export_picture = false;
   bool ask_to_open = false;
   bool save_session = false;
   std::optional<InputFiles> open;  ///< one of the recent inputs

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <stb_image.h>
 
 #include "common/scene/input.h"
 #include "tests/common/window/touch_window.h"
@@ -23,6 +24,7 @@ class FileWindow : public TouchWindowTest {
     for (const char* name : {"a.vtk", "b.vtk", "notes.txt"}) folder_.write(name, "x");
     std::filesystem::create_directory(folder_.path("deep"));
     std::ofstream(folder_.path("deep/c.vtk")) << "x";
+    options_.program = "flow";
     options_.session.clear();
     options_.recent = {{{folder_.path("a.vtk")}}};  // where the dialog begins
   }
@@ -166,6 +168,59 @@ TEST_F(FileWindow, TheStartPageLeadsBackToWhatIsOpen) {
   key(kEnter);
   (void)run();
   EXPECT_EQ(model_.last_opened, options_.recent.front());
+}
+
+TEST_F(FileWindow, APictureIsExportedInItsOwnSizeWithoutABackground) {
+  key('P', kModifierShift);
+  press("size");
+  press("1920 x 1080");
+  press("transparent");
+  press("Export");
+  last_ += 40 * kPause;  // it is drawn meanwhile
+  const WindowResult result = run();
+  const std::filesystem::path file = folder_.path("flow.png");
+  ASSERT_TRUE(std::filesystem::exists(file)) << result.message;
+  int width = 0, height = 0, channels = 0;
+  unsigned char* const pixels = stbi_load(file.c_str(), &width, &height, &channels, 4);
+  ASSERT_NE(pixels, nullptr);
+  EXPECT_EQ(width, 1920);
+  EXPECT_EQ(height, 1080);
+  EXPECT_EQ(pixels[4 * (1920 * 540 + 1900) + 3], 0) << "beside the lines";
+  int opaque = 0;
+  for (int i = 0; i < width * height; ++i) opaque += pixels[4 * i + 3] == 255 ? 1 : 0;
+  stbi_image_free(pixels);
+  EXPECT_GT(opaque, 1000);
+}
+
+TEST_F(FileWindow, ADroppedTableOfSeedsGoesIntoWhatIsOpen) {
+  folder_.write("seeds.csv", "x,y,z\n0.5,0,0\n");
+  at(next(), {.kind = InputKind::kDrop, .files = {folder_.path("seeds.csv")}});
+  const WindowResult result = run();
+  EXPECT_TRUE(model_.last_opened.files.empty());
+  EXPECT_EQ(model_.updated, 1);
+  folder_.write("colours.csv", "value,red,green,blue,opacity\n0,1,1,1,1\n");
+  options_.script.clear();
+  last_ = 0;
+  at(next(), {.kind = InputKind::kDrop, .files = {folder_.path("colours.csv")}});
+  EXPECT_NE(run().message.find("no volume is drawn"), std::string::npos) << "it says why it is not taken";
+}
+
+TEST_F(FileWindow, DataASessionAndSeedsAreDroppedTogether) {
+  folder_.write("seeds.csv", "x,y,z\n0.5,0,0\n");
+  folder_.write("s.palpate.toml", "format = 1\nprogram = 'flow'\n[scene]\n");
+  at(next(), {.kind = InputKind::kDrop,
+              .files = {folder_.path("s.palpate.toml"), folder_.path("b.vtk"), folder_.path("seeds.csv")}});
+  (void)run();
+  InputFiles wanted{{folder_.path("b.vtk")}};
+  wanted.session = folder_.path("s.palpate.toml");
+  wanted.seeds = folder_.path("seeds.csv");
+  EXPECT_EQ(model_.last_opened, wanted);
+  folder_.write("t.palpate.toml", "format = 1\n[scene]\n");
+  options_.script.clear();
+  last_ = 0;
+  at(next(),
+     {.kind = InputKind::kDrop, .files = {folder_.path("s.palpate.toml"), folder_.path("t.palpate.toml")}});
+  EXPECT_NE(run().message.find("are two sessions"), std::string::npos);
 }
 
 }  // namespace
