@@ -36,10 +36,12 @@ void draw_cut(std::string& text, const Box& bounds, const Camera& camera) {
   if (cut) {
     ImGui::SameLine();
     if (small_button("face me")) cut = facing(camera, bounds);
+    hint("turns the cut to the viewer");
     // All of the box lies between these.
     const double middle = glm::dot(cut->normal, 0.5 * (bounds.lower + bounds.upper));
     const double reach = 0.5 * glm::dot(glm::abs(cut->normal), bounds.upper - bounds.lower);
     (void)slider("cut at", cut->distance, middle - reach, middle + reach, "%.4g");
+    explain("cut");
   }
   text = cut ? exact_text(cut->normal) + "," + exact_number(cut->distance) : std::string();
 }
@@ -60,10 +62,11 @@ void choose_lens(HeartOptions& heart, const SceneInfo& info, const SceneView& vi
 /// Which layer is shown, where its fibres start, and where it is cut away: facing the view.
 void draw_layer(PanelContext& on) {
   const bool layered = on.scene.info->layers.has_value();
-  section(layered ? "LAYER" : "SURFACE");
+  if (!section(layered ? "LAYER" : "SURFACE")) return;
   HeartOptions& heart = on.state.document.heart;
   const SceneInfo& info = *on.scene.info;
   choose_word("field", on.state.document.input.field, info.fields);
+  explain("field", false);
   draw_time(on.state, info.times);
   if (layered) {
     double depth = layer_of(heart).value_or(kViewLayer);

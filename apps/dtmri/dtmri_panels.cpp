@@ -42,6 +42,7 @@ void draw_slice(TensorView& view, std::size_t axis, const char* name) {
   const int own = slice_axes(voxels.axes)[axis];
   ImGui::PushID(static_cast<int>(axis));
   checkbox("##shown", &view.slices[static_cast<std::size_t>(own)]);
+  explain("slices", false);
   ImGui::SameLine();
   const int last = voxels.points[own] - 1;
   // Sliders rise with the data's coordinate, whichever way the voxels are counted.
@@ -49,7 +50,9 @@ void draw_slice(TensorView& view, std::size_t axis, const char* name) {
   const int now = static_cast<int>(std::lround(voxels.grid_coordinates(view.position)[own]));
   int place = forwards ? now : last - now;
   const std::string text = short_number(std::round(10.0 * view.position[static_cast<int>(axis)]) / 10.0);
-  if (slider_int(name, &place, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
+  const bool moved = slider_int(name, &place, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  hint("where the slice lies, by the data's coordinate; what is typed is the voxel, from 0");
+  if (moved) {
     const int wanted = forwards ? place : last - place;
     view.position = moved_position(voxels, view.position, own, wanted - now);
   }
@@ -63,8 +66,10 @@ void draw_tensor_panel(TensorView& view, bool anatomical) {
   edit_setting("crosshair", view.crosshair);
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
   checkbox("smooth", &view.smooth);
+  explain("voxels", false);
   if (!view.image->field) return;  // a lattice alone
   choose("colour", view.color, kTensorColorCount);
+  hint("of the voxels of a slice: the direction of the fastest diffusion, or a measure");
   edit_setting("glyphs", view.glyphs);
   if (view.glyphs == GlyphShape::kNone) return;
   edit_setting("glyph-fa", view.glyph_least_fa);
@@ -84,12 +89,16 @@ bool draw_underlay_panel(TensorView& view, const std::string& file) {
     const double narrow = kNarrowest * span, wide = kWidest * span;
     slider_scalar("window", ImGuiDataType_Double, &underlay.window.width, &narrow, &wide, "%.4g",
                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    explain("window", false);
     slider_scalar("level", ImGuiDataType_Double, &underlay.window.level, &underlay.image->lowest,
                   &underlay.image->highest, "%.4g", ImGuiSliderFlags_AlwaysClamp);
+    explain("level", false);
   }
   if (!view.image->field) return false;  // there is nothing to blend with, and no slice without it
   edit_setting("blend", underlay.blend);
-  return button("Remove underlay");
+  const bool removed = button("Remove underlay");
+  hint("the image below the slices; its file stays");
+  return removed;
 }
 
 /// The shortest edge of a voxel [data units].
@@ -122,26 +131,34 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   int where = choice.at_crosshair ? 0 : 1;
   if (combo("start in", &where, kWhere.data(), static_cast<int>(kWhere.size())))
     choice.at_crosshair = where == 0;
+  hint("where tracts begin; Trace takes it");
   if (choice.at_crosshair) {
     constexpr double kLeast = 0.5, kMost = 30.0;  // voxels
     const double edge = shortest_edge(*tensors.image);
     double radius = radius_of(choice, *tensors.image);
-    if (slider("radius", radius, kLeast * edge, kMost * edge, "%.3g", ImGuiSliderFlags_Logarithmic))
-      choice.radius = radius;
+    const bool resized =
+        slider("radius", radius, kLeast * edge, kMost * edge, "%.3g", ImGuiSliderFlags_Logarithmic);
+    hint("of the ball, in units of the data");
+    if (resized) choice.radius = radius;
   } else {
     slider("FA above", choice.least_fa, 0.0, 1.0, "%.2f");
+    hint("fractional anisotropy of the voxels at which tracts begin");
   }
   // Tracts that are shown are traced again with these.
   edit_setting("seeds-per-voxel", document.tracts.seeds_per_voxel);
   edit_setting("cutoff", document.tracts.cutoff);
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
-  if (button("Trace", size)) {
+  const bool traces = button("Trace", size);
+  hint("tracts from there, in place of those that are shown");
+  if (traces) {
     document.tracts.seeds = tract_seed_text(choice, tensors);
     document.tract_appearance.file.clear();
   }
   ImGui::SameLine();
-  if (button("Remove", size)) {
+  const bool removes = button("Remove", size);
+  hint("the tracts that are shown");
+  if (removes) {
     document.tracts.seeds.clear();
     document.tract_appearance.file.clear();
   }
@@ -155,15 +172,17 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
 void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& choice, TensorView& tensors,
                   std::optional<TractView>& tracts) {
   const bool field = tensors.image->field != nullptr;
-  section(field ? "TENSORS" : "SLICES");
-  if (field) {
-    choose_word("field", state.document.input.field, scene.info->fields);
-    draw_time(state, scene.info->times);
+  if (section(field ? "TENSORS" : "SLICES")) {
+    if (field) {
+      choose_word("field", state.document.input.field, scene.info->fields);
+      explain("field", false);
+      draw_time(state, scene.info->times);
+    }
+    draw_tensor_panel(tensors, scene.info->anatomical);
   }
-  draw_tensor_panel(tensors, scene.info->anatomical);
-  section("UNDERLAY");
-  if (draw_underlay_panel(tensors, state.document.tensors.underlay)) state.document.tensors.underlay.clear();
-  section("TRACTS");
+  if (section("UNDERLAY") && draw_underlay_panel(tensors, state.document.tensors.underlay))
+    state.document.tensors.underlay.clear();
+  if (!section("TRACTS")) return;
   if (field) {
     draw_tract_panel(choice, state.document, tensors, tracts);
   } else if (tracts) {
@@ -172,10 +191,12 @@ void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& c
 }
 
 void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& volume, PanelActions& actions) {
-  section("ANISOTROPY AS A VOLUME");
+  if (!section("ANISOTROPY AS A VOLUME")) return;
   checkbox("volume", &volume.shown);
+  hint("of anisotropy around the lenses (V)");
   ImGui::SameLine(0.5F * ImGui::GetContentRegionAvail().x);
   checkbox("in colour", &volume.colored);
+  hint("by the direction of the fastest diffusion");
   const ValueHistogram* const histogram = state.histogram.of(volume.image);
   constexpr ValueSpan kAnisotropies{0.0, 1.0};
   if (volume.regions) {
@@ -202,8 +223,7 @@ std::vector<PanelPart> dtmri_panels() {
       draw_tensors(on.state, on.scene, choice, *on.view.tensors, on.view.tracts);
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
     } else if (on.view.tracts) {
-      section("TRACTS");
-      draw_tract_appearance(*on.view.tracts);
+      if (section("TRACTS")) draw_tract_appearance(*on.view.tracts);
     }
   }};
 }

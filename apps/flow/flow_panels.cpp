@@ -18,10 +18,11 @@ namespace palpate {
 namespace {
 
 void draw_lines(PanelState& state, const SceneState& scene) {
-  section("LINES");
+  if (!section("LINES")) return;
   TracingOptions& settings = state.document.tracing;
   const SceneInfo& info = *scene.info;
   choose_word("field", state.document.input.field, info.fields);
+  explain("field", false);
   draw_time(state, info.times);
   if (info.times.size() > 1) edit_setting("lines", settings.lines);
   if (settings.lines != name_of(LineKind::kStreamlines)) edit_setting("time-order", settings.time_order);
@@ -82,6 +83,7 @@ void choose_flow_volume(VolumeOptions& settings, const SceneInfo& info, std::vec
     }
     ImGui::EndCombo();
   }
+  hint("a scalar that is drawn around the lines");
   if (volumes.empty()) return;
   std::string resample = settings.resample;
   if (input_text("resample", &resample, ImGuiInputTextFlags_EnterReturnsTrue)) settings.resample = resample;
@@ -90,7 +92,7 @@ void choose_flow_volume(VolumeOptions& settings, const SceneInfo& info, std::vec
 
 void draw_flow_volume(PanelState& state, const SceneState& scene, std::optional<VolumeView>& volume,
                       PanelActions& actions) {
-  section("VOLUME");
+  if (!section("VOLUME")) return;
   VolumeOptions& settings = state.document.volume;
   std::vector<std::string> volumes;
   if (!settings.scalar.empty()) {

@@ -72,6 +72,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   state_.plotted = options_.plotted;
   state_.play_rate = options_.play_rate;
   files_.note_opened(options_.session);
+  forget_controls();
 }
 
 WindowResult ExplorerWindow::run() {
@@ -100,6 +101,7 @@ WindowResult ExplorerWindow::run() {
                       .recent = state_.recent,
                       .view = view_,
                       .document = state_.document,
+                      .log = state_.log.text(),
                       .message = state_.message.empty() ? state_.error : state_.message,
                       .region = controls_.region().box(),
                       .probe = touch_.readout(),

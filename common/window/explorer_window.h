@@ -143,6 +143,8 @@ class ExplorerWindow {
   void handle_on_start_page(const InputEvent& event);
   [[nodiscard]] PanelActions draw_start_page(const WindowLayout& parts);
   void save_session(bool asks);
+  /// Gives a setting its default, whose control cannot do so itself.
+  void reset_setting(const std::string& name);
   void export_picture(const std::filesystem::path& file);
   /// Says what became of a picture that was exported.
   void follow_export();

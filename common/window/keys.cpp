@@ -6,7 +6,8 @@
 namespace palpate {
 
 std::span<const KeyBinding> key_bindings() noexcept {
-  constexpr int kEscape = 256, kEnter = 257, kF5 = 294, kF6 = 295, kF7 = 296, kF12 = 301;
+  constexpr int kEscape = 256, kEnter = 257, kTab = 258, kF2 = 291, kF5 = 294, kF6 = 295, kF7 = 296,
+                kF12 = 301;
   constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267;
   static constexpr std::array kBindings = std::to_array<KeyBinding>({
       {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
@@ -36,6 +37,10 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {kUp, 0, Command::kSliceUp, "Up, Down", "the axial slice"},
       {kDown, 0, Command::kSliceDown, "", ""},
       {'H', 0, Command::kHelp, "H", "this list"},
+      {'/', 0, Command::kSearch, "/, Ctrl+P", "find a setting, and go to it"},
+      {'P', kModifierControl, Command::kSearch, "", ""},
+      {kTab, 0, Command::kPanel, "Tab", "hide the panel, or show it"},
+      {kF2, 0, Command::kMessages, "F2", "all messages since the start"},
       {'F', 0, Command::kFullScreen, "F", "full screen"},
       {kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},
       {kF5, 0, Command::kLookAlongX, "F5, F6, F7", "look along x, y, z; again: from the other side"},

@@ -11,6 +11,9 @@ namespace palpate {
 
 enum class Command : std::uint8_t {
   kHelp,
+  kSearch,    ///< for a setting
+  kMessages,  ///< all that were said
+  kPanel,     ///< shows or hides it
   kFullScreen,
   kResetCamera,
   kLookAlongX,  ///< again: from the other side

@@ -74,6 +74,7 @@ struct WindowResult {
   std::vector<InputFiles> recent;  ///< with what was opened in this window
   SceneView view;                  ///< at the end
   Document document;               ///< at the end
+  std::string log;                 ///< all that it said, a line each
   std::string message;             ///< last line that the window said to the user
   double median_frame_ms = 0.0;
   FrameQuality quality;        ///< of the last picture

@@ -33,7 +33,7 @@ void ExplorerWindow::draw_frame(double seconds) {
     glfwWaitEventsTimeout(kIdleRest);
     return;
   }
-  const WindowLayout parts = layout(width, height, gui_->text_height());
+  const WindowLayout parts = layout(width, height, gui_->text_height(), state_.show_panel);
   panes_ = parts.picture;
   place_picture();
   gui_->set_background(view_.background);

@@ -68,7 +68,8 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   for (const InputEvent& event : events) {
     if (event.kind == InputKind::kDrop && !files_.asking()) open(event.files);
     // What is typed into a dialog is for no replay.
-    if (const std::string text = event_text(event); !text.empty() && !files_.asking())
+    if (const std::string text = event_text(event);
+        !text.empty() && !files_.asking() && !state_.search.asking())
       touch_.servo().record_event(static_cast<std::uint64_t>(frame_), text);
     const auto command = command_of(event);
     // The one key that works in text fields, too.
@@ -76,7 +77,7 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     controls_.follow_pointer(event, controlled());
     // Notch by notch the wheel moves what is looked at.
     if (event.kind == InputKind::kWheel && !io.WantCaptureMouse) live_->moved(glfwGetTime());
-    if (files_.handle(event)) continue;
+    if (files_.handle(event) || state_.search.handle(event)) continue;
     if (on_start_page()) {
       handle_on_start_page(event);
       continue;
@@ -93,13 +94,13 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
 
 void ExplorerWindow::handle_on_start_page(const InputEvent& event) {
   const auto command = command_of(event);
-  if (command == Command::kLetGo && !state_.show_help && scene_) {
+  if (command == Command::kLetGo && !state_.show_help && !state_.log.shown && scene_) {
     start_asked_ = false;
     return;
   }
   if (start_page_.handle(event) || !command) return;
-  constexpr std::array kHere{Command::kOpen,       Command::kQuit,      Command::kHelp, Command::kLetGo,
-                             Command::kFullScreen, Command::kStartPage, Command::kClose};
+  constexpr std::array kHere{Command::kMessages, Command::kOpen,       Command::kQuit,      Command::kHelp,
+                             Command::kLetGo,    Command::kFullScreen, Command::kStartPage, Command::kClose};
   if (std::ranges::find(kHere, *command) != kHere.end()) run_command(*command);
 }
 
@@ -154,6 +155,8 @@ void ExplorerWindow::go_on(const Leaving& leaving) {
 
 void ExplorerWindow::answer_questions() {
   if (const auto leaving = files_.answer()) go_on(*leaving);
+  if (scene_) say(state_.search.draw(state_.document, options_.kind));
+  if (const auto name = take_reset()) reset_setting(*name);
   const auto chosen = files_.chosen();
   if (!chosen) return;
   switch (chosen->what) {
@@ -167,6 +170,24 @@ void ExplorerWindow::answer_questions() {
     case WindowFiles::Chosen::What::kPicture:
       export_picture(chosen->files.front());
   }
+}
+
+void ExplorerWindow::reset_setting(const std::string& name) {
+  if (!scene_) return;
+  keep_document();
+  const FieldKind kind = state_.document.input.kind;
+  const Setting* const row = find_setting(name, kind) != nullptr ? find_setting(name, kind) : &setting(name);
+  Document with = state_.document;
+  set_value(*row, with, default_text(*row));
+  apply_appearance(with, view_);
+  if (view_.volume) view_.volume->panes = slice_panes_of(with.panes, view_.volume->image->bounds());
+  if (view_.volume && (name == "window" || name == "level")) view_.volume->planes.window.reset();
+  if (touch_.available()) touch_.restore(with.touch);
+  put_region(with.slice.box);
+  state_.document = with;
+  state_.seeds = seed_choice(with.tracing.seeds);
+  state_.say(row->label() +
+             " is as in the beginning: " + (default_text(*row).empty() ? "as found" : default_text(*row)));
 }
 
 void ExplorerWindow::export_picture(const std::filesystem::path& file) {
@@ -224,6 +245,21 @@ void ExplorerWindow::run_command(Command command) {
   switch (command) {
     case Command::kHelp:
       state_.show_help = !state_.show_help;
+      break;
+    case Command::kSearch:
+      if (scene_) {
+        controls_.touch().let_go();
+        state_.search.open();
+      } else {
+        state_.say(kNothingOpen);
+      }
+      break;
+    case Command::kMessages:
+      state_.log.shown = !state_.log.shown;
+      break;
+    case Command::kPanel:
+      state_.show_panel = !state_.show_panel;
+      if (!state_.show_panel) state_.say("Tab shows the panel again");
       break;
     case Command::kFullScreen:
       glfw_.toggle_full_screen();
@@ -341,7 +377,7 @@ void ExplorerWindow::toggle_volume() {
 
 void ExplorerWindow::let_go() {
   controls_.let_go();
-  state_.show_help = state_.playing = false;
+  state_.show_help = state_.log.shown = state_.playing = false;
   if (jobs_.running() && jobs_.kind() != SceneJobs::Kind::kStart) jobs_.cancel();
   state_.say({});
 }

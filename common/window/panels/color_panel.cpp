@@ -26,10 +26,10 @@ void list_quantities(LineStyle& style, std::string& color) {
 }
 
 void draw_color(PanelContext& on, std::string& color, bool quantities) {
-  section("COLOUR");
+  if (!section("COLOUR")) return;
   LineStyle& style = on.view.style;
   const bool chooses = begin_combo("by", color.c_str());
-  explain(quantities ? "color" : "angle");
+  explain(quantities ? "color" : "angle", false);
   if (chooses) {
     if (quantities) list_quantities(style, color);
     // These have to be sampled first: the colours follow when that is done.

@@ -36,7 +36,7 @@ void draw_recent(const PanelState& state, PanelActions& actions) {
 
 void draw_input(const SceneState& scene, PanelActions& actions) {
   const ImVec2 place = ImGui::GetCursorPos();
-  section("INPUT");
+  const bool unfolded = section("INPUT");
   const ImVec2 below = ImGui::GetCursorPos();
   // Beside the heading.
   ImGui::SetCursorPos({ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("Open…").x -
@@ -45,6 +45,7 @@ void draw_input(const SceneState& scene, PanelActions& actions) {
   actions.ask_to_open |= small_button("Open…");
   hint("other data, or a session (Ctrl+O); Ctrl+N shows recent files and examples");
   ImGui::SetCursorPos(below);
+  if (!unfolded) return;
   ImGui::TextWrapped("%s", scene.info->name.c_str());
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   for (const std::string& fact : scene.info->facts) ImGui::TextWrapped("%s", fact.c_str());
@@ -74,7 +75,7 @@ void choose_background(Background& background) {
 }
 
 void draw_appearance(SceneView& view, PanelActions& actions) {
-  section("LOOK");
+  if (!section("LOOK")) return;
   const bool lines = view.lines && !view.lines->empty();
   if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_appearance(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
@@ -87,6 +88,7 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
   if (checkbox("perspective", &perspective)) {
     view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
   }
+  hint("else lines that are parallel stay parallel");
   choose_background(view.background);
   ImGui::Spacing();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -98,10 +100,14 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
     ImGui::SameLine();
   }
   ImGui::TextUnformatted("look along");
+  hint("an axis of the data; again: from the other side (F5, F6, F7)");
   actions.reset_camera |= button("Reset view", size);
+  hint("all there is, from the first side (Enter)");
   ImGui::SameLine();
   actions.save_picture |= button("Save picture", size);
+  hint("as it is seen, under the next free number (P)");
   actions.save_session |= button("Save session", size);
+  hint("what is open, and how it is seen and felt (Ctrl+S; Ctrl+Shift+S: under another name)");
   ImGui::SameLine();
   actions.export_picture |= button("Export picture…", size);
   hint("in another size, on another background or none (Shift+P)");
@@ -122,22 +128,8 @@ void draw_job(const Progress& job, PanelActions& actions) {
   actions.cancel |= button("Cancel", {-FLT_MIN, 0.0F});
 }
 
-}  // namespace
-
-WindowLayout layout(int width, int height, float text_height) {
-  WindowLayout result;
-  // A narrow window keeps at least half of its width for the picture.
-  result.panel_width = std::min(std::round(21.0 * text_height), std::floor(0.5 * width));
-  result.status_height = std::round(2.4 * text_height);
-  result.picture = {result.panel_width, 0.0, std::max(1.0, width - result.panel_width),
-                    std::max(1.0, height - result.status_height)};
-  return result;
-}
-
-PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, SceneView& view,
-                         const WindowLayout& layout) {
-  PanelActions actions;
-  begin_controls();
+void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& view,
+                const WindowLayout& layout, PanelActions& actions) {
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({static_cast<float>(layout.panel_width),
                             static_cast<float>(layout.picture.height + layout.status_height)});
@@ -148,8 +140,8 @@ PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, Sc
     draw_input(*state.scene, actions);
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
-      section("TOUCH");
-      actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
+      if (section("TOUCH"))
+        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
     }
     PanelContext on{state, *state.scene, view, actions};
     for (const PanelPart& part : parts) part(on);
@@ -162,9 +154,37 @@ PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, Sc
     }
   }
   ImGui::Spacing();
-  ImGui::TextDisabled("H  keys and mouse");
+  ImGui::TextDisabled("H keys,  / search,  F2 messages,  Tab hides this");
   ImGui::PopItemWidth();
   ImGui::End();
+}
+
+}  // namespace
+
+WindowLayout layout(int width, int height, float text_height, bool panel) {
+  WindowLayout result;
+  // A narrow window keeps at least half of its width for the picture.
+  if (panel) result.panel_width = std::min(std::round(21.0 * text_height), std::floor(0.5 * width));
+  result.status_height = std::round(2.4 * text_height);
+  result.picture = {result.panel_width, 0.0, std::max(1.0, width - result.panel_width),
+                    std::max(1.0, height - result.status_height)};
+  return result;
+}
+
+PanelActions draw_panels(std::span<const PanelPart> parts, PanelState& state, SceneView& view,
+                         const WindowLayout& layout) {
+  PanelActions actions;
+  begin_controls();
+  if (state.show_panel) {
+    draw_panel(parts, state, view, layout, actions);
+  } else if (state.job != nullptr) {
+    constexpr float kWidth = 20.0F;  // heights of the text
+    ImGui::SetNextWindowPos({ImGui::GetFontSize(), ImGui::GetFontSize()});
+    ImGui::SetNextWindowSize({kWidth * ImGui::GetFontSize(), 0.0F});
+    ImGui::Begin("job", nullptr, kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize);
+    draw_job(*state.job, actions);
+    ImGui::End();
+  }
   if (state.series && state.scene != nullptr) {
     actions.time = draw_series_plot(*state.series, series_plot_area(layout.picture, ImGui::GetFontSize()),
                                     state.scene->info->units);

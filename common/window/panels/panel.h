@@ -15,7 +15,9 @@
 #include "common/window/controls/seed_choice.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/live_picture.h"
+#include "common/window/panels/message_log.h"
 #include "common/window/panels/series_panel.h"
+#include "common/window/panels/setting_search.h"
 #include "common/window/panels/touch_panel.h"
 #include "common/window/panels/volume/region_panel.h"
 #include "common/window/panels/volume/transfer_panel.h"
@@ -35,6 +37,9 @@ struct PanelState {
   bool error_of_job = false;           ///< of what was read or made
   std::set<std::string> closed_notes;  ///< of the scene, that are no banners any more
   bool show_help = false;
+  bool show_panel = true;  ///< else the picture has its place
+  MessageLog log;          ///< of all that was said
+  SettingSearch search;
   bool show_rates = false;
   std::vector<std::pair<std::string, std::string>> head_rows;  ///< of a tracked head, told with the rates
   bool playing = false;
@@ -54,9 +59,13 @@ struct PanelState {
   CachedHistogram histogram;                                             ///< of the volume
 
   /// The line at the bottom.
-  void say(std::string words) { message = std::move(words); }
+  void say(std::string words) {
+    log.add(words, false);
+    message = std::move(words);
+  }
   /// A banner over the picture.
   void fail(std::string words, bool of_job = false) {
+    log.add(words, true);
     message.clear();
     error = std::move(words);
     error_of_job = of_job;
@@ -100,7 +109,8 @@ struct WindowLayout {
   PictureArea picture;
 };
 
-[[nodiscard]] WindowLayout layout(int width, int height, float text_height);
+/// @param panel whether it is shown.
+[[nodiscard]] WindowLayout layout(int width, int height, float text_height, bool panel = true);
 
 /// Draws all of it; changes `view` (style, what is shown, projection) and `state`.
 /// @param parts the program's, below input and touch.

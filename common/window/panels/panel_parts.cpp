@@ -4,6 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstdarg>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +23,15 @@ namespace {
 /// Of the last frame, and of the one that is being drawn: one thread draws panels, as Dear ImGui has it.
 struct Drawn {
   std::vector<DrawnControl> last, now;
+  std::set<std::string, std::less<>> settings_last, settings_now;
+  std::map<std::string, std::string, std::less<>> section_of;  ///< of each setting, as it was drawn last
+  std::map<std::string, bool, std::less<>> folded;             ///< by section
+  std::string section;                                         ///< that is being drawn
+  std::string target;                                          ///< setting that is being gone to; empty: none
+  bool in_sight = false;                                       ///< it has been scrolled to
+  std::string marked;                                          ///< setting that was gone to last
+  double marked_until = 0.0;                                   ///< [s] of Dear ImGui's clock
+  std::string reset;
 };
 Drawn& drawn() {
   static Drawn all;
@@ -69,6 +82,60 @@ bool noted(const char* label, bool returned) {
   return returned;
 }
 
+/// Offers the default of the setting whose control was drawn last. @return whether it is asked for.
+bool offer_default(const char* setting_name) {
+  if (!ImGui::BeginPopupContextItem((std::string("default ") + setting_name).c_str())) return false;
+  const Setting& row = setting(setting_name);
+  std::string value = default_text(row);
+  if (value.empty()) value = row.otherwise.empty() ? "as found" : std::string(row.otherwise);
+  if (!row.unit.empty() && !default_text(row).empty()) value += " " + std::string(row.unit);
+  const bool asked = noted("Reset to default", ImGui::Selectable(("Reset to default: " + value).c_str()));
+  ImGui::EndPopup();
+  return asked;
+}
+
+/// Of the control that was drawn last: where it is, its help, its default. @return whether that is asked for.
+bool explained(const char* setting_name, bool resets) {
+  Drawn& all = drawn();
+  // Behind a list that is open, its words were drawn last.
+  const std::string label = label_of(setting(setting_name));
+  const auto own = std::find_if(all.now.rbegin(), all.now.rend(),
+                                [&label](const DrawnControl& control) { return control.label == label; });
+  if (own != all.now.rend())
+    own->setting = setting_name;
+  else if (!all.now.empty())
+    all.now.back().setting = setting_name;
+  all.settings_now.emplace(setting_name);
+  all.section_of[setting_name] = all.section;
+  if (all.target == setting_name) {
+    ImGui::SetScrollHereY();
+    if (std::exchange(all.in_sight, true)) {
+      constexpr double kSeconds = 4.0;
+      ImGui::SetKeyboardFocusHere(-1);
+      all.marked = std::exchange(all.target, {});
+      all.marked_until = ImGui::GetTime() + kSeconds;
+    }
+  }
+  if (all.marked == setting_name && ImGui::GetTime() < all.marked_until) {
+    const ImVec2 corner = ImGui::GetItemRectMin(), across = ImGui::GetItemRectMax();
+    constexpr float kAround = 3.0F;  // [pixels]
+    ImGui::GetForegroundDrawList()->AddRect({corner.x - kAround, corner.y - kAround},
+                                            {across.x + kAround, across.y + kAround},
+                                            ImGui::GetColorU32(ImGuiCol_CheckMark), kAround, 0, 2.0F);
+  }
+  const bool asked = resets && offer_default(setting_name);
+  explain_setting(setting(setting_name));
+  return asked;
+}
+
+/// The same of a control that takes the default itself, where the table says what it is.
+bool resets(const char* setting_name) {
+  if (!explained(setting_name, true)) return false;
+  if (!default_text(setting(setting_name)).empty()) return true;
+  drawn().reset = setting_name;
+  return false;
+}
+
 }  // namespace
 
 void note_control(const char* label, const ImVec2& corner, const ImVec2& size) {
@@ -86,8 +153,34 @@ void note_control(const char* label) {
 const std::vector<DrawnControl>& drawn_controls() noexcept { return drawn().last; }
 
 void begin_controls() {
-  drawn().last = std::move(drawn().now);
-  drawn().now.clear();
+  Drawn& all = drawn();
+  all.last = std::move(all.now);
+  all.now.clear();
+  all.settings_last = std::move(all.settings_now);
+  all.settings_now.clear();
+  all.section.clear();
+}
+
+void forget_controls() { drawn() = {}; }
+
+std::optional<std::string> place_of_setting(std::string_view name) {
+  const Drawn& all = drawn();
+  const auto known = all.section_of.find(name);
+  if (known == all.section_of.end()) return std::nullopt;
+  const auto folded = all.folded.find(known->second);
+  const bool hidden = folded != all.folded.end() && folded->second;
+  if (!hidden && !all.settings_last.contains(name)) return std::nullopt;
+  return known->second.empty() ? "panel" : known->second;
+}
+
+void go_to_setting(std::string_view name) {
+  drawn().target = name;
+  drawn().in_sight = false;
+}
+
+std::optional<std::string> take_reset() {
+  std::string name = std::exchange(drawn().reset, {});
+  return name.empty() ? std::nullopt : std::optional(std::move(name));
 }
 
 bool button(const char* label, const ImVec2& size) { return noted(label, ImGui::Button(label, size)); }
@@ -161,32 +254,30 @@ void hint(const char* format, ...) {
   va_end(values);
 }
 
-void explain(const char* setting_name) {
-  // Behind a list that is open, its words were drawn last.
-  std::vector<DrawnControl>& now = drawn().now;
-  const std::string label = label_of(setting(setting_name));
-  const auto own = std::find_if(now.rbegin(), now.rend(),
-                                [&label](const DrawnControl& control) { return control.label == label; });
-  if (own != now.rend())
-    own->setting = setting_name;
-  else if (!now.empty())
-    now.back().setting = setting_name;
+void explain_setting(const Setting& row) {
   if (!ImGui::IsItemHovered()) return;
   constexpr float kWidth = 28.0F;  // heights of the text
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(kWidth * ImGui::GetFontSize());
-  ImGui::TextUnformatted(setting(setting_name).full_help().c_str());
+  ImGui::TextUnformatted(row.full_help().c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+}
+
+void explain(const char* setting_name, bool resets) {
+  if (explained(setting_name, resets)) drawn().reset = setting_name;
 }
 
 bool edit_setting(const char* setting_name, double& value, double units) {
   const Setting& row = setting(setting_name);
   const Range& reach = reach_of(row);
   double shown = units * value;
-  const bool changed = slider_scalar(label_of(row).c_str(), ImGuiDataType_Double, &shown, &reach.lower,
-                                     &reach.upper, format_of(row).c_str(), flags_of(row));
-  explain(setting_name);
+  bool changed = slider_scalar(label_of(row).c_str(), ImGuiDataType_Double, &shown, &reach.lower,
+                               &reach.upper, format_of(row).c_str(), flags_of(row));
+  if (resets(setting_name)) {
+    shown = std::strtod(default_text(row).c_str(), nullptr);
+    changed = true;
+  }
   if (changed) value = shown / units;
   return changed;
 }
@@ -196,25 +287,57 @@ bool edit_setting(const char* setting_name, int& value) {
   const Range& reach = reach_of(row);
   const bool changed = slider_int(label_of(row).c_str(), &value, static_cast<int>(reach.lower),
                                   static_cast<int>(reach.upper), "%d", flags_of(row));
-  explain(setting_name);
-  return changed;
+  if (!resets(setting_name)) return changed;
+  value = std::atoi(default_text(row).c_str());
+  return true;
 }
 
 bool edit_setting(const char* setting_name, bool& on) {
-  const bool changed = checkbox(label_of(setting(setting_name)).c_str(), &on);
-  explain(setting_name);
-  return changed;
+  const Setting& row = setting(setting_name);
+  const bool changed = checkbox(label_of(row).c_str(), &on);
+  if (!resets(setting_name)) return changed;
+  on = default_text(row) == "on";
+  return true;
 }
 
 bool edit_setting(const char* setting_name, std::string& word) {
   const Setting& row = setting(setting_name);
   const std::vector<std::string_view> words = row.word_list();
   const bool changed = choose_word(label_of(row).c_str(), word, {words.begin(), words.end()});
-  explain(setting_name);
-  return changed;
+  if (!resets(setting_name)) return changed;
+  word = default_text(row);
+  return true;
 }
 
-void section(const char* name) {
+bool section(const char* name) {
+  Drawn& all = drawn();
+  all.section = name;
+  bool& folded = all.folded[name];
+  if (const auto target = all.section_of.find(all.target);
+      target != all.section_of.end() && target->second == name)
+    folded = false;
+  ImGui::Spacing();
+  constexpr float kShare = 0.6F;  // of the row: there may be a button in the rest
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const float em = ImGui::GetFontSize();
+  const ImVec2 size{kShare * ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
+  if (ImGui::InvisibleButton((std::string("##part ") + name).c_str(), size)) folded = !folded;
+  note_control(name);
+  const ImU32 ink = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 mid{corner.x + 0.3F * em, corner.y + 0.5F * size.y};
+  const float r = 0.25F * em;
+  if (folded) {
+    list.AddTriangleFilled({mid.x - r, mid.y - r}, {mid.x - r, mid.y + r}, {mid.x + r, mid.y}, ink);
+  } else {
+    list.AddTriangleFilled({mid.x - r, mid.y - r}, {mid.x + r, mid.y - r}, {mid.x, mid.y + r}, ink);
+  }
+  list.AddText({corner.x + em, corner.y}, ink, name);
+  ImGui::Separator();
+  return !folded;
+}
+
+void heading(const char* name) {
   ImGui::Spacing();
   ImGui::TextDisabled("%s", name);
   ImGui::Separator();

@@ -3,11 +3,15 @@
 
 #include <cstdarg>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include <imgui.h>
+
+#include "common/scene/document/setting.h"
 
 namespace palpate {
 
@@ -52,12 +56,26 @@ void begin_controls();
 void hint(const char* format, ...) IM_FMTARGS(1);
 
 /// The same from the table of settings: its help, with range and default. The control is noted as that of the setting.
-/// @pre there is a setting of that name.
-void explain(const char* setting_name);
+/// A right click offers the default, which take_reset() tells. @pre there is a setting of that name. @param resets false: it has no default to go back to.
+void explain(const char* setting_name, bool resets = true);
+/// The help of that one alone.
+void explain_setting(const Setting& row);
+
+/// @name Settings that panels show, by explain() and edit_setting()
+/// @{
+/// The part of the panel that has a control of the setting now, folded or not; none: there is none.
+[[nodiscard]] std::optional<std::string> place_of_setting(std::string_view name);
+/// Has the next frames unfold that part, scroll there, and give the control the keyboard.
+void go_to_setting(std::string_view name);
+/// The setting whose default was asked for in this frame, where its control did not take it itself; asked once.
+[[nodiscard]] std::optional<std::string> take_reset();
+/// Forgets which parts are folded, and what panels of another window showed.
+void forget_controls();
+/// @}
 
 /// @name Controls of settings
 /// A slider, a box to tick, or a list of words: label, unit, range and words are those of the row in the table
-/// of settings, and its help is shown while the mouse is over it. @pre there is a setting of that name, with a
+/// of settings, its help is shown while the mouse is over it, and a right click offers its default. @pre there is a setting of that name, with a
 /// bounded Range for numbers. @return whether the value changed.
 /// @{
 bool edit_setting(const char* setting_name, double& value,
@@ -79,8 +97,11 @@ bool edit_setting(const char* setting_name, Enum& value) {
 /// Millimetres a metre: lengths of the workspace are shown in these.
 inline constexpr double kMillimetres = 1e3;
 
-/// The heading of a part of the panel.
-void section(const char* name);
+/// The heading of a part of the panel; a click folds and unfolds the part.
+/// @return whether its controls are to be drawn.
+[[nodiscard]] bool section(const char* name);
+/// A heading alone.
+void heading(const char* name);
 
 /// A drop-down of words. @return whether another one was chosen.
 bool choose_word(const char* label, std::string& chosen, const std::vector<std::string>& words);

@@ -34,7 +34,7 @@ void next_layout(VolumeView& volume, const ValueHistogram* histogram) {
 
 void edit_panes(VolumeView& volume, const ValueHistogram* histogram, bool anatomical) {
   SlicePanes& panes = volume.panes;
-  section("SLICES");
+  if (!section("SLICES")) return;
   std::string layout = std::to_string(panes.layout);
   if (edit_setting("layout", layout)) {
     panes.layout = layout == "4" ? 4 : layout == "2" ? 2 : 1;
@@ -78,7 +78,9 @@ void edit_window(VolumeView& volume) {
   const double least = kNarrowest * range, most = 2.0 * range;
   ValueWindow window = window_of(volume);
   bool edited = slider_scalar("window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
+  explain("window");
   edited |= slider_scalar("level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
+  explain("level");
   if (edited && window.width > 0.0) volume.planes.window = window;
 }
 

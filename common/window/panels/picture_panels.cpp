@@ -274,6 +274,7 @@ std::string size_text(const SceneState& scene) {
 void draw_overlays(PanelState& state, const WindowLayout& layout) {
   draw_banners(state, layout);
   draw_help(state, layout);
+  state.log.draw();
 }
 
 void draw_picture_panels(PanelState& state, const WindowLayout& layout) {

@@ -31,7 +31,9 @@ std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& se
   double d = plane.w;
   std::optional<PlanePose> wanted;
   const bool turned = field("normal", n.data(), 3);
+  hint("n in n.x = d: what lies where n.x > d is cut away");
   const bool moved = field("d", &d, 1);
+  hint("d in n.x = d, in units of the data");
   const Vec3 normal{n[0], n[1], n[2]};
   const double size = glm::length(normal);
   if (turned && size > 0.0 && std::isfinite(size)) wanted = turned_to(pose, normal / size);
@@ -40,6 +42,7 @@ std::optional<PlanePose> edit_pose(const PlanePose& pose, const ProbeSession& se
     wanted->center += (d - plane.w) * Vec3{plane};
   }
   if (small_button("flip")) wanted = turned_to(pose, -Vec3{plane});
+  hint("the other side is cut away");
   ImGui::SameLine();
   if (small_button("to view")) wanted = turned_to(pose, camera.axes[2]);
   hint("faces the viewer, who looks at what it leaves");
@@ -87,6 +90,7 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     const std::string name = "plane " + std::to_string(i + 1);
     if (static_cast<std::size_t>(i) < cuts.size()) {
       checkbox((name + " cuts").c_str(), &cuts[static_cast<std::size_t>(i)].on);
+      hint("what lies beyond the plane is not drawn");
     } else {
       ImGui::TextUnformatted(name.c_str());
     }
@@ -100,6 +104,7 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     if (poses.count > 1) {
       ImGui::SameLine();
       if (small_button("remove")) gone = i;
+      hint("the plane (Ctrl+Z takes it back)");
     }
     ImGui::PopID();
   }
@@ -141,8 +146,10 @@ void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first) {
       }
       ImGui::SameLine();
       if (small_button("flip")) cut.kept = {-cut.kept.outward, -cut.kept.offset};
+      hint("the other side is cut away");
       ImGui::SameLine();
       if (small_button("remove")) gone = i;
+      hint("the cut (Ctrl+Z takes it back)");
       ImGui::PopID();
     }
   }
@@ -163,15 +170,18 @@ void edit_plane_images(VolumeView& volume, const ValueHistogram* histogram) {
   for (std::size_t i = 0; i < planes.contours.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     slider_scalar("##contour", ImGuiDataType_Double, &planes.contours[i], &lower, &upper, "%.5g");
+    explain("contours", false);
     ImGui::SameLine();
     if (small_button("x")) gone = i;
+    hint("remove this line");
     ImGui::SameLine();
     ImGui::TextUnformatted("line");
     ImGui::PopID();
   }
   if (gone) planes.contours.erase(planes.contours.begin() + static_cast<std::ptrdiff_t>(*gone));
-  if (planes.contours.size() < kMostContours && small_button("+ line of equal value"))
-    planes.contours.push_back(window_of(volume).level);
+  if (planes.contours.size() >= kMostContours) return;
+  if (small_button("+ line of equal value")) planes.contours.push_back(window_of(volume).level);
+  hint("on all planes, at the value of the slider");
 }
 
 void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchActions& actions) {
@@ -186,11 +196,13 @@ void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchAc
     }
     ImGui::EndCombo();
   }
+  explain("annotation", false);
   actions.mark = button(marking ? "Stop marking" : "Mark by clicks");
   hint("on a cut, else on the surface between object and background");
   if (points_needed(notes.kind()).most == 0 && !notes.pending().empty()) {
     ImGui::SameLine();
     if (button("Done")) notes.finish();
+    hint("the last point was placed");
   }
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < notes.entries().size(); ++i) {
@@ -207,13 +219,16 @@ void edit_notes(ProbeSession& session, VolumeView& volume, bool marking, TouchAc
     offer_plane(each, session, volume.cuts);
     ImGui::SameLine();
     if (small_button("x")) gone = i;
+    hint("delete (Ctrl+Z takes it back)");
     ImGui::PopID();
   }
   if (gone) notes.remove(*gone);
   if (notes.entries().empty()) return;
   if (small_button("Save .csv")) actions.save_notes = ".csv";
+  hint("all annotations as a table, with what they measure");
   ImGui::SameLine();
   if (small_button("Save .vtp")) actions.save_notes = ".vtp";
+  hint("all annotations as points and lines, for ParaView");
 }
 
 void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& session,
@@ -243,9 +258,13 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   if (small_button("landmarks here")) {
     for (const GridMark& mark : marks_at(grid.frame, local, at)) add(mark);
   }
+  hint("on the three axes of the grid, where the probe is");
   ImGui::EndDisabled();
-  if (cuts != nullptr && !cuts->empty() && room_for(cuts->size()) && small_button("landmarks at cuts")) {
-    for (const CuttingPlane& cut : *cuts) add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
+  if (cuts != nullptr && !cuts->empty() && room_for(cuts->size())) {
+    const bool wanted = small_button("landmarks at cuts");
+    hint("a plane that can be felt in the place of each cut");
+    for (const CuttingPlane& cut : wanted ? *cuts : std::vector<CuttingPlane>())
+      add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
   }
   if (cuts != nullptr) {
     const Mat3 axes = grid_axes(grid.frame, local);
@@ -265,6 +284,7 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   if (grid.marks.count > 0) {
     ImGui::TextWrapped("%s", text_of(grid.marks).c_str());
     if (small_button("no landmarks")) grid.marks = {};
+    hint("takes all of them away");
   }
 }
 

@@ -20,14 +20,17 @@ void draw_seeds(PanelState& state, bool speed) {
     state.seeds.kind =
         static_cast<SeedChoice::Kind>(std::find(kKinds.begin(), kKinds.end(), kind) - kKinds.begin());
   }
+  explain("seeds", false);
   constexpr int kMost = 1'000'000, kMostAcross = 200;
   switch (state.seeds.kind) {
     case SeedChoice::Kind::kGrid:
       drag_int("along x y z", state.seeds.grid.data(), 3, 0.1F, 1, kMostAcross, 0);
+      hint("seeds along each axis of the bounds: drag, or Ctrl+click and type");
       break;
     case SeedChoice::Kind::kRandom:
     case SeedChoice::Kind::kSpeed:
       drag_int("number", &state.seeds.count, 1, 2.0F, 1, kMost, ImGuiSliderFlags_Logarithmic);
+      hint("of seeds: drag, or Ctrl+click and type");
       break;
     case SeedChoice::Kind::kText:
       // Half a word is no seeds: taken when it is complete.

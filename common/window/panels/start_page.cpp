@@ -162,12 +162,12 @@ StartPage::Actions StartPage::draw(const std::vector<InputFiles>& recent, const 
   ImGui::Spacing();
   ImGui::BeginChild("cards");
   if (!lately.empty()) {
-    section("RECENT");
+    heading("RECENT");
     ImGui::Spacing();
     draw_cards(lately, 0, picture, actions);
     ImGui::Spacing();
   }
-  section("EXAMPLES");
+  heading("EXAMPLES");
   ImGui::Spacing();
   draw_cards(made, lately.size(), picture, actions);
   ImGui::EndChild();

@@ -25,7 +25,9 @@ namespace palpate {
 namespace {
 
 void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
-  if (!begin_combo("mode", modes[choice.mode].name.c_str())) return;
+  const bool chooses = begin_combo("mode", modes[choice.mode].name.c_str());
+  explain("mode", false);
+  if (!chooses) return;
   for (std::size_t i = 0; i < modes.size(); ++i) {
     if (selectable(modes[i].name.c_str(), i == choice.mode)) choice.mode = i;
     hint("%s", modes[i].summary.c_str());
@@ -52,7 +54,9 @@ void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
 void choose_stroke(StrokeUse& use) {
   constexpr std::array<std::pair<StrokeUse, const char*>, 2> kUses{
       {{StrokeUse::kAppend, "goes on from an end"}, {StrokeUse::kReplace, "replaces the last"}}};
-  if (!begin_combo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second)) return;
+  const bool chooses = begin_combo("a stroke", kUses[use == StrokeUse::kAppend ? 0 : 1].second);
+  explain("stroke");
+  if (!chooses) return;
   for (const auto& [each, words] : kUses) {
     if (selectable(words, each == use)) use = each;
   }
@@ -170,7 +174,9 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
     ImGui::SameLine();
   }
   if (tensors || session.planes()) actions.undo = button("Undo  (Ctrl+Z)", size);
-  if (button(tensors ? "Clear drawing" : "Clear path", size)) session.trail().clear_path();
+  const bool clears = button(tensors ? "Clear drawing" : "Clear path", size);
+  hint("what the hand has drawn and is not kept");
+  if (clears) session.trail().clear_path();
   if (session.data().scalar() && !session.data().has_flow() && view.volume)
     edit_notes(session, *view.volume, marking, actions);
   if (!session.data().has_flow() && !tensors) return actions;

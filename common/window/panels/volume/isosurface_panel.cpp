@@ -60,6 +60,7 @@ Isovalues edit_values(const HapticLevels& felt, const std::string& what) {
     double& value = isovalues.value[static_cast<std::size_t>(i)];
     ImGui::PushID(i);
     slider_scalar("##isovalue", ImGuiDataType_Double, &value, &lowest, &highest, "%.5g");
+    explain("isovalue");
     ImGui::SameLine();
     if (isovalues.count > 1) {
       if (small_button("x")) removed = i;

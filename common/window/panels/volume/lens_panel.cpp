@@ -54,10 +54,12 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& lo
       }
       ImGui::EndCombo();
     }
+    hint("the scalar that is seen in the lens");
   }
   const Lens& look = looks[std::min(lens.field, looks.size() - 1)];
-  if (checkbox("own transfer function", &lens.own_transfer) && !lens.own_transfer)
-    take_appearance(lens, look);
+  const bool toggled = checkbox("own transfer function", &lens.own_transfer);
+  hint("colours and opacities of this lens alone; else those of all lenses, below");
+  if (toggled && !lens.own_transfer) take_appearance(lens, look);
   if (lens.own_transfer) {
     EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
     if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
@@ -74,13 +76,16 @@ void draw_lens_size(Lens& lens, const Box& bounds) {
   if (lens.screen) {
     slider_scalar("##size", ImGuiDataType_Double, &lens.screen->radius, &kSmallestCircle, &kLargestCircle,
                   "%.2f", kFlags);
+    hint("radius, in halves of the picture's height");
     ImGui::SameLine();
   } else if (const auto reach = reach_of(lens.shape)) {
     constexpr double kLeast = 1e-3, kMost = 1.0;  // diagonals
     const double least = kLeast * bounds.diagonal(), most = kMost * bounds.diagonal();
     double wanted = *reach;
-    if (slider_scalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g", kFlags))
-      lens.shape = scaled(lens.shape, wanted / *reach);
+    const bool resized =
+        slider_scalar("##size", ImGuiDataType_Double, &wanted, &least, &most, "%.4g", kFlags);
+    hint("how far it reaches from its middle, in units of the data (wheel, while the mouse moves it)");
+    if (resized) lens.shape = scaled(lens.shape, wanted / *reach);
     ImGui::SameLine();
   }
 }
@@ -94,6 +99,7 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
     if (magnifies(enlarged)) {
       slider_scalar("magnify", ImGuiDataType_Double, &lens.magnification, &kPlain, &kMostEnlarged, "%.1f x",
                     ImGuiSliderFlags_AlwaysClamp);
+      hint("how many times larger it shows what is in it");
     }
     constexpr double kHard = 0.0, kSoft = 1.0;
     Lens blending = lens;
@@ -105,10 +111,14 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
     }
     slider_scalar("samples", ImGuiDataType_Double, &lens.samples_per_voxel, &kFewest, &kMost, "%.1f",
                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    hint("samples a voxel along a ray, in the lens");
     checkbox("shading", &lens.shading);
+    hint("light on what is in the lens");
     ImGui::SameLine();
   }
-  if (checkbox("cut away", &lens.cut) && !lens.cut) {
+  const bool toggled = checkbox("cut away", &lens.cut);
+  hint("nothing is drawn in it: one sees what is behind");
+  if (toggled && !lens.cut) {
     lens.field = 0;
     take_appearance(lens, model);
   }
@@ -129,6 +139,7 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
   hint("with the mouse; wheel: its size, Ctrl and wheel: along the view, click: leave it there");
   ImGui::SameLine();
   if (small_button("remove")) wish = LensWish::kRemove;
+  hint("the lens (Ctrl+Z takes it back)");
   return wish;
 }
 
@@ -161,8 +172,9 @@ std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<L
     taken = view.lenses.size();
     view.lenses.push_back(std::move(lens));
   };
-  if (small_button("+ lens")) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+  const bool wanted = small_button("+ lens");
   hint("a ball that the mouse moves until it is clicked (L)");
+  if (wanted) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
   ImGui::SameLine();
   if (view.lenses.size() < kMostLenses && small_button("+ on the screen")) add(new_screen_lens(model));
   hint("a circle that stays where it is when the volume is turned; the mouse moves it until it is clicked");

@@ -23,6 +23,7 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   for (int axis = 0; axis < 3; ++axis) {
     std::array<double, 2> ends{box.lower[axis], box.upper[axis]};
     const bool typed = input_numbers(kAxes[static_cast<std::size_t>(axis)], ends.data(), 2, "%.6g");
+    explain("box");
     if (!typed || !(ends[0] < ends[1])) continue;
     box.lower[axis] = ends[0];
     box.upper[axis] = ends[1];
@@ -41,9 +42,11 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   for (const char* ending : kEndings) {
     ImGui::SameLine();
     if (small_button(ending)) actions.crop = ending;
+    hint("saves the voxels in the box, in their place");
   }
   ImGui::EndDisabled();
   if (small_button("remove")) region.put(std::nullopt);
+  hint("the box; the voxels stay");
   return actions;
 }
 

@@ -198,9 +198,9 @@ const PlaceHistogram& CachedHistogram::places_of(const std::shared_ptr<const Vol
   return places_;
 }
 
-bool choose_transfer(const char* label, const char* automatic, std::string& words, EditedTransfer& transfer,
-                     const std::shared_ptr<const VolumeImage>& image, CachedHistogram& histograms,
-                     std::string& file, std::optional<double> felt) {
+bool choose_transfer(const char* label, const char* setting_name, const char* automatic, std::string& words,
+                     EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
+                     CachedHistogram& histograms, std::string& file, std::optional<double> felt) {
   const bool own = words.starts_with("points:") || words.starts_with("regions:");
   const std::string now = words.empty() ? automatic : own ? kOwnWords : words;
   ImGui::PushID(label);
@@ -211,14 +211,17 @@ bool choose_transfer(const char* label, const char* automatic, std::string& word
     }
     ImGui::EndCombo();
   }
+  explain(setting_name);
   if (edit_either(transfer, image, histograms, felt))
     words = transfer.regions ? region_text(*transfer.regions) : transfer_text(transfer.colors);
   input_text("##file", &file);
+  hint("the file that load and save mean");
   ImGui::SameLine();
   if (small_button("load") && !file.empty()) words = file;
   hint("a table value,red,green,blue,opacity, or regions of value and gradient");
   ImGui::SameLine();
   const bool save = small_button("save");
+  hint("as such a table, to be loaded again or given on the command line");
   ImGui::PopID();
   return save && (transfer.regions || !transfer.colors.points().empty());
 }
@@ -238,6 +241,7 @@ bool choose_own_transfer(const char* label, EditedTransfer& transfer,
       transfer = {{}, spread(boundary_regions(), histograms.places_of(image).range)};
     ImGui::EndCombo();
   }
+  hint("begins with one of these");
   (void)edit_either(transfer, image, histograms, std::nullopt);
   ImGui::PopID();
   return !(transfer == before);

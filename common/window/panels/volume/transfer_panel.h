@@ -40,11 +40,12 @@ struct EditedTransfer {
 
 /// Chooses between what `words` may be (those of --transfer-function; empty: `automatic`) and lets the points
 /// or regions be edited; what is edited goes into `words` and `transfer` alike.
-/// @param file name for the text field below, from which a function is loaded and to which it is saved.
+/// @param setting_name whose help is shown. @param file name for the text field below, from which a function is loaded and to which it is saved.
 /// @param felt value at the probe, marked over the histogram; none: no hand is there.
 /// @return whether it is to be saved now.
-[[nodiscard]] bool choose_transfer(const char* label, const char* automatic, std::string& words,
-                                   EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
+[[nodiscard]] bool choose_transfer(const char* label, const char* setting_name, const char* automatic,
+                                   std::string& words, EditedTransfer& transfer,
+                                   const std::shared_ptr<const VolumeImage>& image,
                                    CachedHistogram& histograms, std::string& file,
                                    std::optional<double> felt = std::nullopt);
 

@@ -95,33 +95,31 @@ void draw_volume_appearance(PanelState& state, const SceneState& scene, const st
                             std::optional<double> felt, VolumeView& volume, PanelActions& actions) {
   const ValueHistogram* const histogram = state.histogram.of(volume.image);
   EditedTransfer colors{volume.transfer, volume.regions};
-  actions.save_transfer |= choose_transfer("colours", "from the histogram", state.document.volume.transfer,
-                                           colors, volume.image, state.histogram, state.transfer_file, felt);
+  actions.save_transfer |=
+      choose_transfer("colours", "transfer-function", "from the histogram", state.document.volume.transfer,
+                      colors, volume.image, state.histogram, state.transfer_file, felt);
   volume.transfer = std::move(colors.colors);
   volume.regions = std::move(colors.regions);
   draw_rays(volume);
   const bool has_planes = state.touch != nullptr && state.touch->planes();
   const auto of_hand = has_planes ? static_cast<std::size_t>(state.touch->planes()->poses.count) : 0;
   if (of_hand < volume.cuts.size()) {
-    section("CUTS");
-    edit_cuts(volume.cuts, of_hand);
+    if (section("CUTS")) edit_cuts(volume.cuts, of_hand);
   }
   if (!volume.cuts.empty()) {
-    section("ON PLANES");
-    edit_plane_images(volume, histogram);
+    if (section("ON PLANES")) edit_plane_images(volume, histogram);
   }
   if (state.region != nullptr && scene.is_volume_alone()) {
-    section("REGION");
-    actions.region = edit_region(*state.region, *volume.image);
+    if (section("REGION")) actions.region = edit_region(*state.region, *volume.image);
   }
-  section("LENSES");
+  if (!section("LENSES")) return;
   actions.lens = draw_lens_panel(volume, scene.looks, field, scene.info->bounds, state.histogram);
   choose_secondary(secondary, field, fields);
   if (volume.lenses.empty()) return;
   EditedTransfer focus = focus_of(volume, scene);
   const EditedTransfer before = focus;
-  actions.save_focus |= choose_transfer("inside", "denser half", state.document.volume.focus, focus,
-                                        volume.image, state.histogram, state.focus_file);
+  actions.save_focus |= choose_transfer("inside", "focus-tf", "denser half", state.document.volume.focus,
+                                        focus, volume.image, state.histogram, state.focus_file);
   if (!(focus == before)) set_focus(volume, focus);
 }
 
@@ -130,10 +128,12 @@ void draw_volume(PanelContext& on) {
   PanelState& state = on.state;
   const SceneState& scene = on.scene;
   VolumeView& volume = *on.view.volume;
-  section("VOLUME");
-  choose_word("field", state.document.input.field, scene.info->fields);
-  if (!volume.fields.empty()) draw_values_at_probe(state, state.document.input.field, volume);
-  draw_time(state, scene.info->times);
+  if (section("VOLUME")) {
+    choose_word("field", state.document.input.field, scene.info->fields);
+    explain("field", false);
+    if (!volume.fields.empty()) draw_values_at_probe(state, state.document.input.field, volume);
+    draw_time(state, scene.info->times);
+  }
   edit_panes(volume, state.histogram.of(volume.image), on.view.anatomical);
   draw_volume_appearance(state, scene, state.document.input.field, scene.info->fields,
                          state.document.input.secondary, value_at_probe(state), volume, on.actions);
