@@ -47,9 +47,11 @@ class Sessions : public ExplorerTest {
     for (const auto& [name, value] : settings) options.push_back("--" + name + "=" + value);
     const auto by_options = picture("options.png", options);
     const auto by_session = picture("session.png", {"--session", session(example, settings)});
+    const auto as_file = picture("file.png", {session(example, settings)});
     const auto without = picture("plain.png", {"--example", example});
     ASSERT_FALSE(by_options.empty());
     ASSERT_EQ(by_options.size(), by_session.size());
+    EXPECT_EQ(as_file, by_session) << "a session opens like a file";
     int worst = 0, change = 0;
     for (std::size_t i = 0; i < by_options.size(); ++i) {
       worst = std::max(worst, std::abs(by_options[i] - by_session[i]));

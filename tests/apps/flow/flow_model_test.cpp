@@ -187,5 +187,45 @@ TEST(FlowModel, KeepsTheVolumeInASession) {
       << "as the command line takes it";
 }
 
+TEST(FlowModel, ASessionOpensLikeAFileAndTablesGoWithIt) {
+  const TempFolder folder;
+  Document options = with_volume("mass");
+  options.input.files = {folder.write("flow.vtk", image_file())};
+  FlowModel model(options, "flow");
+  Progress progress;
+  Document document = model.start(progress).document;
+  document.view.background = "light";
+  document.touch.stiffness = 150.0;
+  const std::filesystem::path file = folder.path("flow.palpate.toml");
+  (void)model.save_session(document, file);
+
+  FlowModel other({}, "flow");
+  InputFiles session;
+  session.session = file;
+  const SceneState opened = other.open(session, progress);
+  EXPECT_EQ(opened.document.common.session, file);
+  EXPECT_EQ(opened.info->files.files, options.input.files);
+  EXPECT_EQ(opened.document.tracing.seeds, "grid:2,2,2");
+  EXPECT_EQ(opened.document.view.background, "light");
+  EXPECT_EQ(opened.document.touch.stiffness, 150.0);
+  EXPECT_EQ(opened.volume_label, "mass");
+
+  // Its data have changed since, and there is a table of seeds.
+  folder.write("flow.vtk", image_file() + "\n");
+  session.seeds = folder.write("seeds.csv", "x,y,z\n2,3,4\n");
+  const SceneState again = other.open(session, progress);
+  EXPECT_EQ(again.seeds, 1U);
+  EXPECT_TRUE(std::ranges::any_of(again.notes, [](const std::string& note) {
+    return note.find("has changed since the session was saved") != std::string::npos;
+  }));
+
+  FlowModel grid({}, "grid");
+  EXPECT_THROW((void)grid.open(session, progress), Error) << "of another program";
+  other.close();
+  InputFiles plain;
+  plain.files = options.input.files;
+  EXPECT_EQ(other.open(plain, progress).document.tracing.seeds, "speed:300") << "nothing is left of it";
+}
+
 }  // namespace
 }  // namespace palpate::test

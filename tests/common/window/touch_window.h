@@ -52,7 +52,10 @@ class HelixModel final : public WindowModel {
   }
   SceneState open(const InputFiles& files, Progress&) override {
     last_opened = files;
-    return make({});
+    Document document;
+    if (!files.session.empty()) document = of_session;
+    document.common.session = files.session;
+    return make(document);
   }
   SceneState update(const Document& document, Progress&) override {
     ++updated;
@@ -68,7 +71,7 @@ class HelixModel final : public WindowModel {
 
   std::atomic<int> updated{0};
   std::filesystem::path file;  ///< of the input, beside which sessions are saved
-  Document saved;
+  Document saved, of_session;
   std::vector<std::filesystem::path> saved_to;
   InputFiles last_opened;
   std::atomic<int> closed{0};
@@ -77,6 +80,7 @@ class HelixModel final : public WindowModel {
   SceneState make(Document document) {
     auto info = std::make_shared<SceneInfo>();
     info->name = "helices";
+    info->files.files = document.input.files;
     info->fields = {"velocity", "another"};
     info->integrators = {"dp54"};
     info->times = {0.0, 1.0, 2.0};

@@ -1,13 +1,21 @@
 // Files in a window, by keyboard and mouse alone: opening, saving, closing, the start page.
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <stb_image.h>
 
+#include "common/base/error.h"
+#include "common/render/png.h"
 #include "common/scene/input.h"
+#include "common/window/files/thumbnails.h"
 #include "tests/common/window/touch_window.h"
 
 namespace palpate::test {
@@ -221,6 +229,76 @@ TEST_F(FileWindow, DataASessionAndSeedsAreDroppedTogether) {
   at(next(),
      {.kind = InputKind::kDrop, .files = {folder_.path("s.palpate.toml"), folder_.path("t.palpate.toml")}});
   EXPECT_NE(run().message.find("are two sessions"), std::string::npos);
+}
+
+TEST_F(FileWindow, ASessionOpensLikeAFileAndIsSavedThereAgain) {
+  folder_.write("s.palpate.toml", "format = 1\nprogram = 'flow'\n[scene]\n");
+  model_.of_session.view.background = "light";
+  model_.of_session.view.camera = "90,0,0,2";
+  model_.of_session.touch.stiffness = 150.0;
+  control('O');
+  type("s.pal");
+  key(kEnter);
+  control('S');
+  const WindowResult result = run();
+  EXPECT_EQ(model_.last_opened.session, folder_.path("s.palpate.toml"));
+  EXPECT_EQ(result.view.background, Background::kLight);
+  EXPECT_EQ(result.document.touch.stiffness, 150.0);
+  EXPECT_TRUE(result.document.view.camera.starts_with("90,0,0,2")) << result.document.view.camera;
+  EXPECT_EQ(model_.saved_to, std::vector{folder_.path("s.palpate.toml")});
+}
+
+TEST_F(FileWindow, WhatWasSeenLastOfClosedDataIsKeptAsASmallPicture) {
+  model_.file = folder_.path("a.vtk");
+  options_.thumbnails = folder_.path("small");
+  control('W');
+  last_ += kPause;
+  (void)run();
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path("small"))) files.push_back(entry);
+  ASSERT_EQ(files.size(), 1U);
+  int width = 0, height = 0, channels = 0;
+  unsigned char* const pixels = stbi_load(files[0].c_str(), &width, &height, &channels, 3);
+  ASSERT_NE(pixels, nullptr);
+  EXPECT_EQ(width, 288);
+  EXPECT_EQ(height, 192);
+  unsigned char brightest = 0;
+  for (int i = 0; i < 3 * width * height; ++i) brightest = std::max(brightest, pixels[i]);
+  stbi_image_free(pixels);
+  EXPECT_GT(brightest, 100) << "lines are in it";
+}
+
+TEST_F(FileWindow, ExamplesAreDrawnOnceInTheBackground) {
+  options_.thumbnails = folder_.path("small");
+  options_.start_page = true;
+  std::atomic<int> drawn{0};
+  options_.draw_example = [&](const std::string& example, const std::filesystem::path& to, int width,
+                              int height, const std::stop_token&) {
+    ++drawn;
+    if (example == "abc") throw work_error("cannot be drawn");
+    Image image{.width = width, .height = height, .rgba = {}};
+    image.rgba.assign(std::size_t{4} * 288 * 192, 200);
+    write_png(to, image, {});
+  };
+  last_ += 4 * kPause;
+  (void)run();
+  const auto count = static_cast<int>(examples_of(FieldKind::kVector).size());
+  EXPECT_EQ(drawn, count);
+  (void)run();
+  EXPECT_EQ(drawn, count + 1) << "that which could not be drawn is tried again, and no other";
+}
+
+TEST(SmallPicture, IsTheMiddleOfALargerOne) {
+  Image image{.width = 400, .height = 100, .rgba = {}};
+  for (int y = 0; y < 100; ++y) {
+    for (int x = 0; x < 400; ++x) {
+      const auto level = static_cast<std::uint8_t>(x < 125 || x >= 275 ? 0 : 250);
+      for (int c = 0; c < 4; ++c) image.rgba.push_back(level);
+    }
+  }
+  const Image small = small_picture(image, 30, 20);
+  for (int x = 0; x < 30; ++x) EXPECT_EQ(small.pixel(x, 10)[0], 250) << x;
+  EXPECT_TRUE(small_picture({}, 30, 20).rgba.empty());
 }
 
 }  // namespace

@@ -62,9 +62,9 @@ TEST_F(PanelWindow, SearchUnfoldsThePartInWhichTheControlIs) {
 
 TEST_F(PanelWindow, SearchSaysWhereASettingWithoutAControlIs) {
   key('/');
-  type("raw-skip");
+  type("max-steps");
   key(kEnter);
-  EXPECT_NE(run().message.find("--raw-skip"), std::string::npos);
+  EXPECT_NE(run().message.find("--max-steps"), std::string::npos);
 }
 
 TEST(FindSettings, EachWordIsLookedForAndLabelsComeFirst) {
