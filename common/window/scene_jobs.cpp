@@ -21,7 +21,7 @@ SceneJobs::SceneJobs(WindowModel& model, bool starts) : model_(model), job_([] {
 }
 
 void SceneJobs::close() {
-  to_open_.reset();
+  to_open_.clear();
   to_close_ = true;
   if (running()) job_.cancel();
 }
@@ -37,11 +37,10 @@ void SceneJobs::start_next(const Document& wanted) {
     model_.close();
     requested_ = wanted;  // nothing is to be made of it
   }
-  if (to_open_) {
+  if (!to_open_.empty()) {
     kind_ = Kind::kOpen;
-    job_.start([this, files = *std::exchange(to_open_, {})](Progress& progress) {
-      return model_.open(files, progress);
-    });
+    job_.start([this, files = to_open_.front()](Progress& progress) { return model_.open(files, progress); });
+    to_open_.pop_front();
   } else if (!same_scene(wanted, requested_)) {
     requested_ = wanted;
     kind_ = Kind::kUpdate;

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "common/window/background_job.h"
 
@@ -27,10 +30,15 @@ class SceneJobs {
   /// What the job came to, once it has ended.
   [[nodiscard]] std::optional<BackgroundJob::Outcome> take() { return job_.take(); }
 
-  /// Opens other files as soon as nothing runs.
-  void open(InputFiles files) { to_open_ = std::move(files); }
+  /// Opens other files as soon as nothing runs, and then those `beside` them, one after the other.
+  void open(InputFiles files, const std::vector<InputFiles>& beside) {
+    to_open_.assign(beside.begin(), beside.end());
+    to_open_.push_front(std::move(files));
+  }
+  /// What could not be opened has nothing beside it.
+  void forget_beside() noexcept { to_open_.clear(); }
   /// Whether something is read or made, or about to be.
-  [[nodiscard]] bool busy() const noexcept { return running() || to_open_; }
+  [[nodiscard]] bool busy() const noexcept { return running() || !to_open_.empty(); }
   /// Has the model forget what is open as soon as nothing runs; what runs is cancelled, and comes to nothing.
   void close();
   [[nodiscard]] bool closing() const noexcept { return to_close_; }
@@ -49,7 +57,7 @@ class SceneJobs {
   WindowModel& model_;
   Kind kind_ = Kind::kStart;
   Document requested_;
-  std::optional<InputFiles> to_open_;
+  std::deque<InputFiles> to_open_;
   bool to_close_ = false;
   BackgroundJob job_;  // last: its thread uses the model
 };

@@ -108,7 +108,8 @@ PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
   begin_controls();
   thumbnails_->draw_missing(start_page_.examples(), [] { glfwPostEmptyEvent(); });
   const StartPage::Actions asked = start_page_.draw(
-      state_.recent, [this](const InputFiles& input) { return thumbnails_->of(input); }, scene_.has_value());
+      state_.recent, [this](const InputFiles& input) { return thumbnails_->of(input); }, scene_.has_value(),
+      state_.message);
   draw_overlays(state_, parts);
   PanelActions actions;
   actions.ask_to_open = asked.ask_to_open;
@@ -117,9 +118,10 @@ PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
 }
 
 void ExplorerWindow::open(const std::vector<std::filesystem::path>& files) try {
-  const InputFiles sorted = sort_dropped(files, scene_ ? &scene_->info->files : nullptr);
+  std::vector<InputFiles> beside;
+  const InputFiles sorted = sort_dropped(files, scene_ ? &scene_->info->files : nullptr, beside);
   if (!sorted.files.empty() || !sorted.session.empty()) {
-    leave({Leaving::Way::kOpen, sorted});
+    leave({Leaving::Way::kOpen, sorted, beside});
     return;
   }
   if (!scene_) throw usage_error("open data first: the table goes into what is shown");
@@ -142,7 +144,7 @@ void ExplorerWindow::leave(const Leaving& leaving) {
 void ExplorerWindow::go_on(const Leaving& leaving) {
   switch (leaving.way) {
     case Leaving::Way::kOpen:
-      jobs_.open(leaving.files);
+      jobs_.open(leaving.files, leaving.beside);
       break;
     case Leaving::Way::kClose:
       close_data();

@@ -172,6 +172,7 @@ void ExplorerWindow::adopt_field() {
 void ExplorerWindow::fail(const std::exception_ptr& error) {
   using Kind = SceneJobs::Kind;
   if (jobs_.kind() == Kind::kStart) std::rethrow_exception(error);
+  if (jobs_.kind() == Kind::kOpen) jobs_.forget_beside();
   if (jobs_.kind() == Kind::kUpdate) {
     const bool overtaken = !same_scene(state_.document, jobs_.requested());
     jobs_.settle(scene_->document);

@@ -1,5 +1,6 @@
 #include "common/window/files/dropped_files.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,13 @@ bool is_solution(const std::filesystem::path& file) {
   }
 }
 
+/// Whether the ending is of formats that hold tracts alone.
+bool is_tractogram(const std::filesystem::path& file) {
+  return std::ranges::any_of(format_rows(), [ending = file.extension().string()](const FormatRow& row) {
+    return row.holds == "tracts" && names_ending(row, ending);
+  });
+}
+
 enum class Table : std::uint8_t { kNone, kSeeds, kTransfer };
 
 /// By the first line: no data that can be opened are a table of comma-separated values.
@@ -56,7 +64,8 @@ void put(const std::filesystem::path& file, const char* what, std::filesystem::p
 
 }  // namespace
 
-InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const InputFiles* open) {
+InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const InputFiles* open,
+                        std::vector<InputFiles>& beside) {
   InputFiles sorted;
   for (const auto& file : files) {
     if (is_session(file)) {
@@ -69,6 +78,14 @@ InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const I
     } else {
       sorted.files.push_back(file);
     }
+  }
+  std::vector<std::filesystem::path>& data = sorted.files;
+  const auto tracts = std::stable_partition(
+      data.begin(), data.end(), [](const std::filesystem::path& file) { return !is_tractogram(file); });
+  // Alone they are what is opened, beside what is open or in place of it.
+  if (tracts != data.begin() || !sorted.session.empty()) {
+    for (auto file = tracts; file != data.end(); ++file) beside.emplace_back().files.push_back(*file);
+    data.erase(tracts, data.end());
   }
   if (sorted.solution && sorted.files.empty() && open != nullptr) sorted.files = open->files;
   // Alone with nothing to go with, it is told by the model what it lacks.

@@ -310,7 +310,8 @@ std::optional<FileDialog::Paths> FileDialog::draw() {
     ImGui::SetNextItemWidth(-8.0F * em);
     if (takes_focus_) ImGui::SetKeyboardFocusHere();
     takes_focus_ = false;
-    (void)input_text(request_->writes ? "file name" : "name or path", &typed_);
+    (void)input_text(request_->writes ? "file name" : "name or path", &typed_,
+                     request_->writes ? ImGuiInputTextFlags_AutoSelectAll : 0);
     ImGui::PopID();
     handle_typing();
     ImGui::TextDisabled("%s", notice_.empty() ? (request_->writes ? "Enter saves, Esc leaves"

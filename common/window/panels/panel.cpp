@@ -154,7 +154,7 @@ void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& 
     }
   }
   ImGui::Spacing();
-  ImGui::TextDisabled("H keys,  / search,  F2 messages,  Tab hides this");
+  ImGui::TextDisabled("H  keys    /  search    Tab  hides this");
   ImGui::PopItemWidth();
   ImGui::End();
 }

@@ -131,7 +131,7 @@ void StartPage::draw_cards(const std::vector<Card>& cards, std::size_t first, co
 }
 
 StartPage::Actions StartPage::draw(const std::vector<InputFiles>& recent, const PictureOf& picture,
-                                   bool beside) {
+                                   bool beside, const std::string& message) {
   Actions actions;
   std::vector<Card> lately, made;
   for (const InputFiles& input : recent)
@@ -159,6 +159,7 @@ StartPage::Actions StartPage::draw(const std::vector<InputFiles>& recent, const 
   ImGui::TextDisabled("%s", beside ? "Esc goes back to what is open, H lists the keys"
                                    : "arrows and Enter choose, H lists the keys, Ctrl+Q quits");
   ImGui::EndGroup();
+  if (!message.empty()) ImGui::TextWrapped("%s", message.c_str());
   ImGui::Spacing();
   ImGui::BeginChild("cards");
   if (!lately.empty()) {

@@ -40,8 +40,9 @@ class StartPage {
   /// Arrows choose a card, Enter opens it. @return whether the event was for the page.
   bool handle(const InputEvent& event);
   /// Draws it over the whole window. @param recent newest first. @param beside something is open that Esc leads
-  /// back to.
-  [[nodiscard]] Actions draw(const std::vector<InputFiles>& recent, const PictureOf& picture, bool beside);
+  /// back to. @param message the last line that was said.
+  [[nodiscard]] Actions draw(const std::vector<InputFiles>& recent, const PictureOf& picture, bool beside,
+                             const std::string& message);
 
   [[nodiscard]] const std::vector<InputFiles>& examples() const noexcept { return examples_; }
 

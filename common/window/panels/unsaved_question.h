@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/compose/window_model.h"
 #include "common/window/input_event.h"
@@ -15,7 +16,8 @@ namespace palpate {
 struct Leaving {
   enum class Way : std::uint8_t { kQuit, kClose, kOpen };
   Way way = Way::kQuit;
-  InputFiles files = {};  ///< that are opened
+  InputFiles files = {};                ///< that are opened
+  std::vector<InputFiles> beside = {};  ///< and then these, one after the other, each beside what is open
 };
 
 class UnsavedQuestion {

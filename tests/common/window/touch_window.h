@@ -52,6 +52,7 @@ class HelixModel final : public WindowModel {
   }
   SceneState open(const InputFiles& files, Progress&) override {
     last_opened = files;
+    all_opened.push_back(files);
     Document document;
     if (!files.session.empty()) document = of_session;
     document.common.session = files.session;
@@ -74,6 +75,7 @@ class HelixModel final : public WindowModel {
   Document saved, of_session;
   std::vector<std::filesystem::path> saved_to;
   InputFiles last_opened;
+  std::vector<InputFiles> all_opened;
   std::atomic<int> closed{0};
 
  private:

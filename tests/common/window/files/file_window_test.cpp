@@ -231,6 +231,15 @@ TEST_F(FileWindow, DataASessionAndSeedsAreDroppedTogether) {
   EXPECT_NE(run().message.find("are two sessions"), std::string::npos);
 }
 
+TEST_F(FileWindow, TractsThatComeWithDataAreOpenedAfterThem) {
+  at(next(), {.kind = InputKind::kDrop, .files = {folder_.path("t.tck"), folder_.path("b.vtk")}});
+  last_ += 4 * kPause;
+  (void)run();
+  ASSERT_EQ(model_.all_opened.size(), 2U);
+  EXPECT_EQ(model_.all_opened[0], (InputFiles{{folder_.path("b.vtk")}}));
+  EXPECT_EQ(model_.all_opened[1], (InputFiles{{folder_.path("t.tck")}}));
+}
+
 TEST_F(FileWindow, ASessionOpensLikeAFileAndIsSavedThereAgain) {
   folder_.write("s.palpate.toml", "format = 1\nprogram = 'flow'\n[scene]\n");
   model_.of_session.view.background = "light";
