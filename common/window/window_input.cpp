@@ -193,17 +193,14 @@ void ExplorerWindow::reset_setting(const std::string& name) {
 }
 
 void ExplorerWindow::export_picture(const std::filesystem::path& file) {
-  if (files_.picture().running()) {
-    state_.say("a picture is being drawn: wait until it is there");
-    return;
-  }
-  files_.picture().start(with_focus(), file, picture_texts());
+  files_.picture().ask(with_focus(), file, picture_texts());
   state_.say("drawing " + file.string() + " …");
 }
 
 void ExplorerWindow::follow_export() {
   const auto outcome = files_.picture().take();
   if (!outcome) return;
+  glfwMakeContextCurrent(glfw_.get());
   if (outcome->done) {
     state_.say("saved " + outcome->words);
   } else {

@@ -82,35 +82,27 @@ void PictureExport::draw_choice() {
   (void)color_edit("##picture-background", &choice_.background->x);
 }
 
-void PictureExport::start(SceneView view, const std::filesystem::path& file,
-                          const std::vector<PngText>& texts) {
+void PictureExport::ask(SceneView view, const std::filesystem::path& file, std::vector<PngText> texts) {
   if (choice_.background) view.background = {*choice_.background, *choice_.background};
-  thread_ = std::jthread([this, view = std::move(view), file, texts, choice = choice_] {
-    Outcome outcome;
-    try {
-      const Image image = choice.transparent ? transparent_picture(view, choice.width, choice.height)
-                                             : render_panes(view, choice.width, choice.height).image;
-      write_png(file, image, texts);
-      outcome = {file.string(), true};
-    } catch (const std::exception& error) {
-      outcome = {error.what(), false};
-    }
-    {
-      const std::scoped_lock lock(mutex_);
-      outcome_ = std::move(outcome);
-    }
-    glfwPostEmptyEvent();
-  });
+  asked_ = Asked{std::move(view), file, std::move(texts)};
+  glfwPostEmptyEvent();
 }
 
 std::optional<PictureExport::Outcome> PictureExport::take() {
-  std::optional<Outcome> outcome;
-  {
-    const std::scoped_lock lock(mutex_);
-    outcome = std::exchange(outcome_, std::nullopt);
+  if (!asked_) return std::nullopt;
+  if (!std::exchange(asked_->said, true)) {
+    glfwPostEmptyEvent();
+    return std::nullopt;
   }
-  if (outcome) thread_ = {};  // it has nothing left to do
-  return outcome;
+  const Asked asked = *std::exchange(asked_, std::nullopt);
+  try {
+    const Image image = choice_.transparent ? transparent_picture(asked.view, choice_.width, choice_.height)
+                                            : render_panes(asked.view, choice_.width, choice_.height).image;
+    write_png(asked.file, image, asked.texts);
+    return Outcome{asked.file.string(), true};
+  } catch (const std::exception& error) {
+    return Outcome{error.what(), false};
+  }
 }
 
 }  // namespace palpate

@@ -1,12 +1,11 @@
 /// A picture of what a window shows, in a size and on a background of one's own: asked for in the file dialog, drawn
-/// off-screen while the window goes on.
+/// off-screen on the window's thread, which stands meanwhile. Text is laid out by Dear ImGui, which has one context
+/// for all threads, so that no other thread can draw.
 #pragma once
 
 #include <filesystem>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "common/render/png.h"
@@ -33,23 +32,27 @@ class PictureExport {
   /// Controls in two rows, for the file dialog.
   void draw_choice();
 
-  /// Draws `view` so into `file`, in the background. @pre !running()
-  void start(SceneView view, const std::filesystem::path& file, const std::vector<PngText>& texts);
-  [[nodiscard]] bool running() const noexcept { return thread_.joinable(); }
+  /// Has take() draw `view` so into `file`.
+  void ask(SceneView view, const std::filesystem::path& file, std::vector<PngText> texts);
   struct Outcome {
     std::string words;  ///< what was written, or why not
     bool done = false;
   };
-  /// What it came to, once.
+  /// Once a frame: draws what was asked for, in the frame after the one in which it was, so that this could say so.
+  /// Leaves no OpenGL context current then. @return what it came to.
   [[nodiscard]] std::optional<Outcome> take();
 
  private:
   PictureChoice choice_;
   int seen_width_ = 0, seen_height_ = 0;
   bool own_size_ = false;
-  std::mutex mutex_;
-  std::optional<Outcome> outcome_;  // under the mutex
-  std::jthread thread_;             // last: it uses the above
+  struct Asked {
+    SceneView view;
+    std::filesystem::path file;
+    std::vector<PngText> texts;
+    bool said = false;  // a frame has passed
+  };
+  std::optional<Asked> asked_;
 };
 
 }  // namespace palpate
