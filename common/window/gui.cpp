@@ -100,6 +100,7 @@ void Gui::set_background(const Background& background) {
   style.Colors[ImGuiCol_Header] = quiet;
   style.Colors[ImGuiCol_FrameBgHovered] = quiet;
   style.Colors[ImGuiCol_FrameBgActive] = quiet;
+  style.Colors[ImGuiCol_PopupBg] = style.Colors[ImGuiCol_WindowBg];  // no words shine through
   style.WindowBorderSize = 0.0F;
   style.WindowRounding = 0.0F;
   const float em = text_height_;

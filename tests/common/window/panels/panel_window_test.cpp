@@ -98,6 +98,7 @@ TEST_F(PanelWindow, EscapeClosesTheOfferOfADefault) {
 
 TEST_F(PanelWindow, TheDefaultOfADrawnPictureComesBack) {
   options_.view.background = Background::kLight;
+  press("TOUCH");  // folded, or what is below would be out of sight
   at_control(next(), {.kind = InputKind::kPress, .button = MouseButton::kRight}, "background");
   at(last_ + 2, {.kind = InputKind::kRelease, .button = MouseButton::kRight});
   press("Reset to default");
