@@ -3,6 +3,11 @@
 /// At each trial the hand is pulled to the blue start, where the device can; the space bar begins, once the
 /// cursor is at the start, and ends. A trial is on the disk before the next one begins: a window that is killed
 /// loses the trial at work and nothing else, and the next one goes on from there.
+///
+/// No trial begins without force: what keeps it away is said, and the space bar switches on what was switched off. A
+/// trial in which it was cut is kept as it was, told, and repeated at the end of its block (study_folder.h).
+///
+/// Where each eye has a half of the window, it has a whole picture and all of the text in it.
 #pragma once
 
 #include <filesystem>
@@ -33,10 +38,12 @@ enum class ParticipantScreen : std::uint8_t {
 struct ParticipantSight {
   int frame = 0;
   ParticipantScreen screen = ParticipantScreen::kWelcome;
-  int width = 0, height = 0;          ///< [pixels]
+  int width = 0, height = 0;          ///< [pixels] of what an eye sees: the window, or its half
   Camera camera;                      ///< of a trial
   const StudyTrial* trial = nullptr;  ///< null on other screens
   Vec3 cursor{0.0};                   ///< [m]
+  std::string task;                   ///< name; empty on other screens
+  std::string hint;                   ///< what is written below the picture
   std::size_t left = 0;               ///< trials
 };
 
@@ -44,7 +51,9 @@ struct ParticipantWindowOptions {
   ProbeSessionOptions touch;  ///< of which device, limits and rate are taken
   std::string device;         ///< how it was named
   StereoView stereo;
-  int width = 1152, height = 864;        ///< [screen coordinates] those of the reference
+  int width = 1152, height = 864;  ///< [screen coordinates] those of the reference
+  /// What whoever leads the experiment is told: a line at a time, when there is no force. Null: nobody listens.
+  std::function<void(const std::string&)> tell;
   std::function<bool()> stop_requested;  ///< asked each frame; true closes the window
   /// Events put in at each frame as if they came from mouse and keyboard.
   std::function<std::vector<InputEvent>(const ParticipantSight&)> hands;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -131,7 +132,8 @@ void StudyWork::make() {
        {"conditions at a place of the order", balance.conditions_of_place},
        {"stimuli at a place of the order", balance.stimuli_at_place},
        {"tasks at a place of the session", balance.tasks_at_place}}};
-  Json json{{"out", folder.path().string()}, {"trials", folder.design().size()}};
+  Json json{
+      {"out", folder.path().string()}, {"trials", folder.design().size()}, {"sequences", balance.sequences}};
   std::string off;
   for (const auto& [what, difference] : counts) {
     json["imbalance"][what] = difference;
@@ -139,7 +141,9 @@ void StudyWork::make() {
       off += std::string(off.empty() ? "" : ", ") + what + " by " + std::to_string(difference);
   }
   if (off.empty()) {
-    print("balanced: conditions, stimuli and tasks occur equally often, for participants and at all places");
+    print(
+        "balanced: conditions, stimuli and tasks occur equally often, for participants and at all places; " +
+        std::to_string(balance.sequences) + " sequences of conditions");
   } else {
     context_.console.note("counts that should be equal differ: " + off + "; a multiple of " +
                           std::to_string(std::lcm(asked_.recorded, plan.design.tasks)) +
@@ -161,14 +165,7 @@ void StudyWork::simulate() {
     StudyParticipant one{StudyFolder::code_of(number), number, true, {}};
     if (found != known.end()) one.code = found->code;
     if (!asked_.participant.empty() && asked_.participant != one.code) continue;
-    const ParticipantTraits t = draw_traits(plan.design.seed, number);
-    one.traits = {{"delay_s", t.delay},
-                  {"speed_m_per_s", t.speed},
-                  {"move_noise", t.move_noise},
-                  {"turn_noise_rad", t.turn_noise},
-                  {"sight_noise_m", t.sight_noise},
-                  {"depth_noise_m", t.depth_noise},
-                  {"gain_per_s", t.gain}};
+    one.traits = values_of(draw_traits(plan.design.seed, number));
     folder.enter(one);
     participants.push_back(std::move(one));
   }
@@ -176,37 +173,48 @@ void StudyWork::simulate() {
     throw usage_error("--participant " + asked_.participant +
                       ": the design has no such simulated participant");
   std::vector<std::pair<const StudyParticipant*, PlannedTrial>> left;
-  for (const StudyParticipant& one : participants) {
-    for (const PlannedTrial& trial : folder.left_for(one)) left.emplace_back(&one, trial);
-  }
-  context_.progress.begin("simulated participants", left.size());
-  const RecordingHeader head = header();
-  std::atomic<std::size_t> timed_out{0};
-  parallel_for(left.size(), options_.common.threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      context_.progress.check();
-      const auto& [who, planned] = left[i];
-      const StudyTask& task = *tasks[as_size(planned.task)];
-      const std::unique_ptr<StudyTrial> trial = task.open(planned.stimulus);
-      const ChainWords words{task.info().name, planned.stimulus, planned.guided, plan.guidance};
-      const RandomStream random({plan.design.seed, 12, static_cast<std::uint64_t>(who->number),
-                                 static_cast<std::uint64_t>(planned.task),
-                                 static_cast<std::uint64_t>(planned.trial)});
-      const TrialRun run = simulate_trial(*trial, task.info(), words,
-                                          draw_traits(plan.design.seed, who->number), random, &head);
-      if (run.outcome.timed_out) ++timed_out;
-      folder.write({who->code, task.info().name, planned.trial + 1, planned.stimulus, planned.practice,
-                    planned.guided, true, "simulated:premium3,hand=relaxed", run.outcome},
-                   run.recording, run.steps);
-      context_.progress.advance();
+  const auto find_left = [&] {
+    left.clear();
+    for (const StudyParticipant& one : participants) {
+      for (const PlannedTrial& trial : folder.left_for(one)) left.emplace_back(&one, trial);
     }
-  });
-  print("simulated: " + counted(participants.size(), "participant") + ", " + counted(left.size(), "trial") +
-        ", " + std::to_string(timed_out.load()) + " ended by the clock -> " + folder.path().string());
+    return !left.empty();
+  };
+  const RecordingHeader head = header();
+  std::atomic<std::size_t> timed_out{0}, flawed{0};
+  std::size_t done = 0;
+  for (; find_left(); done += left.size()) {  // again for those that are to be repeated
+    context_.progress.begin("simulated participants", left.size());
+    parallel_for(left.size(), options_.common.threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        context_.progress.check();
+        const auto& [who, planned] = left[i];
+        const StudyTask& task = *tasks[as_size(planned.task)];
+        const std::unique_ptr<StudyTrial> trial = task.open(planned.stimulus);
+        const ChainWords words{task.info().name, planned.stimulus, planned.guided, plan.guidance};
+        const RandomStream random({plan.design.seed, 12, static_cast<std::uint64_t>(who->number),
+                                   static_cast<std::uint64_t>(planned.task),
+                                   static_cast<std::uint64_t>(folder.run_of(planned))});
+        const TrialRun run = simulate_trial(*trial, task.info(), words,
+                                            draw_traits(plan.design.seed, who->number), random, &head);
+        if (run.outcome.timed_out) ++timed_out;
+        if (run.outcome.flaws.any()) ++flawed;
+        folder.write(
+            {who->code, task.info().name, folder.run_of(planned), planned.stimulus, planned.practice,
+             planned.guided, true, "simulated:premium3,hand=relaxed", run.outcome, HUGE_VAL, planned.attempt},
+            run.recording, run.steps);
+        context_.progress.advance();
+      }
+    });
+  }
+  print("simulated: " + counted(participants.size(), "participant") + ", " + counted(done, "trial") + ", " +
+        std::to_string(timed_out.load()) + " ended by the clock, " + std::to_string(flawed.load()) +
+        " without force at some step -> " + folder.path().string());
   context_.console.print_json(Json{
       {"participants", participants.size()},
-      {"trials", left.size()},
+      {"trials", done},
       {"timed_out", timed_out.load()},
+      {"flawed", flawed.load()},
       {"simulated", true}}.dump());
 }
 
@@ -345,6 +353,7 @@ void StudyWork::run() {
   window.touch = window_touch(modes_of(context_.explorer.kind), options_, context_);
   window.device = options_.hand.device;
   window.stereo = stereo_of(options_.view);
+  window.tell = [this](const std::string& what) { context_.console.note(what); };
   window.stop_requested = [this] { return context_.progress.cancelled(); };
   if (window.touch.tracker)
     throw usage_error("--device " + options_.hand.device +

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
@@ -43,17 +45,16 @@ std::vector<PlannedTrial> make_design(const DesignRequest& request) {
       RandomStream random(
           {request.seed, 2, static_cast<std::uint64_t>(task), static_cast<std::uint64_t>(participant / n)});
       const Square square(n, random);
-      const bool swapped = random.uniform() < 0.5;
       RandomStream own(
           {request.seed, 3, static_cast<std::uint64_t>(task), static_cast<std::uint64_t>(participant)});
-      const std::vector<int> practised = own.order(request.practice);
+      const std::vector<int> practised = own.order(request.practice), sides = own.order(request.practice);
       for (int trial = 0; trial < request.practice; ++trial) {
         design.push_back({participant, place, task, trial, true, n + practised[as_size(trial)],
-                          (trial % 2 == 0) != swapped});
+                          sides[as_size(trial)] % 2 == 0});
       }
       const int row = participant % n;
       for (int at = 0; at < n; ++at) {
-        const bool guided = ((square.column(at) + 2 * square.row(row) / n) % 2 == 0) != swapped;
+        const bool guided = (square.row(row) - square.column(at) + n) % n < n / 2;
         design.push_back(
             {participant, place, task, request.practice + at, false, square.symbol(row, at), guided});
       }
@@ -65,12 +66,14 @@ std::vector<PlannedTrial> make_design(const DesignRequest& request) {
 DesignBalance balance_of(const std::vector<PlannedTrial>& design) {
   using Key = std::tuple<int, int, int>;
   std::map<Key, int> participant, stimulus, place, stimulus_at, task_at;
-  std::map<int, std::pair<int, int>> extent;  // of stimuli and trials by task
+  std::map<int, std::pair<int, int>> extent;                  // of stimuli and trials by task
+  std::map<std::pair<int, int>, std::vector<bool>> sequence;  // of conditions by task and participant
   int tasks = 0;
   for (const PlannedTrial& t : design) {
     tasks = std::max(tasks, t.task + 1);
     if (t.practice) continue;
     const int sign = t.guided ? 1 : -1;
+    sequence[{t.task, t.participant}].push_back(t.guided);
     participant[{t.participant, t.task, 0}] += sign;
     stimulus[{t.task, t.stimulus, 0}] += sign;
     place[{t.task, t.trial, 0}] += sign;
@@ -96,8 +99,16 @@ DesignBalance balance_of(const std::vector<PlannedTrial>& design) {
   };
   std::size_t possible = 0;
   for (const auto& [task, limits] : extent) possible += as_size(limits.first) * as_size(limits.first);
-  return {largest(participant), largest(stimulus), largest(place), spread(stimulus_at, possible),
-          spread(task_at, as_size(tasks) * as_size(tasks))};
+  std::map<int, std::set<std::vector<bool>>> different;
+  for (const auto& [who, conditions] : sequence) different[who.first].insert(conditions);
+  int sequences = different.empty() ? 0 : INT32_MAX;
+  for (const auto& [task, all] : different) sequences = std::min(sequences, static_cast<int>(all.size()));
+  return {largest(participant),
+          largest(stimulus),
+          largest(place),
+          spread(stimulus_at, possible),
+          spread(task_at, as_size(tasks) * as_size(tasks)),
+          sequences};
 }
 
 }  // namespace palpate

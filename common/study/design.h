@@ -22,18 +22,23 @@ struct PlannedTrial {
   bool practice = false;
   int stimulus = 0;  ///< recorded ones first: 0 to recorded - 1, then those for practice
   bool guided = false;
+  int attempt = 0;  ///< 0, or how often it has been repeated: no part of the design
 };
 
 /// Recorded trials of a task: row r of a cyclic Latin square of n stimuli has at place c the stimulus and the
 /// condition
 ///
-///   s = (r + c) mod n,   guided = (c + floor(2 r / n)) mod 2,   n even
+///   s = (r + c) mod n,   guided where (r - c) mod n < n / 2,   n even
 ///
-/// with rows, places, stimuli and the two conditions renumbered at random, for each task and each n
-/// participants anew. So each participant has both conditions equally often; and over n participants each
-/// stimulus, at each place, is seen once, each stimulus in both conditions equally often where n is a multiple of
-/// four (else up to one more), and each place has both equally often. Tasks follow each other by a Latin square
-/// likewise. All in the order in which they are done.
+/// with rows, places and stimuli renumbered at random, for each task and each n participants anew. So each
+/// participant has both conditions equally often, in a sequence of conditions that is nobody else's among n. Over n
+/// participants each stimulus is seen at each place once, and each place has both conditions equally often: r - c
+/// runs through all residues with r and with c. Each stimulus has both equally often where n is a multiple of four,
+/// else n / 2 + 1 times the one and n / 2 - 1 times the other: r - c = 2 r - s has the residues of one parity, each
+/// twice, and no cyclic square of such an n divides better (Wanless 2002,
+/// Electron. J. Combin. 9:R12). Tasks follow each other by a Latin square likewise. Of
+/// trials for practice each participant has half in each condition, in an order of their own. All in the order in
+/// which they are done.
 /// @throws Error (usage) where `recorded` is odd or a number is too small.
 [[nodiscard]] std::vector<PlannedTrial> make_design(const DesignRequest& request);
 
@@ -44,6 +49,8 @@ struct DesignBalance {
   int conditions_of_place = 0;        ///< likewise of the trials at one place of a task
   int stimuli_at_place = 0;           ///< between stimuli at one place of a task
   int tasks_at_place = 0;             ///< between tasks at one place of the session
+  int sequences =
+      0;  ///< different sequences of conditions that participants have, in the task with the fewest
 };
 [[nodiscard]] DesignBalance balance_of(const std::vector<PlannedTrial>& design);
 

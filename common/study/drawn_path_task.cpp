@@ -1,5 +1,7 @@
 #include "common/study/drawn_path_task.h"
 
+#include <utility>
+
 #include "common/base/error.h"
 #include "common/base/index.h"
 
@@ -25,8 +27,10 @@ std::unique_ptr<StudyTrial> DrawnPathTask::open(int stimulus) const {
   return std::make_unique<PathTrial>(stimuli_.at(as_size(stimulus)));
 }
 
-std::vector<std::string> DrawnPathTask::stimulus_columns() const {
-  return {"start_x", "start_y", "start_z", "end_x", "end_y", "end_z"};
+std::vector<DataColumn> DrawnPathTask::stimulus_columns() const {
+  std::vector<DataColumn> columns = vector_columns("start", "where the path begins", "m");
+  for (DataColumn& column : vector_columns("end", "where it ends", "m")) columns.push_back(std::move(column));
+  return columns;
 }
 
 std::vector<double> DrawnPathTask::stimulus_row(int stimulus) const {

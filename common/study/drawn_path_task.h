@@ -23,7 +23,7 @@ class DrawnPathTask : public StudyTask {
   /// @throws Error (work failed) where ten thousand draws give too few.
   std::string prepare(std::uint64_t seed, int count, Progress& progress) override;
   [[nodiscard]] std::unique_ptr<StudyTrial> open(int stimulus) const override;
-  [[nodiscard]] std::vector<std::string> stimulus_columns() const override;
+  [[nodiscard]] std::vector<DataColumn> stimulus_columns() const override;
   [[nodiscard]] std::vector<double> stimulus_row(int stimulus) const override;
 
  private:

@@ -25,7 +25,25 @@ ParticipantTraits draw_traits(std::uint64_t seed, int number) {
   traits.sight_noise = varied(traits.sight_noise, 1.2, random);
   traits.depth_noise = varied(traits.depth_noise, 1.3, random);
   traits.gain = varied(traits.gain, 1.2, random);
+  traits.foresight = varied(traits.foresight, 1.2, random);
   return traits;
+}
+
+const std::vector<DataColumn>& trait_columns() {
+  static const std::vector<DataColumn> kColumns{
+      {"delay", "of a simulated participant: from seeing to moving", "s"},
+      {"foresight", "likewise: time ahead at which the way is looked at", "s"},
+      {"speed", "likewise: chosen speed", "m/s"},
+      {"move_noise", "likewise: noise of the motion, as a part of its speed", ""},
+      {"turn_noise", "likewise: noise of the direction", "rad"},
+      {"sight_noise", "likewise: of the place that is seen, across the view", "m"},
+      {"depth_noise", "likewise, along the view", "m"},
+      {"gain", "likewise: with which a distance from the path is corrected", "1/s"}};
+  return kColumns;
+}
+
+std::vector<double> values_of(const ParticipantTraits& t) {
+  return {t.delay, t.foresight, t.speed, t.move_noise, t.turn_noise, t.sight_noise, t.depth_noise, t.gain};
 }
 
 ParticipantModel::ParticipantModel(const ParticipantTraits& traits, const Mat3& view_axes, bool flat,
@@ -64,7 +82,7 @@ Vec3 ParticipantModel::aim(const StudyTrial& trial, const Vec3& x) {
     const Vec3 error = noise(sight_, 1.0, kSightTime, kLook);
     const double depth = flat_ ? 0.0 : traits_.depth_noise;
     const Vec3 off = axes_ * (Vec3{traits_.sight_noise, traits_.sight_noise, depth} * error);
-    cue_ = trial.cue(seen_[as_size((step_ - back) % kMemory)] + off);
+    cue_ = trial.cue(seen_[as_size((step_ - back) % kMemory)] + off, speed_ * traits_.foresight);
     const Vec3 turn = noise(turn_, traits_.turn_noise, kSightTime, kLook);
     if (const double pace = glm::length(cue_.along); pace > 0.0) {
       const Vec3 turned = cue_.along / pace + axes_ * (flat_ ? Vec3{turn.x, turn.y, 0.0} : turn);

@@ -1,10 +1,11 @@
 /// A simulated participant: sees where the cursor was, aims, and holds a simulated arm.
 ///
-/// Symbols. x cursor, a where the participant wants the hand to be, u unit direction to move on in and o way back
-/// to the path as the trial's cue gives them (task.h), v chosen speed, tau delay; n noises.
+/// Symbols. x cursor, a where the participant wants the hand to be, u(s, l) unit direction to move on in, a way of l
+/// ahead of s, and o(s) way back to the path as the trial's cue gives them (task.h), v chosen speed, tau delay, f
+/// foresight; n noises.
 ///
-///   s(t) = x(t - tau) + n_see                                  what is seen, n_see larger in depth         (1)
-///   a' = v (u(s) + n_turn) + g o(s) + v n_move + (x - a) / T   aim: moves on, corrects, follows the hand   (2)
+///   s(t) = x(t - tau) + n_see                                      what is seen, n_see larger in depth         (1)
+///   a' = v (u(s, v f) + n_turn) + g o(s) + v n_move + (x - a) / T  aim: moves on, corrects, follows the hand   (2)
 ///   r = a + tremor                                             the rest of the hand's spring (hand_model.h) (3)
 ///
 /// Noises are Ornstein-Uhlenbeck processes, per axis of the view. v n_move grows with speed: who is faster is less
@@ -12,6 +13,9 @@
 ///
 /// Where the numbers are from, all as means over participants with the spread between them:
 ///   tau     0.21 s, 0.03        visual corrections take 190 to 260 ms: Keele & Posner 1968, J. Exp. Psychol. 77:155
+///   f       0.25 s, factor 1.2  the direction is taken where the hand will be: who sees the way ahead makes up for delay
+///                               and lag of the arm (van der El, Pool, Damveld, van Paassen & Mulder 2016, IEEE Trans.
+///                               Cybern. 46:2609), here 0.21 + 0.04 s; no farther than the indicator is drawn
 ///   v       0.05 m/s, factor 1.3    some 3 s for a path of 0.1 m, within the limit that the reference set
 ///   n_move  0.20, factor 1.25   motor noise in proportion to the command: Harris & Wolpert 1998, Nature 394:780; linear
 ///                               speed-accuracy trade-off: Schmidt et al. 1979, Psychol. Rev. 86:415
@@ -26,9 +30,11 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "common/device/hand_model.h"
 #include "common/math/vec.h"
+#include "common/study/data_column.h"
 #include "common/study/random_stream.h"
 #include "common/study/task.h"
 
@@ -36,6 +42,7 @@ namespace palpate {
 
 struct ParticipantTraits {
   double delay = 0.21;         ///< tau [s]
+  double foresight = 0.25;     ///< f [s]
   double speed = 0.050;        ///< v [m/s]
   double move_noise = 0.20;    ///< part of v
   double turn_noise = 0.10;    ///< [rad]
@@ -44,6 +51,11 @@ struct ParticipantTraits {
   double gain = 2.5;           ///< g [1/s]
   HandImpedance hand = kRelaxedHand;
 };
+
+/// What a table of participants says of them, in this order.
+[[nodiscard]] const std::vector<DataColumn>& trait_columns();
+/// The numbers of these columns.
+[[nodiscard]] std::vector<double> values_of(const ParticipantTraits& traits);
 
 /// The traits of a participant, drawn as above. @param number of the participant, from 0.
 [[nodiscard]] ParticipantTraits draw_traits(std::uint64_t seed, int number);

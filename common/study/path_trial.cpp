@@ -65,10 +65,11 @@ class SlightDrag final : public Constraint {
   double stiffness_, part_ = 1.0;
 };
 
+constexpr double kIndicator = 0.03;  // [m]
+
 /// A short streamline from `x` on, of the direction alone.
-std::vector<Vec3> indicator_from(const VectorField& field, Vec3 x, double length) {
-  constexpr int kSteps = 16;
-  const double h = length / kSteps;
+std::vector<Vec3> indicator_from(const VectorField& field, Vec3 x, double length, int steps = 16) {
+  const double h = length / steps;
   CellHint hint;
   bool inside = true;
   const auto direction = [&](const Vec3& at) {
@@ -78,7 +79,7 @@ std::vector<Vec3> indicator_from(const VectorField& field, Vec3 x, double length
     return inside ? sample.value / speed : Vec3{0.0};
   };
   std::vector<Vec3> line{x};
-  for (int i = 0; i < kSteps && inside; ++i) {
+  for (int i = 0; i < steps && inside; ++i) {
     const Vec3 k1 = direction(x), k2 = direction(x + 0.5 * h * k1), k3 = direction(x + 0.5 * h * k2),
                k4 = direction(x + h * k3);
     if (!inside) break;
@@ -117,6 +118,14 @@ PathFoot foot_on(const std::vector<Vec3>& path, const Vec3& x) noexcept {
     arc += length;
   }
   return best;
+}
+
+Vec3 tangent_at(const std::vector<Vec3>& path, double arc) noexcept {
+  for (std::size_t i = 0; i + 2 < path.size(); ++i) {
+    arc -= glm::distance(path[i], path[i + 1]);
+    if (arc < 0.0) return glm::normalize(path[i + 1] - path[i]);
+  }
+  return glm::normalize(path.back() - path[path.size() - 2]);
 }
 
 std::unique_ptr<ProxyChain> PathTrial::chain(bool guided, double guidance) const {
@@ -174,11 +183,11 @@ void PathTrial::follow(const HandStep& step) {
   ++steps_;
 }
 
-TrialCue PathTrial::cue(const Vec3& where) const {
+TrialCue PathTrial::cue(const Vec3& where, double ahead) const {
   const Vec3 x = seen(where);
   TrialCue cue{.arrived = reached()};
   const PathFoot foot = foot_on(stimulus_->path, x);
-  cue.along = foot.tangent;
+  cue.along = tangent_at(stimulus_->path, foot.arc + ahead);
   if (stimulus_->shown) {
     const Vec3 end = stimulus_->path.back(), left = end - x;
     constexpr double kClose = 0.010;  // [m] from where on the end itself is aimed at, ever slower
@@ -188,8 +197,12 @@ TrialCue PathTrial::cue(const Vec3& where) const {
       cue.along = left / std::max(kClose, glm::length(left));
     return cue;
   }
+  // Nobody sees farther than the indicator goes.
+  constexpr int kSteps = 4;
+  const std::vector<Vec3> drawn =
+      indicator_from(*stimulus_->field, x, std::clamp(ahead, 0.0, kIndicator), kSteps);
   CellHint hint;
-  const VectorSample sample = stimulus_->field->sample(x, hint);
+  const VectorSample sample = stimulus_->field->sample(drawn.back(), hint);
   const double speed = glm::length(sample.value);
   if (sample.status == SampleStatus::kOk && speed > 0.0) cue.along = sample.value / speed;
   return cue;
@@ -213,7 +226,6 @@ SceneView PathTrial::view(const Vec3* cursor, double aspect) const {
   look.disc(start(), StudyLook::kBlue);
   if (cursor == nullptr) return view;
   const Vec3 x = seen(*cursor);
-  constexpr double kIndicator = 0.03;  // [m]
   if (!stimulus_->shown)
     look.ribbon(indicator_from(*stimulus_->field, x, kIndicator), StudyLook::kDark, true);
   look.crosshair(x);

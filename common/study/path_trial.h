@@ -40,6 +40,9 @@ struct PathFoot {
   double arc = 0.0;   ///< [m] from the start
 };
 [[nodiscard]] PathFoot foot_on(const std::vector<Vec3>& path, const Vec3& x) noexcept;
+/// Unit tangent of a polyline at `arc` [m] from its start; beyond its end that of its last piece.
+/// @pre two points at least, no two that follow each other alike.
+[[nodiscard]] Vec3 tangent_at(const std::vector<Vec3>& path, double arc) noexcept;
 
 class PathTrial final : public StudyTrial {
  public:
@@ -52,7 +55,7 @@ class PathTrial final : public StudyTrial {
   [[nodiscard]] Mat3 view_axes() const override { return stimulus_->view; }
   void begin() override;
   void follow(const HandStep& step) override;
-  [[nodiscard]] TrialCue cue(const Vec3& seen) const override;
+  [[nodiscard]] TrialCue cue(const Vec3& seen, double ahead) const override;
   [[nodiscard]] bool reached() const override { return reached_.has_value(); }
   /// Advection: of the place where the goal was met (else of the last cursor) from the end of the path.
   /// Tracing: mean distance of the cursor from the path.

@@ -1,7 +1,6 @@
 #include "common/study/study_folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +11,7 @@
 #include "common/base/version.h"
 #include "common/study/packed_text.h"
 #include "common/study/study_disk.h"
+#include "common/study/study_tables.h"
 
 namespace palpate {
 namespace {
@@ -20,17 +20,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanFile = "study.json";
+constexpr const char* kPeopleFile = "participants.tsv";
+constexpr const char* kDesignFile = "design.tsv";
 constexpr const char* kLocks = ".locks";  // beside what BIDS knows
-
-std::string pretty(const Json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
-
-/// Letters and digits alone: what becomes part of a file's name.
-bool is_plain(const std::string& word) {
-  return !word.empty() && word.size() <= 32 &&
-         std::ranges::all_of(word, [](unsigned char c) { return std::isalnum(c) != 0; });
-}
 
 std::string two_digits(int number) {
   std::string text = std::to_string(number);
@@ -64,72 +56,6 @@ StudyPlan plan_of(const fs::path& file, const Json& json) {
   plan.design.recorded = static_cast<int>(whole_number(file, json, "recorded_trials", 2, kMostTrials));
   plan.guidance = json.at("guidance");
   return plan;
-}
-
-Json dictionary_of(const StudyTaskInfo& info) {
-  return {
-      {"TaskName", info.title},
-      {"flat", info.flat},
-      {"pair", info.pair},
-      {"TaskDescription", info.instruction},
-      {"participant", {{"Description", "anonymous code"}}},
-      {"run", {{"Description", "trial of the task, from 1; those for practice first"}}},
-      {"phase", {{"Levels", {{"practice", "not analysed"}, {"recorded", "analysed"}}}}},
-      {"stimulus", {{"Description", "row of the table in stimuli/, from 0"}}},
-      {"condition",
-       {{"Levels",
-         {{"ISO", "slight drag, the same in all directions"},
-          {"ANISO", "guided along what is to be followed"}}}}},
-      {"completion_time",
-       {{"Description", "from the space bar that begins to the one that ends"}, {"Units", "s"}}},
-      {"position_error", {{"Description", info.error}, {"Units", "mm"}}},
-      {"reached", {{"Description", "whether the goal was met"}}},
-      {"lost_steps", {{"Description", "steps that the recording lacks; the trial is left out"}}},
-      {"fault_steps", {{"Description", "steps with a fault of device or servo; the trial is left out"}}},
-      {"cut_steps",
-       {{"Description", "steps without force, as the hand was off or out of reach; the trial is left out"}}},
-      {"off_steps", {{"Description", "steps with the force switched off; the trial is left out"}}},
-      {"most_stiffness",
-       {{"Description", "of which the device was found capable; null: not bounded"}, {"Units", "N/m"}}},
-      {"end", {{"Levels", {{"space", "the participant ended it"}, {"timeout", "it ended by itself"}}}}},
-      {"simulated", {{"Description", "true where the participant is a program"}}},
-      {"cutoff_time",
-       {{"Description", "slower trials are left out"}, {"Value", info.cutoff_time}, {"Units", "s"}}},
-      {"cutoff_error",
-       {{"Description", "trials with a larger error are left out"},
-        {"Value", info.cutoff_error},
-        {"Units", "mm"}}},
-      {"motion.tsv.gz",
-       {{"SamplingFrequency", 100},
-        {"Columns",
-         {"time [s]", "x", "y", "z (cursor [m])", "px", "py", "pz (proxy [m])", "fx", "fy", "fz (force [N])",
-          "state"}}}}};
-}
-
-std::string stimulus_table(const StudyTask& task, const DesignRequest& design) {
-  std::string table = "stimulus";
-  for (const std::string& column : task.stimulus_columns()) table += "\t" + column;
-  table += "\n";
-  for (int s = 0; s < design.practice + design.recorded; ++s) {
-    table += std::to_string(s);
-    for (const double value : task.stimulus_row(s)) table += "\t" + exact_number(value);
-    table += "\n";
-  }
-  return table;
-}
-
-std::string motion_table(const std::vector<HandStep>& steps) {
-  constexpr std::size_t kEvery = 10;
-  std::string text = "time\tx\ty\tz\tpx\tpy\tpz\tfx\tfy\tfz\tstate\n";
-  for (std::size_t i = 0; i < steps.size(); i += kEvery) {
-    const HandStep& step = steps[i];
-    text += short_number(step.time - steps.front().time);
-    for (const Vec3& v : {step.probe, step.chain.proxy(step.probe), step.force}) {
-      for (int axis = 0; axis < 3; ++axis) text += "\t" + short_number(v[axis]);
-    }
-    text += "\t" + std::string(name_of(step.state)) + "\n";
-  }
-  return text;
 }
 
 void check_code(const std::string& code) {
@@ -178,6 +104,11 @@ StudyFolder::StudyFolder(fs::path folder) : folder_(std::move(folder)) {
     throw input_error({file.string(), "", error.what(), "", "restore it from a copy"});
   }
   design_ = make_design(plan_.design);
+  if (read_study_text(folder_ / kDesignFile) != design_table(design_, plan_.tasks))
+    throw input_error({(folder_ / kDesignFile).string(), "",
+                       "the trials that this program plans from the seed are other ones", "",
+                       "use the version that made the experiment, " + plan_.version +
+                           ", and study.json and design.tsv as they were"});
 }
 
 void StudyFolder::check(const StudyPlan& plan) {
@@ -243,7 +174,7 @@ StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, con
     if (!overwrite || !fs::exists(folder / kPlanFile, ignored))
       throw usage_error(folder.string() + " is there already; give another name" +
                         (fs::exists(folder / kPlanFile, ignored) ? " or --force" : ""));
-    if (fs::exists(folder / "participants.tsv", ignored))
+    if (fs::exists(folder / kPeopleFile, ignored))
       throw usage_error(folder.string() + " holds an experiment that has begun; it is not replaced");
   }
   make_study_folder(folder / "stimuli");
@@ -258,51 +189,30 @@ StudyFolder StudyFolder::make(const fs::path& folder, const StudyPlan& plan, con
                        {"DatasetType", "raw"},
                        {"GeneratedBy", {{{"Name", "Palpate"}, {"Version", plan.version}}}}}));
   std::string readme = "An experiment: does guidance of the hand help?\n\nTasks:";
-  std::string design = "number\torder\ttask\trun\tphase\tstimulus\tcondition\n";
-  std::map<std::pair<int, int>, int> place;
-  for (const PlannedTrial& t : out.design_) {
-    design += std::to_string(t.participant) + "\t" + std::to_string(++place[{t.participant, 0}]) + "\t" +
-              plan.tasks[as_size(t.task)] + "\t" + std::to_string(t.trial + 1) + "\t" +
-              (t.practice ? "practice" : "recorded") + "\t" + std::to_string(t.stimulus) + "\t" +
-              std::string(condition_name(t.guided)) + "\n";
-  }
   for (const auto& task : tasks) {
     const StudyTaskInfo& info = task->info();
     readme += "\n  " + info.name + ": " + info.title;
-    write_safely(folder / ("task-" + info.name + "_beh.json"), pretty(dictionary_of(info)));
-    write_safely(folder / "stimuli" / ("task-" + info.name + "_stimuli.tsv"),
-                 stimulus_table(*task, plan.design));
+    const std::string start = "task-" + info.name + "_";
+    write_safely(folder / (start + "beh.json"), task_dictionary(info));
+    write_safely(folder / (start + "motion.json"), motion_dictionary());
+    write_safely(folder / "stimuli" / (start + "stimuli.json"), stimulus_dictionary(*task));
+    write_safely(folder / "stimuli" / (start + "stimuli.tsv"), stimulus_table(*task, plan.design));
   }
   write_safely(
       folder / "README",
       readme +
           "\n\nAll stimuli are made again from the seed in study.json. Participants are known by codes alone.\n");
-  write_safely(folder / "design.tsv", design);
-  write_safely(folder / "design.json",
-               pretty({{"number", {{"Description", "of the participant, from 0: see participants.tsv"}}},
-                       {"order", {{"Description", "of the trial in the participant's session, from 1"}}},
-                       {"run", {{"Description", "of the trial in its task, from 1"}}},
-                       {"condition", {{"Description", "ISO or ANISO: see the dictionaries of the tasks"}}}}));
+  write_safely(folder / "design.json", data_dictionary(design_columns()));
+  write_safely(folder / "participants.json", data_dictionary(participant_columns()));
+  write_safely(folder / kDesignFile, design_table(out.design_, plan.tasks));
   write_safely(folder / kPlanFile, pretty(plan_json(plan)));
   return out;
 }
 
 std::vector<StudyParticipant> StudyFolder::participants() const {
-  std::vector<StudyParticipant> out;
-  const fs::path file = folder_ / "participants.json";
-  if (!fs::exists(file)) return out;
-  return taken(file, [&](const Json& json) {
-    for (const Json& one : json.at("participants")) {
-      const int number =
-          static_cast<int>(whole_number(file, one, "number", 0, plan_.design.participants - 1));
-      StudyParticipant p{one.at("code"), number, one.at("simulated"), {}};
-      if (!is_plain(p.code)) throw input_error({file.string(), "", "'" + p.code + "'", "a code", ""});
-      for (const auto& [name, value] : one.at("traits").items())
-        p.traits.emplace_back(name, value.get<double>());
-      out.push_back(std::move(p));
-    }
-    return out;
-  });
+  const fs::path file = folder_ / kPeopleFile;
+  if (!fs::exists(file)) return {};
+  return participants_of(file.string(), read_study_text(file), plan_.design.participants);
 }
 
 void StudyFolder::enter(const StudyParticipant& participant) {
@@ -318,20 +228,11 @@ void StudyFolder::enter(const StudyParticipant& participant) {
   }
   all.push_back(participant);
   std::ranges::sort(all, {}, &StudyParticipant::number);
-  Json list = Json::array();
-  std::string table = "participant_id\tnumber\tsimulated\n";
-  for (const StudyParticipant& p : all) {
-    Json traits = Json::object();
-    for (const auto& [name, value] : p.traits) traits[name] = value;
-    list.push_back({{"code", p.code}, {"number", p.number}, {"simulated", p.simulated}, {"traits", traits}});
-    table +=
-        "sub-" + p.code + "\t" + std::to_string(p.number) + "\t" + (p.simulated ? "true" : "false") + "\n";
-  }
-  write_safely(folder_ / "participants.tsv", table);
-  write_safely(folder_ / "participants.json",
-               pretty({{"number", {{"Description", "row of the design, from 0"}}},
-                       {"simulated", {{"Description", "true where the participant is a program"}}},
-                       {"participants", list}}));
+  write_safely(folder_ / kPeopleFile, participants_table(all));
+}
+
+int StudyFolder::run_of(const PlannedTrial& trial) const noexcept {
+  return trial.trial + 1 + trial.attempt * (plan_.design.practice + plan_.design.recorded);
 }
 
 fs::path StudyFolder::stem(const std::string& code, const std::string& task, int run) const {
@@ -345,12 +246,25 @@ bool StudyFolder::has(const std::string& code, const std::string& task, int run)
 }
 
 std::vector<PlannedTrial> StudyFolder::left_for(const StudyParticipant& participant) const {
-  std::vector<PlannedTrial> left;
-  for (const PlannedTrial& t : design_) {
-    if (t.participant == participant.number &&
-        !has(participant.code, plan_.tasks[as_size(t.task)], t.trial + 1))
-      left.push_back(t);
+  std::vector<PlannedTrial> left, repeats;
+  const PlannedTrial* before = nullptr;
+  for (const PlannedTrial& planned : design_) {
+    if (planned.participant != participant.number) continue;
+    if (before != nullptr && (before->task != planned.task || before->practice != planned.practice)) {
+      left.insert(left.end(), repeats.begin(), repeats.end());
+      repeats.clear();
+    }
+    before = &planned;
+    PlannedTrial next = planned;
+    while (next.attempt < kMostAttempts &&
+           has(participant.code, plan_.tasks[as_size(next.task)], run_of(next)) &&
+           read(participant, next).outcome.flaws.any())
+      ++next.attempt;
+    if (next.attempt == kMostAttempts || has(participant.code, plan_.tasks[as_size(next.task)], run_of(next)))
+      continue;
+    (next.attempt == 0 ? left : repeats).push_back(next);
   }
+  left.insert(left.end(), repeats.begin(), repeats.end());
   return left;
 }
 
@@ -367,6 +281,7 @@ void StudyFolder::write(const TrialRecord& record, const std::string& recording,
                pretty({{"participant", record.participant},
                        {"task", record.task},
                        {"run", record.run},
+                       {"attempt", record.attempt + 1},
                        {"phase", record.practice ? "practice" : "recorded"},
                        {"stimulus", record.stimulus},
                        {"condition", condition_name(record.guided)},
@@ -388,7 +303,7 @@ void StudyFolder::write(const TrialRecord& record, const std::string& recording,
 
 TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& planned) const {
   const std::string& task = plan_.tasks[as_size(planned.task)];
-  const fs::path file = stem(who.code, task, planned.trial + 1).string() + "beh.json";
+  const fs::path file = stem(who.code, task, run_of(planned)).string() + "beh.json";
   return taken(file, [&](const Json& json) {
     constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
     const auto count = [&](const char* key) {
@@ -397,7 +312,8 @@ TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& p
     TrialRecord r;
     r.participant = json.at("participant");
     r.task = json.at("task");
-    r.run = static_cast<int>(whole_number(file, json, "run", 1, 2 * kMostTrials));
+    r.run = static_cast<int>(whole_number(file, json, "run", 1, 2 * kMostTrials * kMostAttempts));
+    r.attempt = static_cast<int>(whole_number(file, json, "attempt", 1, kMostAttempts)) - 1;
     r.practice = is_second(file, json, "phase", "recorded", "practice");
     r.stimulus = static_cast<int>(whole_number(file, json, "stimulus", 0, 2 * kMostTrials));
     r.guided = is_second(file, json, "condition", condition_name(false), condition_name(true));
@@ -411,9 +327,9 @@ TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& p
     r.outcome.end = count("end_step");
     r.outcome.flaws = {count("lost_steps"), count("fault_steps"), count("cut_steps"), count("off_steps")};
     if (const Json& most = json.at("most_stiffness"); !most.is_null()) r.most_stiffness = most;
-    if (r.participant != who.code || r.task != task || r.run != planned.trial + 1 ||
-        r.stimulus != planned.stimulus || r.practice != planned.practice || r.guided != planned.guided ||
-        r.simulated != who.simulated)
+    if (r.participant != who.code || r.task != task || r.run != run_of(planned) ||
+        r.attempt != planned.attempt || r.stimulus != planned.stimulus || r.practice != planned.practice ||
+        r.guided != planned.guided || r.simulated != who.simulated)
       throw input_error({file.string(), "", "it is of another trial than the design has there", "",
                          "restore it, or study.json and participants.json, from a copy"});
     if (!(r.outcome.seconds >= 0.0) || !(r.outcome.error >= 0.0) || !(r.most_stiffness >= 0.0))
@@ -434,8 +350,12 @@ std::vector<TrialRecord> StudyFolder::trials() const {
   for (StudyParticipant& p : participants()) known[p.number] = std::move(p);
   for (const PlannedTrial& t : design_) {
     const auto who = known.find(t.participant);
-    if (who != known.end() && has(who->second.code, plan_.tasks[as_size(t.task)], t.trial + 1))
-      out.push_back(read(who->second, t));
+    PlannedTrial one = t;
+    while (one.attempt < kMostAttempts && who != known.end() &&
+           has(who->second.code, plan_.tasks[as_size(t.task)], run_of(one))) {
+      out.push_back(read(who->second, one));
+      ++one.attempt;
+    }
   }
   return out;
 }

@@ -1,6 +1,6 @@
 /// The folder of an experiment, laid out after BIDS (Gorgolewski et al. 2016), so that others can read it:
 ///
-///   dataset_description.json  study.json  README  participants.tsv, .json  design.tsv, .json
+///   dataset_description.json  study.json  README  participants.tsv  design.tsv
 ///   task-NAME_beh.json        data dictionary of the trials of a task
 ///   stimuli/task-NAME_stimuli.tsv
 ///   sub-CODE/beh/sub-CODE_task-NAME_run-NN_beh.json           what came of a trial
@@ -9,8 +9,15 @@
 ///   sub-CODE/sub-CODE_questionnaire.json
 ///   .locks/  who has the folder in use
 ///
+/// Each table has its dictionary beside it, under its name and .json; that of all _motion.tsv.gz of a task is
+/// task-NAME_motion.json.
+///
 /// A trial is there once its _beh.json is: that file is written last, and each of them under another name first,
 /// is forced to the disk and then renamed. Nothing but the code tells who a participant was.
+///
+/// A trial with flaws (TrialFlaws) is kept as it was, and repeated at the end of its block, up to kMostAttempts times in
+/// all. The block is what a participant does of a task, practice and recorded trials apart. NN counts trials of the task
+/// in the design, from 1; a repeat has the next number that is as far on as the task has trials: 7, 37, 67 of 30.
 #pragma once
 
 #include <cmath>
@@ -19,11 +26,11 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/study/design.h"
 #include "common/study/study_lock.h"
+#include "common/study/study_participant.h"
 #include "common/study/task.h"
 #include "common/study/trial_run.h"
 
@@ -38,19 +45,11 @@ struct StudyPlan {
   double guidance = 1.0;
 };
 
-/// One line of participants.tsv.
-struct StudyParticipant {
-  std::string code;
-  int number = 0;  ///< in the design, from 0
-  bool simulated = false;
-  std::vector<std::pair<std::string, double>> traits;  ///< of a simulated one
-};
-
 /// A trial that was done.
 struct TrialRecord {
   std::string participant;
   std::string task;
-  int run = 1;  ///< of the task, from 1, practice first
+  int run = 1;  ///< of the task, from 1, practice first; a repeat as StudyFolder::run_of() counts it
   int stimulus = 0;
   bool practice = false;
   bool guided = false;
@@ -58,6 +57,7 @@ struct TrialRecord {
   std::string device;  ///< what moved the cursor
   TrialOutcome outcome;
   double most_stiffness = HUGE_VAL;  ///< [N/m] of the chain, as the device bears it
+  int attempt = 0;                   ///< 0, or which repeat it is
 };
 
 class StudyFolder {
@@ -76,6 +76,10 @@ class StudyFolder {
   [[nodiscard]] const std::vector<PlannedTrial>& design() const noexcept { return design_; }
   /// What the dictionary of a task says of it. @throws Error (bad input).
   [[nodiscard]] StudyTaskInfo task(const std::string& name) const;
+  /// Repeats of a trial included.
+  static constexpr int kMostAttempts = 3;
+  /// The number of a trial in its files, from 1.
+  [[nodiscard]] int run_of(const PlannedTrial& trial) const noexcept;
   /// Whether the stimuli that the tasks have prepared are those of the folder, to 1e-6. @throws Error (bad input).
   void check_stimuli(const StudyTasks& tasks) const;
   /// Takes a place of the design, or the whole folder, for a session: `kShared` where others may sit at other places.
@@ -91,7 +95,8 @@ class StudyFolder {
   void enter(const StudyParticipant& participant);
 
   [[nodiscard]] bool has(const std::string& code, const std::string& task, int run) const;
-  /// Trials of a participant that are not there yet, in their order.
+  /// Trials of a participant that are to be done, in their order: those that are not there, and repeats at the end of
+  /// their blocks. @throws Error (bad input) for a trial that is damaged.
   [[nodiscard]] std::vector<PlannedTrial> left_for(const StudyParticipant& participant) const;
   /// Writes a trial: it is on the disk when this returns.
   /// @param recording its text. @throws Error (work failed), also for a trial without steps, or a time or an error that
@@ -100,7 +105,7 @@ class StudyFolder {
   /// @throws Error (bad input) where it is damaged, or no trial of the design.
   [[nodiscard]] TrialRecord read(const StudyParticipant& who, const PlannedTrial& planned) const;
   [[nodiscard]] Recording recording(const std::string& code, const std::string& task, int run) const;
-  /// All trials that are there, in the order of the design.
+  /// All trials that are there, each with its repeats, in the order of the design.
   [[nodiscard]] std::vector<TrialRecord> trials() const;
 
   /// Answers by question; empty where the form was not filled in.

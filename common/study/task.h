@@ -15,6 +15,7 @@
 #include "common/haptics/proxy_chain.h"
 #include "common/render/scene_view.h"
 #include "common/servo/hand_step.h"
+#include "common/study/data_column.h"
 
 namespace palpate {
 
@@ -66,7 +67,8 @@ class StudyTrial {
   /// The next step of the hand, from the beginning of the trial to its end.
   virtual void follow(const HandStep& step) = 0;
   /// What somebody sees who believes the cursor to be at `seen`.
-  [[nodiscard]] virtual TrialCue cue(const Vec3& seen) const = 0;
+  /// @param ahead [m] how far along what is drawn there they look, where a way is drawn: its direction there.
+  [[nodiscard]] virtual TrialCue cue(const Vec3& seen, double ahead) const = 0;
   /// Whether the goal was reached.
   [[nodiscard]] virtual bool reached() const = 0;
   /// The position error of the trial as it ended [mm].
@@ -88,8 +90,8 @@ class StudyTask {
   virtual std::string prepare(std::uint64_t seed, int count, Progress& progress) = 0;
   /// @pre prepare() was called with a larger count. Any thread.
   [[nodiscard]] virtual std::unique_ptr<StudyTrial> open(int stimulus) const = 0;
-  /// A row for each stimulus, for those who analyse the data: names of columns, then numbers.
-  [[nodiscard]] virtual std::vector<std::string> stimulus_columns() const = 0;
+  /// A row for each stimulus, for those who analyse the data: columns, then numbers.
+  [[nodiscard]] virtual std::vector<DataColumn> stimulus_columns() const = 0;
   [[nodiscard]] virtual std::vector<double> stimulus_row(int stimulus) const = 0;
 };
 

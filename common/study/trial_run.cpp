@@ -38,14 +38,22 @@ std::unique_ptr<ProxyChain> start_chain(const Vec3& start, double most_stiffness
 
 }  // namespace
 
+bool tells_nothing(const HandStep& step, std::size_t at) noexcept {
+  constexpr std::size_t kGrowing = 50;  // steps in which the chain of the trial is in place for sure
+  if (step.cut == ForceCut::kStart) return at > kGrowing;
+  return (step.cut != ForceCut::kNone && step.cut != ForceCut::kJump) || step.state == HoldState::kFault;
+}
+
 TrialFlaws flaws_of(const std::vector<HandStep>& steps, std::uint64_t lost) noexcept {
   TrialFlaws flaws{.lost = lost};
-  for (const HandStep& step : steps) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const HandStep& step = steps[i];
+    if (!tells_nothing(step, i)) continue;
     if (is_fault(step.cut) || step.state == HoldState::kFault) {
       ++flaws.faults;
     } else if (step.cut == ForceCut::kSwitchedOff) {
       ++flaws.off;
-    } else if (step.cut != ForceCut::kNone && step.cut != ForceCut::kStart && step.cut != ForceCut::kJump) {
+    } else {
       ++flaws.cut;
     }
   }

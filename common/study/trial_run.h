@@ -16,11 +16,14 @@ namespace palpate {
 struct TrialFlaws {
   std::uint64_t lost = 0;    ///< that the recording lacks
   std::uint64_t faults = 0;  ///< with a fault (ForceCut)
-  std::uint64_t cut = 0;     ///< without force: no hand, out of reach, enabling button released
-  std::uint64_t off = 0;     ///< with the force switched off
+  std::uint64_t cut = 0;  ///< without force: no hand, out of reach, enabling button released, after a stall
+  std::uint64_t off = 0;  ///< with the force switched off
 
   [[nodiscard]] bool any() const noexcept { return lost + faults + cut + off > 0; }
 };
+/// Whether there was no force in a step where there should be. @param at number of the step in its trial, from 0: at
+/// first it grows from zero (ForceCut::kStart), which is no flaw; later it does so after the servo stood still.
+[[nodiscard]] bool tells_nothing(const HandStep& step, std::size_t at) noexcept;
 [[nodiscard]] TrialFlaws flaws_of(const std::vector<HandStep>& steps, std::uint64_t lost) noexcept;
 
 /// How a trial ended.

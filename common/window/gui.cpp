@@ -164,4 +164,15 @@ void Gui::end_frame() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
+void Gui::end_frame(std::span<const Vec2> corners, int width, int height) {
+  ImGui::SetCurrentContext(context_);
+  ImGui::Render();
+  ImDrawData& drawn = *ImGui::GetDrawData();
+  for (const Vec2& corner : corners) {
+    drawn.DisplayPos = {-static_cast<float>(corner.x), -static_cast<float>(corner.y)};
+    drawn.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+    ImGui_ImplOpenGL3_RenderDrawData(&drawn);
+  }
+}
+
 }  // namespace palpate

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class Gui {
   void begin_frame(const std::vector<InputEvent>& events, int width, int height, double seconds);
   /// Draws the panels over the framebuffer that is bound.
   void end_frame();
+  /// The same ones with their upper left corner at each of `corners` [pixels]: once for each eye, where a framebuffer of
+  /// width x height pixels has a part for each.
+  void end_frame(std::span<const Vec2> corners, int width, int height);
 
   void set_background(const Background& background);
   [[nodiscard]] float text_height() const noexcept { return text_height_; }

@@ -18,16 +18,18 @@ TaskAnalysis analyse_task(const StudyTaskInfo& info, const std::vector<TrialReco
   for (const TrialRecord& trial : all) {
     if (trial.task != info.name || trial.practice) continue;
     ++out.trials;
+    out.repeats += trial.attempt > 0 ? 1 : 0;
+    const std::size_t side = trial.guided ? 1 : 0;
     auto& of_participant = good[trial.participant];
     if (counts(trial, info)) {
-      of_participant[trial.guided ? 1 : 0].push_back(&trial);
+      of_participant[side].push_back(&trial);
+      ++out.kept[side];
       out.unreached += trial.outcome.reached ? 0 : 1;
     } else if (trial.outcome.flaws.any()) {
       ++out.flawed;
-    } else if (trial.outcome.error > info.cutoff_error) {
-      ++out.too_far;
     } else {
-      ++out.too_slow;
+      ++out.outliers[side];
+      ++(trial.outcome.error > info.cutoff_error ? out.too_far : out.too_slow);
     }
   }
   std::array<std::vector<TrialValue>, 2> values;

@@ -31,10 +31,13 @@ struct MeasureAnalysis {
 
 struct TaskAnalysis {
   StudyTaskInfo info;
-  std::size_t trials = 0;                 ///< recorded ones
+  std::size_t trials = 0;                 ///< recorded ones, repeats included
+  std::size_t repeats = 0;                ///< of them, repeats of a trial with flaws
   std::size_t flawed = 0;                 ///< left out: force or recording failed (TrialFlaws)
   std::size_t too_far = 0;                ///< else for their error
   std::size_t too_slow = 0;               ///< else for their time
+  std::array<std::size_t, 2> outliers{};  ///< those for error or time, by condition: free, guided
+  std::array<std::size_t, 2> kept{};      ///< those that count, likewise
   std::size_t unreached = 0;              ///< of those that count: the goal was not met
   std::vector<std::string> participants;  ///< who is in the pairs
   std::vector<std::string> lacking;       ///< who has fewer than two good trials in a condition

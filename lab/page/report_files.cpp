@@ -29,8 +29,9 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg",
      "volume_error.svg", "volume_error.csv", "tracker_position.svg", "tracker_orientation.svg",
      "head_errors.svg", "heart_errors.svg", "position_errors.svg", "completion_times.svg", "error_time_1.svg",
-     "error_time_2.svg", "error_time_3.svg", "error_time_4.svg", "trials.csv", "participants.csv",
-     "fibre_lines.svg", "distortion_lines.png", "orientation_icons.png", "field_icons.png"});
+     "error_time_2.svg", "error_time_3.svg", "error_time_4.svg", "trials.csv", "trials.json",
+     "participants.csv", "participants.json", "fibre_lines.svg", "distortion_lines.png",
+     "orientation_icons.png", "field_icons.png"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -189,6 +190,8 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     for (const ReportSection& section : report.sections) {
       for (const ReportPlot& plot : section.plots) write_named(plot.file, plot.content);
       if (!section.csv.file.empty()) write_named(section.csv.file, section.csv.content);
+      if (!section.csv.dictionary.empty())
+        write_named(fs::path(section.csv.file).replace_extension("json").string(), section.csv.dictionary);
     }
   } catch (const Error&) {
     fs::remove_all(temporary, error);

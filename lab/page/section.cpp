@@ -22,7 +22,12 @@ std::string section_html(const ReportSection& section) {
   out += "</table>\n";
   if (section.csv.file.empty()) return out;
   const std::string file = escaped(section.csv.file);
-  return out + "<p><a href=\"" + file + "\">" + file + "</a></p>\n";
+  out += "<p><a href=\"" + file + "\">" + file + "</a>";
+  if (!section.csv.dictionary.empty()) {
+    const std::string words = escaped(section.csv.file.substr(0, section.csv.file.rfind('.')) + ".json");
+    out += ", its columns: <a href=\"" + words + "\">" + words + "</a>";
+  }
+  return out + "</p>\n";
 }
 
 }  // namespace palpate

@@ -18,6 +18,7 @@ struct ReportPlot {
 struct ReportCsv {
   std::string file;  ///< as ReportPlot::file; empty: there is none
   std::string content;
+  std::string dictionary;  ///< JSON: what its columns hold, beside it under its name and .json; empty: none
 };
 
 /// A number that is neither error nor time, for report.json.

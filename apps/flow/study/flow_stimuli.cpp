@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -97,6 +98,47 @@ bool first_meets_at_end(const std::vector<Vec3>& path, PathGoal goal) {
   return true;
 }
 
+/// Where a line meets the goal of the path, first.
+std::optional<Vec3> meeting_of(const Line& line, const std::vector<Vec3>& path, PathGoal goal) {
+  const Vec3 start = path.front(), end = path.back();
+  const double radius = glm::distance(start, end);
+  const auto beyond = [&](const Vec3& x) {
+    return goal == PathGoal::kCircle ? glm::distance(x, start) - radius : end.z - x.z;
+  };
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vec3 &a = line.points[i].position, &b = line.points[i + 1].position;
+    const double before = beyond(a), after = beyond(b);
+    if (before < 0.0 && after >= 0.0) return a + before / (before - after) * (b - a);
+  }
+  return std::nullopt;
+}
+
+/// How many times farther from the end of the path than from its start lines arrive that begin beside it; infinite where
+/// one does not arrive.
+double spread_of(const std::vector<Vec3>& path, const PathWish& wish, const VectorField& field) {
+  constexpr double kSlip = 0.002;  // [m] beside the start, what a hand is off by
+  constexpr double kLonger = 1.6;
+  const Vec3 along = glm::normalize(path[1] - path[0]);
+  const Vec3 helper = std::abs(along.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+  const Vec3 side = glm::normalize(glm::cross(helper, along));
+  std::vector<Vec3> starts{path.front() + kSlip * side, path.front() - kSlip * side};
+  if (!wish.flat) {
+    const Vec3 other = glm::cross(along, side);
+    starts.insert(starts.end(), {path.front() + kSlip * other, path.front() - kSlip * other});
+  }
+  TraceOptions options;
+  options.max_length = kLonger * wish.length;
+  options.step = wish.length / 50;
+  options.tolerance = 1e-6;
+  options.threads = 1;
+  std::vector<double> apart(starts.size(), HUGE_VAL);
+  for (const Line& line : trace_lines(field, starts, options).lines) {
+    if (const auto met = meeting_of(line, path, wish.goal))
+      apart[line.seed] = glm::distance(*met, path.back()) / kSlip;
+  }
+  return *std::ranges::max_element(apart);
+}
+
 constexpr double kDeep = 0.34;  // of the length of a path, along the view
 
 struct View {
@@ -146,7 +188,7 @@ Candidate judged(std::vector<Vec3> path, const PathWish& wish,
                  const std::shared_ptr<const VectorField>& field,
                  const std::shared_ptr<const std::vector<Line>>& lines) {
   constexpr double kOff = 0.004, kStraight = 0.97, kCurled = 0.55, kHidden = 0.1;
-  constexpr double kLiked = 0.8, kOffWeight = 0.1;
+  constexpr double kLiked = 0.8, kOffWeight = 0.1, kMostOff = 2.0, kSpreadWeight = 0.2;
   if (path.empty() || !first_meets_at_end(path, wish.goal)) return {};
   const bool shown = wish.goal == PathGoal::kEnd;
   const double chord = glm::distance(path.front(), path.back()) / wish.length;
@@ -163,6 +205,8 @@ Candidate judged(std::vector<Vec3> path, const PathWish& wish,
     }
     if (view.depth > kDeep || view.occluded > kHidden) return {};
   }
+  const double spread = shown ? 0.0 : spread_of(path, wish, *field);
+  if (spread > kMostSpread) return {};
   auto stimulus = std::make_shared<PathStimulus>();
   stimulus->path = std::move(path);
   stimulus->goal = wish.goal;
@@ -173,8 +217,8 @@ Candidate judged(std::vector<Vec3> path, const PathWish& wish,
   if (wish.flat) stimulus->bounds.lower.z = stimulus->bounds.upper.z = 0.0;
   stimulus->lines = lines;
   stimulus->field = field;
-  return {std::move(stimulus),
-          std::abs(chord - kLiked) + view.depth + view.occluded - kOffWeight * off / kOff};
+  return {std::move(stimulus), std::abs(chord - kLiked) + view.depth + view.occluded +
+                                   kSpreadWeight * spread - kOffWeight * std::min(off / kOff, kMostOff)};
 }
 
 }  // namespace
@@ -211,7 +255,7 @@ std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, b
 }
 
 PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Progress& progress) {
-  constexpr std::size_t kGood = 80, kRounds = 80, kBatch = 10;
+  constexpr std::size_t kGood = 80, kRounds = 1'000, kBatch = 10;
   std::vector<std::shared_ptr<const VectorField>> fields(kFields);
   std::vector<std::shared_ptr<const std::vector<Line>>> lines(kFields);
   std::vector<RandomStream> random;

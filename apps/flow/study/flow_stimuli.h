@@ -27,6 +27,7 @@ struct PathChoice {
 
 inline constexpr double kStimulusSize = 0.25;  ///< [m] side of the square or cube, as in the reference
 inline constexpr int kFields = 30;             ///< data sets of a kind
+inline constexpr double kMostSpread = 3.0;     ///< see choose_paths()
 
 /// A field of a kind: 19 random vectors by biharmonic splines on 128 x 128 points, or 13 by inverse distance on
 /// 32^3. @param number from 0.
@@ -40,9 +41,12 @@ inline constexpr int kFields = 30;             ///< data sets of a kind
 ///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
 ///   - meets its circle or plane for the first time at its end;
 ///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
+///   - forgives, where it is not shown: lines that begin 2 mm beside its start meet the goal no farther than kMostSpread
+///     times that from its end, as where the flow parts nobody finds the end who was off by little;
 ///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length and fewer than a tenth of it lies
 ///     behind displayed lines.
-/// The score is least for paths far from displayed lines, of middling curvature and little depth and occlusion.
+/// The score is least for paths off displayed lines (8 mm and more count alike), of middling curvature, of little depth
+/// and occlusion, that forgive most.
 /// @throws Error (usage) for a `count` above 80; (work failed) where too few are good; Cancelled.
 [[nodiscard]] PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count,
                                       Progress& progress);

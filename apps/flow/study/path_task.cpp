@@ -1,5 +1,9 @@
 #include "apps/flow/study/path_task.h"
 
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+
 #include "common/base/index.h"
 
 namespace palpate {
@@ -14,8 +18,14 @@ std::unique_ptr<StudyTrial> FlowPathTask::open(int stimulus) const {
   return std::make_unique<PathTrial>(choice_.stimuli.at(as_size(stimulus)));
 }
 
-std::vector<std::string> FlowPathTask::stimulus_columns() const {
-  return {"start_x", "start_y", "start_z", "end_x", "end_y", "end_z", "back_x", "back_y", "back_z", "score"};
+std::vector<DataColumn> FlowPathTask::stimulus_columns() const {
+  std::vector<DataColumn> columns = vector_columns("start", "where the path begins", "m");
+  for (const auto& [name, what, units] :
+       {std::tuple{"end", "where it ends", "m"},
+        std::tuple{"back", "direction of the view, towards the viewer", ""}})
+    std::ranges::move(vector_columns(name, what, units), std::back_inserter(columns));
+  columns.push_back({"score", "by which the best paths were chosen: less is better", ""});
+  return columns;
 }
 
 std::vector<double> FlowPathTask::stimulus_row(int stimulus) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "common/base/index.h"
@@ -55,7 +56,7 @@ class PlaneTrial final : public StudyTrial {
     if (step.present && pressed && !pressed_ && !reached()) marks_.push_back(step.probe);
     pressed_ = pressed;
   }
-  [[nodiscard]] TrialCue cue(const Vec3& seen) const override {
+  [[nodiscard]] TrialCue cue(const Vec3& seen, double /*ahead*/) const override {
     TrialCue cue{.arrived = reached()};
     if (cue.arrived) return cue;
     constexpr double kHere = 0.008, kClose = 0.016;  // [m]
@@ -145,8 +146,11 @@ class PlaneTask final : public StudyTask {
   [[nodiscard]] std::unique_ptr<StudyTrial> open(int stimulus) const override {
     return std::make_unique<PlaneTrial>(stimuli_.at(as_size(stimulus)));
   }
-  [[nodiscard]] std::vector<std::string> stimulus_columns() const override {
-    return {"start_x", "start_y", "start_z", "a_x", "a_y", "a_z", "b_x", "b_y", "b_z", "c_x", "c_y", "c_z"};
+  [[nodiscard]] std::vector<DataColumn> stimulus_columns() const override {
+    std::vector<DataColumn> columns = vector_columns("start", "where the hand begins", "m");
+    for (const char* corner : {"a", "b", "c"})
+      std::ranges::move(vector_columns(corner, "corner of the triangle", "m"), std::back_inserter(columns));
+    return columns;
   }
   [[nodiscard]] std::vector<double> stimulus_row(int stimulus) const override {
     const PlaneStimulus& s = stimuli_.at(as_size(stimulus));

@@ -2,6 +2,8 @@
 
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -22,7 +24,52 @@ TEST(Design, OfTheReferencesNumbersIsBalancedInAllCounts) {
     EXPECT_EQ(balance.conditions_of_place, 0);
     EXPECT_EQ(balance.stimuli_at_place, 0);
     EXPECT_EQ(balance.tasks_at_place, 0);
+    EXPECT_EQ(balance.sequences, 20) << "nobody has the conditions in the order of somebody else";
   }
+}
+
+/// Counted here by hand, apart from balance_of(): both versions of each trial, and each place of the order.
+TEST(Design, HasBothVersionsOfEachTrialEquallyOftenAmongParticipants) {
+  for (const int n : {4, 8, 12, 20, 28}) {
+    std::map<std::pair<int, int>, int> versions, places;
+    std::map<std::pair<int, int>, std::vector<bool>> sequences;
+    for (const PlannedTrial& t :
+         make_design({.participants = 2 * n, .tasks = 2, .practice = 3, .recorded = n, .seed = 6})) {
+      if (t.practice) continue;
+      versions[{t.task, t.stimulus}] += t.guided ? 1 : -1;
+      places[{t.task, t.trial}] += t.guided ? 1 : -1;
+      sequences[{t.task, t.participant}].push_back(t.guided);
+    }
+    for (const auto& counts : {versions, places}) {
+      EXPECT_EQ(counts.size(), 2U * static_cast<unsigned>(n));
+      for (const auto& [what, difference] : counts) EXPECT_EQ(difference, 0) << n << " " << what.second;
+    }
+    std::set<std::vector<bool>> of_first_square;
+    for (int participant = 0; participant < n; ++participant)
+      of_first_square.insert(sequences.at({0, participant}));
+    EXPECT_EQ(of_first_square.size(), static_cast<unsigned>(n));
+  }
+}
+
+/// A square of twice an odd number has no such half: one more of one version, one less of the other.
+TEST(Design, OfTwiceAnOddNumberIsAsNearToBalanceAsItCanBe) {
+  for (const int n : {2, 6, 10, 18}) {
+    const DesignBalance balance = balance_of(make_design({.participants = n, .tasks = 1, .recorded = n}));
+    EXPECT_EQ(balance.conditions_of_participant, 0);
+    EXPECT_EQ(balance.conditions_of_place, 0);
+    EXPECT_EQ(balance.stimuli_at_place, 0);
+    EXPECT_EQ(balance.conditions_of_stimulus, 2);
+    EXPECT_EQ(balance.sequences, n);
+  }
+}
+
+TEST(Design, HasPracticeInBothConditions) {
+  std::map<int, int> sides;
+  for (const PlannedTrial& t : make_design({.participants = 9, .tasks = 1, .practice = 10})) {
+    if (t.practice) sides[t.participant] += t.guided ? 1 : -1;
+  }
+  ASSERT_EQ(sides.size(), 9U);
+  for (const auto& [who, difference] : sides) EXPECT_EQ(difference, 0) << who;
 }
 
 TEST(Design, GivesEachParticipantEachStimulusOnceInATask) {

@@ -17,7 +17,7 @@ class NamedTask final : public StudyTask {
   [[nodiscard]] const StudyTaskInfo& info() const override { return info_; }
   std::string prepare(std::uint64_t /*seed*/, int /*count*/, Progress& /*progress*/) override { return {}; }
   [[nodiscard]] std::unique_ptr<StudyTrial> open(int /*stimulus*/) const override { return nullptr; }
-  [[nodiscard]] std::vector<std::string> stimulus_columns() const override { return {}; }
+  [[nodiscard]] std::vector<DataColumn> stimulus_columns() const override { return {}; }
   [[nodiscard]] std::vector<double> stimulus_row(int /*stimulus*/) const override { return {}; }
 
  private:
