@@ -12,6 +12,7 @@
 #include "common/hand/probe_options.h"
 #include "common/servo/recorder.h"
 #include "common/servo/servo_loop.h"
+#include "common/study/design.h"
 #include "common/study/trial_run.h"
 
 namespace palpate {
