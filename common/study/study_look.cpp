@@ -43,10 +43,10 @@ void StudyLook::add(const Vec3& origin, const Mat3& axes, std::vector<LabelShape
   view_.labels.push_back({.origin = origin, .axes = axes, .shapes = std::move(shapes)});
 }
 
-void StudyLook::disc(const Vec3& center, const Vec3f& color) {
+void StudyLook::disc(const Vec3& center, const Vec3f& color, double times) {
   constexpr int kCorners = 24;
-  add(center + size(0.002) * view_.camera.axes[2], view_.camera.axes,
-      {{.corners = ring(size(0.011), kCorners), .color = color}});
+  add(center + size(0.002 * times) * view_.camera.axes[2], view_.camera.axes,
+      {{.corners = ring(size(0.011 * times), kCorners), .color = color}});
 }
 
 void StudyLook::ribbon(const std::vector<Vec3>& points, const Vec3f& color, bool arrow) {

@@ -20,7 +20,8 @@ class StudyLook {
   /// `view` outlives it and has its camera.
   explicit StudyLook(SceneView& view) : view_(view) {}
 
-  void disc(const Vec3& center, const Vec3f& color);
+  /// @param times larger than in a window, and before what is smaller: where the picture is small.
+  void disc(const Vec3& center, const Vec3f& color, double times = 1.0);
   /// A line of constant width that faces the viewer, each piece in its depth. @param arrow whether it ends in a head.
   void ribbon(const std::vector<Vec3>& points, const Vec3f& color, bool arrow);
   /// In the plane of the picture.

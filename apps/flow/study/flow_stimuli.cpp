@@ -86,7 +86,10 @@ bool first_meets_at_end(const std::vector<Vec3>& path, PathGoal goal) {
   const Vec3 last = glm::normalize(end - path[path.size() - 3]);
   if (goal == PathGoal::kCircle) {
     const double radius = glm::distance(start, end);
-    return glm::dot(last, (end - start) / radius) > kSteep &&
+    // All of the circle is in the picture.
+    const bool seen =
+        std::min({start.x, start.y, kStimulusSize - start.x, kStimulusSize - start.y}) >= radius;
+    return seen && glm::dot(last, (end - start) / radius) > kSteep &&
            std::all_of(path.begin(), path.end() - 1,
                        [&](const Vec3& x) { return glm::distance(x, start) < radius; });
   }
@@ -113,18 +116,22 @@ std::optional<Vec3> meeting_of(const Line& line, const std::vector<Vec3>& path, 
   return std::nullopt;
 }
 
-/// How many times farther from the end of the path than from its start lines arrive that begin beside it; infinite where
-/// one does not arrive.
+/// How many times farther than they begin from the path lines arrive from its end, which begin beside its start, a
+/// quarter, half and three quarters of it; infinite where one does not arrive.
 double spread_of(const std::vector<Vec3>& path, const PathWish& wish, const VectorField& field) {
-  constexpr double kSlip = 0.002;  // [m] beside the start, what a hand is off by
+  constexpr double kSlip = 0.002;  // [m] beside the path, what a hand is off by
   constexpr double kLonger = 1.6;
-  const Vec3 along = glm::normalize(path[1] - path[0]);
-  const Vec3 helper = std::abs(along.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
-  const Vec3 side = glm::normalize(glm::cross(helper, along));
-  std::vector<Vec3> starts{path.front() + kSlip * side, path.front() - kSlip * side};
-  if (!wish.flat) {
+  constexpr std::size_t kPlaces = 4;
+  std::vector<Vec3> starts;
+  for (std::size_t i = 0; i < kPlaces; ++i) {
+    const std::size_t at = i * (path.size() - 1) / kPlaces;
+    const Vec3 along = glm::normalize(path[at + 1] - path[at]);
+    const Vec3 helper = std::abs(along.z) < 0.9 ? Vec3{0.0, 0.0, 1.0} : Vec3{1.0, 0.0, 0.0};
+    const Vec3 side = kSlip * glm::normalize(glm::cross(helper, along));
+    starts.insert(starts.end(), {path[at] + side, path[at] - side});
+    if (wish.flat) continue;
     const Vec3 other = glm::cross(along, side);
-    starts.insert(starts.end(), {path.front() + kSlip * other, path.front() - kSlip * other});
+    starts.insert(starts.end(), {path[at] + other, path[at] - other});
   }
   TraceOptions options;
   options.max_length = kLonger * wish.length;

@@ -39,10 +39,10 @@ inline constexpr double kMostSpread = 3.0;     ///< see choose_paths()
 /// Places in these fields are drawn until 80 are good; the `count` best are kept. Good is a path that
 ///   - has the length wished for, within the field and a margin of it;
 ///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
-///   - meets its circle or plane for the first time at its end;
+///   - meets its circle or plane for the first time at its end; all of the circle lies in the field;
 ///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
-///   - forgives, where it is not shown: lines that begin 2 mm beside its start meet the goal no farther than kMostSpread
-///     times that from its end, as where the flow parts nobody finds the end who was off by little;
+///   - forgives, where it is not shown: lines that begin 2 mm beside it, at its start and at each quarter, meet the goal no
+///     farther than kMostSpread times that from its end: where the flow parts nobody finds the end who was off by little;
 ///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length and fewer than a tenth of it lies
 ///     behind displayed lines.
 /// The score is least for paths off displayed lines (8 mm and more count alike), of middling curvature, of little depth
