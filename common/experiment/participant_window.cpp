@@ -89,6 +89,7 @@ class ParticipantWindow {
   void draw_text();
   void draw_form();
   void draw_hint();
+  void draw_page();
 
   StudyFolder& folder_;
   const StudyTasks& tasks_;
@@ -114,6 +115,14 @@ class ParticipantWindow {
   bool entered_ = false;
   int width_ = 1, height_ = 1, frame_ = 0;
   EyePictureSize eye_{1, 1};  ///< the window, or its half
+  struct PageSize {
+    ParticipantScreen screen = ParticipantScreen::kWelcome;
+    int width = 0, height = 0;
+
+    bool operator==(const PageSize&) const = default;
+  };
+  PageSize page_;            ///< that was drawn last
+  float text_scale_ = 1.0F;  ///< of its text
 };
 
 SceneView ParticipantWindow::seen(const Vec3* cursor) const {
@@ -343,6 +352,28 @@ void ParticipantWindow::draw_hint() {
                                           IM_COL32(10, 10, 12, 255), text.c_str(), nullptr, wrap);
 }
 
+/// Text or form in the middle of the window, as small as it must be to fit.
+void ParticipantWindow::draw_page() {
+  constexpr float kHeight = 0.76F, kLeast = 0.62F, kMost = 0.96F,
+                  kLine = 38.0F;  // kLine: heights of the text
+  constexpr float kSmallest = 0.4F, kSpare = 0.98F;
+  const auto w = static_cast<float>(eye_.width), h = static_cast<float>(eye_.height);
+  const PageSize page{screen_, eye_.width, eye_.height};
+  if (std::exchange(page_, page) != page) text_scale_ = 1.0F;
+  const float wide = std::min(kMost * w, std::max(kLeast * w, kLine * gui_.text_height()));
+  const float high = text_scale_ < 1.0F ? kMost * h : kHeight * h;
+  ImGui::SetNextWindowPos({0.5F * (w - wide), 0.5F * (h - high)});
+  ImGui::SetNextWindowSize({wide, high});
+  ImGui::Begin("study", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::SetWindowFontScale(text_scale_);
+  screen_ == ParticipantScreen::kForm ? draw_form() : draw_text();
+  // What it takes at this size is known only now: the next picture is drawn smaller.
+  if (const float taken = ImGui::GetCursorPosY() + ImGui::GetStyle().WindowPadding.y; taken > high)
+    text_scale_ = std::max(kSmallest, kSpare * text_scale_ * std::min(1.0F, kMost * h / taken));
+  ImGui::End();
+}
+
 void ParticipantWindow::draw(const std::vector<InputEvent>& events, double seconds) {
   gui_.begin_frame(events, eye_.width, eye_.height, seconds);
   begin_controls();
@@ -364,15 +395,7 @@ void ParticipantWindow::draw(const std::vector<InputEvent>& events, double secon
     }
     draw_hint();
   } else {
-    constexpr float kHeight = 0.76F, kLeast = 0.62F, kLine = 38.0F;  // kLine: heights of the text
-    const auto w = static_cast<float>(eye_.width), h = static_cast<float>(eye_.height);
-    const float wide = std::min(0.96F * w, std::max(kLeast * w, kLine * gui_.text_height()));
-    ImGui::SetNextWindowPos({0.5F * (w - wide), 0.5F * (1.0F - kHeight) * h});
-    ImGui::SetNextWindowSize({wide, kHeight * h});
-    ImGui::Begin("study", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    screen_ == ParticipantScreen::kForm ? draw_form() : draw_text();
-    ImGui::End();
+    draw_page();
   }
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   gui_.end_frame(parts, width_, height_);

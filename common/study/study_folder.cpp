@@ -331,7 +331,7 @@ TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& p
         r.attempt != planned.attempt || r.stimulus != planned.stimulus || r.practice != planned.practice ||
         r.guided != planned.guided || r.simulated != who.simulated)
       throw input_error({file.string(), "", "it is of another trial than the design has there", "",
-                         "restore it, or study.json and participants.json, from a copy"});
+                         "restore it, or study.json and participants.tsv, from a copy"});
     if (!(r.outcome.seconds >= 0.0) || !(r.outcome.error >= 0.0) || !(r.most_stiffness >= 0.0))
       throw input_error(
           {file.string(), "", "a negative time, error or stiffness", "", "restore it from a copy"});
