@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,8 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
   EXPECT_EQ(made["trials"], 20);
   for (const auto& [what, difference] : made["imbalance"].items()) EXPECT_EQ(difference, 0) << what;
   for (const char* file : {"dataset_description.json", "design.tsv", "task-advection2d_beh.json",
-                           "stimuli/task-advection2d_stimuli.tsv", "README"})
+                           "task-advection2d_motion.json", "stimuli/task-advection2d_stimuli.json",
+                           "participants.json", "stimuli/task-advection2d_stimuli.tsv", "README"})
     EXPECT_TRUE(std::filesystem::exists(folder_.path("s") / file)) << file;
 
   EXPECT_EQ(json({"study", "simulate", "s", "--participant", "P02"})["trials"], 5);
@@ -42,6 +45,30 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
     EXPECT_NE(page.find(words), std::string::npos) << words;
   const std::string trials = read_file(folder_.path("s/analysis/trials.csv"));
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 21);
+
+  // Each column of a table has its words; what the page shows is in report.json with all digits.
+  for (const char* table :
+       {"s/analysis/trials", "s/analysis/participants", "s/stimuli/task-advection2d_stimuli"}) {
+    const bool tabs = std::filesystem::exists(folder_.path(std::string(table) + ".tsv"));
+    std::istringstream first(read_file(folder_.path(std::string(table) + (tabs ? ".tsv" : ".csv"))));
+    const Json words = Json::parse(read_file(folder_.path(std::string(table) + ".json")));
+    std::string line, column;
+    std::getline(first, line);
+    std::size_t count = 0;
+    for (std::istringstream columns(line); std::getline(columns, column, tabs ? '\t' : ','); ++count)
+      EXPECT_FALSE(words.at(column).at("Description").get<std::string>().empty()) << table << " " << column;
+    EXPECT_EQ(count, words.size()) << table;
+  }
+  std::set<std::string> kept;
+  const Json report = Json::parse(read_file(folder_.path("s/analysis/report.json")));
+  for (const Json& m : report["measurements"])
+    kept.insert(m["subject"].get<std::string>() + ": " + m["quantity"].get<std::string>());
+  for (const char* number :
+       {"trials: left out for error", "trials: left out for error or time, ISO",
+        "position error: 95 % lower [mm]", "position error: d_av", "position error: half width ISO [mm]",
+        "position error: W", "completion time: smaller sum of ranks", "correlation of error with time: r",
+        "participants that the next study needs: for a power of 90 %", "questionnaire: answers"})
+    EXPECT_TRUE(kept.contains(number)) << number;
 
   const Json replayed = json({"study", "replay", "s", "--participant", "P03"});
   EXPECT_EQ(replayed["trials"], 5);

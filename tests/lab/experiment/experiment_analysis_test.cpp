@@ -1,6 +1,7 @@
 // What is left out of an experiment, and what is made of the rest, on trials whose numbers are given.
 #include "lab/experiment/experiment_analysis.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -94,6 +95,26 @@ TEST(ExperimentAnalysis, LeavesOutByTheRuleAndComparesTheRest) {
   EXPECT_EQ(found.tasks[0].flawed, 2U);
   EXPECT_EQ(found.tasks[0].too_far, 0U);
   EXPECT_EQ(found.tasks[1].unreached, 16U) << "none of these reached a goal, and that is told";
+
+  // By condition: what counts and what is left out for error or time are all that is not flawed.
+  EXPECT_EQ(found.tasks[0].outliers[0] + found.tasks[0].outliers[1],
+            found.tasks[0].too_far + found.tasks[0].too_slow);
+  EXPECT_EQ(found.tasks[1].kept[0], 8U);
+  EXPECT_EQ(found.tasks[1].kept[1], 8U);
+  // A repeat of a trial with flaws counts in its place.
+  TrialRecord again =
+      *std::ranges::find_if(trials, [](const TrialRecord& r) { return r.outcome.flaws.any(); });
+  again.outcome.flaws = {};
+  again.outcome.error = 5.0;
+  again.outcome.seconds = 3.0;
+  again.attempt = 1;
+  trials.push_back(again);
+  const std::size_t kept = found.tasks[0].kept[0] + found.tasks[0].kept[1];
+  found = analyse_experiment(folder, trials);
+  EXPECT_EQ(found.tasks[0].repeats, 1U);
+  EXPECT_EQ(found.tasks[0].flawed, 2U);
+  EXPECT_EQ(found.tasks[0].kept[0] + found.tasks[0].kept[1], kept + 1);
+  trials.pop_back();
 
   // A program beside people is not analysed.
   for (TrialRecord& r : trials) r.simulated = r.participant == "P04";
