@@ -95,6 +95,7 @@ std::optional<PictureExport::Outcome> PictureExport::take() {
     return std::nullopt;
   }
   const Asked asked = *std::exchange(asked_, std::nullopt);
+  glfwMakeContextCurrent(nullptr);  // EGL takes no thread that has a context of GLX
   try {
     const Image image = choice_.transparent ? transparent_picture(asked.view, choice_.width, choice_.height)
                                             : render_panes(asked.view, choice_.width, choice_.height).image;
