@@ -12,7 +12,7 @@
 #include "loaders/cfd/cfd_check.h"
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
-#include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/ensight/ensight_check.h"
 #include "loaders/vtk/foam/foam_baffles.h"
 #include "loaders/vtk/foam/foam_boundary.h"
 #include "loaders/vtk/foam/foam_precision.h"

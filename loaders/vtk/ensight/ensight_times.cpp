@@ -1,4 +1,4 @@
-#include "loaders/vtk/ensight_times.h"
+#include "loaders/vtk/ensight/ensight_times.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "loaders/vtk/ensight_check.h"
+#include "loaders/vtk/ensight/ensight_check.h"
 
 #include <algorithm>
 #include <cctype>
