@@ -469,8 +469,9 @@ std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, cons
       loose += as_size(std::ranges::count(points_of_cells(*mesh), std::uint8_t{0}));
   }
   if (loose > 0) {
-    grid->notes.lines.push_back(count_text(loose, "point that no cell has is", "points that no cell has are") +
-                                " counted among the file's, and nothing else");
+    grid->notes.lines.push_back(
+        count_text(loose, "point that no cell has is", "points that no cell has are") +
+        " counted among the file's, and nothing else");
   }
   return grid;
 }

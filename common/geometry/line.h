@@ -52,9 +52,8 @@ struct Line {
 /// "left_domain"
 [[nodiscard]] inline std::string_view name_of(End end) noexcept {
   static constexpr std::array<std::string_view, kEndCount> kNames{
-      "left_domain", "stagnation",      "max_length",   "max_time",   "max_steps",  "loop",
-      "bad_data",    "stopped_by_rule", "below_cutoff", "sharp_turn", "end_of_time",
-      "opposed_cells"};
+      "left_domain", "stagnation",      "max_length",   "max_time",   "max_steps",   "loop",
+      "bad_data",    "stopped_by_rule", "below_cutoff", "sharp_turn", "end_of_time", "opposed_cells"};
   return kNames[as_size(end)];
 }
 

@@ -367,8 +367,10 @@ std::optional<Sniffed> known_mesh(const FileHead& head) {
     if (start.starts_with(known.starts)) return Sniffed{{}, known.found, known.remedy};
   }
   const bool fluent = is_fluent(head);
-  if (fluent && ending == ".dat") return Sniffed{{}, "the values of a Fluent case", "open its .cas beside it"};
-  if (fluent && ending == ".msh") return Sniffed{{}, "a Fluent mesh, which holds no flow", "open the .cas of a solution"};
+  if (fluent && ending == ".dat")
+    return Sniffed{{}, "the values of a Fluent case", "open its .cas beside it"};
+  if (fluent && ending == ".msh")
+    return Sniffed{{}, "a Fluent mesh, which holds no flow", "open the .cas of a solution"};
   if (ending == ".nek5000") return Sniffed{{}, "a Nek5000 index", kByParaview};
   if (ending == ".sim") return Sniffed{{}, "a STAR-CCM+ file", "export the solution as EnSight Gold"};
   if (ending == ".unv") return Sniffed{{}, "an I-DEAS universal file", "convert it to .vtu"};

@@ -36,7 +36,8 @@ std::string fluent_problem(std::string_view text) {
     std::string_view number;
     const char* what;
   };
-  static constexpr std::array kSections{Section{"10", "nodes"}, Section{"12", "cells"}, Section{"13", "faces"}};
+  static constexpr std::array kSections{Section{"10", "nodes"}, Section{"12", "cells"},
+                                        Section{"13", "faces"}};
   std::string problem;
   each_line(text, [&](std::string_view line) {
     line = trimmed(line.substr(0, 128));
@@ -52,8 +53,8 @@ std::string fluent_problem(std::string_view text) {
     const auto of_section = words(line.substr(inner + 1, line.find(')', inner) - inner - 1));
     const auto last = of_section.size() > 2 ? hexadecimal(of_section[2]) : std::nullopt;
     if (last && *last <= text.size()) return true;
-    problem = last ? "claims " + std::to_string(*last) + " " + section->what + " in " + std::to_string(text.size()) +
-                         " bytes"
+    problem = last ? "claims " + std::to_string(*last) + " " + section->what + " in " +
+                         std::to_string(text.size()) + " bytes"
                    : std::string("has a section of ") + section->what + " without counts";
     return false;
   });
@@ -73,21 +74,24 @@ std::string gambit_problem(std::string_view text) {
         const auto count = parsed<std::uint64_t>(word);
         // A line a node, an element, a group or a set at least.
         if (!count || *count > text.size() / 2) {
-          problem = "claims '" + printable(word.substr(0, 40)) + "' of what it has " + std::to_string(text.size()) +
-                    " bytes for";
+          problem = "claims '" + printable(word.substr(0, 40)) + "' of what it has " +
+                    std::to_string(text.size()) + " bytes for";
           return false;
         }
         counts.push_back(*count);
       }
-      if (counts.size() < 6) problem = "has " + std::to_string(counts.size()) + " counts in its head, expected 6";
+      if (counts.size() < 6)
+        problem = "has " + std::to_string(counts.size()) + " counts in its head, expected 6";
       return problem.empty();
     }
     if (of_line[0] == "NUMNP") titles = true;
     ends += of_line[0] == "ENDOFSECTION" ? 1 : 0;
-    const bool begins = line.find("2.") != std::string_view::npos || line.find("1.") != std::string_view::npos;
+    const bool begins =
+        line.find("2.") != std::string_view::npos || line.find("1.") != std::string_view::npos;
     const bool named = of_line.size() > 2 || of_line.size() == 2;
     if (begins && named &&
-        (line.find("CONTROL INFO") != std::string_view::npos || line.find("NODAL COORDINATES") != std::string_view::npos ||
+        (line.find("CONTROL INFO") != std::string_view::npos ||
+         line.find("NODAL COORDINATES") != std::string_view::npos ||
          line.find("ELEMENTS/CELLS") != std::string_view::npos))
       ++sections;
     return true;

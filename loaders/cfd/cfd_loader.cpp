@@ -51,7 +51,8 @@ constexpr const char* kMeshAlone = "the mesh alone: no values are read of this f
 /// A mesh alone.
 class GambitReader : public OneReader {
  protected:
-  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>& notes) override {
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file,
+                                            std::vector<std::string>& notes) override {
     refuse(file, gambit_problem(MappedFile(file).text()));
     notes.emplace_back(kMeshAlone);
     const auto reader = vtkSmartPointer<vtkGAMBITReader>::New();
@@ -75,7 +76,8 @@ class GambitReader : public OneReader {
 /// A mesh alone: .vrt and .cel.
 class StarCdReader : public OneReader {
  protected:
-  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>& notes) override {
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file,
+                                            std::vector<std::string>& notes) override {
     for (const char* const ending : {".vrt", ".cel"}) {
       const std::string part = std::filesystem::path(file).replace_extension(ending).string();
       std::error_code error;
@@ -95,7 +97,9 @@ class CfdLoader : public Loader {
     if (format == Format::kFluent) reader_ = std::make_unique<FluentReader>();
     if (format == Format::kGambit) reader_ = std::make_unique<GambitReader>();
     if (format == Format::kStarCd) reader_ = std::make_unique<StarCdReader>();
-    if (!reader_) throw input_error({request.files.front().string(), "", "is of another format", "Fluent, GAMBIT or STAR-CD"});
+    if (!reader_)
+      throw input_error(
+          {request.files.front().string(), "", "is of another format", "Fluent, GAMBIT or STAR-CD"});
     reader_->on_progress = on_progress;
     return reader_->open(request, format);
   }

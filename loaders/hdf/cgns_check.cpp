@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::uint64_t, 22> kNodesOfElement{0, 0, 1, 2, 3, 3, 6, 4, 8, 9, 4,
+constexpr std::array<std::uint64_t, 22> kNodesOfElement{0,  0, 1,  2, 3,  3,  6, 4,  8,  9, 4,
                                                         10, 5, 14, 6, 15, 18, 8, 20, 27, 0, 13};
 
 class CgnsFile {
@@ -86,7 +86,8 @@ std::optional<std::uint64_t> size_of_zone(const CgnsFile& file, const std::strin
   std::uint64_t product = 1;
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const std::int64_t size = sizes[(cells ? axes : 0) + axis];
-    if (size < 0 || __builtin_mul_overflow(product, static_cast<std::uint64_t>(size), &product)) return std::nullopt;
+    if (size < 0 || __builtin_mul_overflow(product, static_cast<std::uint64_t>(size), &product))
+      return std::nullopt;
   }
   return product;
 }
@@ -96,12 +97,14 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
   const std::string group = above(node);
   const std::string kind = file.label(group);
   if (kind == "Elements_t" && node.substr(group.size() + 1) == "ElementConnectivity") {
-    const std::vector<std::int64_t> about = file.numbers(group), range = file.numbers(group + "/ElementRange");
+    const std::vector<std::int64_t> about = file.numbers(group),
+                                    range = file.numbers(group + "/ElementRange");
     if (about.empty() || range.size() != 2 || range[1] < range[0]) return std::nullopt;
     if (about[0] < 0 || static_cast<std::size_t>(about[0]) >= kNodesOfElement.size()) return std::nullopt;
     const std::uint64_t nodes = kNodesOfElement[static_cast<std::size_t>(about[0])];
     std::uint64_t count = 0;
-    if (nodes == 0 || __builtin_mul_overflow(static_cast<std::uint64_t>(range[1] - range[0]) + 1, nodes, &count))
+    if (nodes == 0 ||
+        __builtin_mul_overflow(static_cast<std::uint64_t>(range[1] - range[0]) + 1, nodes, &count))
       return std::nullopt;
     return count;
   }
@@ -117,7 +120,8 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
 herr_t check_node(hid_t, const char* name, const H5O_info_t* about, void* data) {
   auto& walk = *static_cast<Walk*>(data);
   const std::string node(name);
-  if (about->type != H5O_TYPE_GROUP || node.find('/') == std::string::npos || walk.file.label(node) != "DataArray_t")
+  if (about->type != H5O_TYPE_GROUP || node.find('/') == std::string::npos ||
+      walk.file.label(node) != "DataArray_t")
     return 0;
   const auto wanted = due(walk.file, node);
   const std::uint64_t found = wanted ? walk.file.count(node) : 0;

@@ -38,7 +38,8 @@ std::string problem_of(hid_t set, std::uint64_t file_size) {
   // An axis of netCDF that has no coordinates is a data set without numbers.
   if (stored == 0 && H5Aexists(set, "CLASS") > 0) return {};
   if (bytes > 0 && stored == 0) return "was never written";
-  if (bytes / kMostPacked > stored) return "claims " + std::to_string(bytes) + " bytes of " + std::to_string(stored);
+  if (bytes / kMostPacked > stored)
+    return "claims " + std::to_string(bytes) + " bytes of " + std::to_string(stored);
   return {};
 }
 

@@ -83,7 +83,8 @@ class NetcdfLoader : public OneReader {
         if (these != chosen) others += (others.empty() ? "'" : ", '") + name + "' " + these;
       }
     }
-    if (!others.empty()) notes.push_back("variables along other axes than " + chosen + " left out: " + others);
+    if (!others.empty())
+      notes.push_back("variables along other axes than " + chosen + " left out: " + others);
     warn_of_units(file, chosen, notes);
   }
 
@@ -95,7 +96,8 @@ class NetcdfLoader : public OneReader {
       const std::string name = reader_->GetVariableArrayName(v);
       const bool along = std::ranges::find(names_, name) != names_.end();
       // The grid is that of a variable.
-      const bool takes = along && (any ? wanted == nullptr || wanted->count(name) > 0 : name == names_.front());
+      const bool takes =
+          along && (any ? wanted == nullptr || wanted->count(name) > 0 : name == names_.front());
       reader_->SetVariableArrayStatus(name.c_str(), takes ? 1 : 0);
     }
   }
@@ -115,18 +117,21 @@ class NetcdfLoader : public OneReader {
   void warn_of_units(const std::string& file, const std::string& axes, std::vector<std::string>& notes) {
     const Units of_file(file);
     std::string names = axes;
-    std::ranges::replace_if(names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
+    std::ranges::replace_if(
+        names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
     for (const std::string_view name : words(names)) {
       const std::string units = of_file.of(std::string(name));
       if (units.starts_with("degree")) {
-        notes.push_back("WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +
-                        "'): lines of a velocity in metres a second are not those of the flow; write x and y in metres");
+        notes.push_back(
+            "WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +
+            "'): lines of a velocity in metres a second are not those of the flow; write x and y in metres");
       }
     }
     const char* const time = reader_->GetTimeUnits();
     const std::string units = time == nullptr ? "" : lowered(trimmed(time));
     if (!units.empty() && !units.starts_with("s ") && !units.starts_with("sec"))
-      notes.push_back("WARNING: times are in '" + units + "': lines in time take them in the unit of the velocity");
+      notes.push_back("WARNING: times are in '" + units +
+                      "': lines in time take them in the unit of the velocity");
   }
 
   vtkSmartPointer<vtkNetCDFCFReader> reader_;

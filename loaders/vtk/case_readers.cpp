@@ -338,7 +338,8 @@ class CaseReader : public Loader {
     const std::vector<std::string> problems = case_.add_boundary(blocks, times_.back());
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       for (ArrayInfo& about : info.blocks[b].arrays) {
-        if (const DataArray* const array = blocks[b].find(about.name, about.association)) about.type = array->type;
+        if (const DataArray* const array = blocks[b].find(about.name, about.association))
+          about.type = array->type;
       }
     }
     std::vector<std::string>& notes = info.notes;

@@ -16,8 +16,8 @@ namespace palpate {
 
 FileInfo OneReader::open(const LoadRequest& request, Format format) {
   if (request.files.size() > 1) {
-    throw input_error({request.files[1].string(), "", "is a second " + std::string(row_of(format).name) + " file",
-                       "one file"});
+    throw input_error({request.files[1].string(), "",
+                       "is a second " + std::string(row_of(format).name) + " file", "one file"});
   }
   file_ = request.files.front().string();
   FileInfo info;
@@ -31,7 +31,8 @@ FileInfo OneReader::open(const LoadRequest& request, Format format) {
   if (about->Has(steps) != 0) times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));
   for (std::size_t t = 0; t < times_.size(); ++t) {
     if (std::isfinite(times_[t]) && (t == 0 || times_[t] > times_[t - 1])) continue;
-    throw input_error({file_, "time step " + std::to_string(t + 1), "has a time that does not rise", "rising times"});
+    throw input_error(
+        {file_, "time step " + std::to_string(t + 1), "has a time that does not rise", "rising times"});
   }
   if (times_.size() > 1) info.times = times_;
   select(nullptr);
@@ -70,7 +71,8 @@ std::vector<VtkBlock> OneReader::usable(std::vector<std::string>* notes) {
     auto* const mesh = vtkUnstructuredGrid::SafeDownCast(leaf.data);
     for (vtkIdType c = 0; mesh != nullptr && c < mesh->GetNumberOfCells(); ++c) {
       if (mesh->GetCellType(c) != VTK_EMPTY_CELL) continue;
-      throw input_error({file_, "cell " + std::to_string(c) + (leaf.name.empty() ? "" : " of '" + leaf.name + "'"),
+      throw input_error({file_,
+                         "cell " + std::to_string(c) + (leaf.name.empty() ? "" : " of '" + leaf.name + "'"),
                          "is of a kind that VTK's reader does not know"});
     }
   }

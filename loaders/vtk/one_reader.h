@@ -24,7 +24,8 @@ class OneReader : public Loader {
 
  protected:
   /// Checks the file, and makes its reader. @param notes get the sentences that tell the user. @throws Error.
-  virtual vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>& notes) = 0;
+  virtual vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file,
+                                                    std::vector<std::string>& notes) = 0;
   /// Once the reader has had its first look at the file. @throws Error.
   virtual void look(const std::string& file, std::vector<std::string>& notes);
   /// Chooses arrays; null: all.

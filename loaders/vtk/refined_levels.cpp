@@ -63,8 +63,9 @@ std::size_t hide_refined_cells(std::vector<DataSet>& blocks, std::span<const int
       for (int k = begin.z; k < end.z; ++k) {
         for (int j = begin.y; j < end.y; ++j) {
           for (int i = begin.x; i < end.x; ++i) {
-            std::uint8_t& mark = marks[as_size(i) + as_size(coarse->points.x - 1) *
-                                                        (as_size(j) + as_size(coarse->points.y - 1) * as_size(k))];
+            std::uint8_t& mark =
+                marks[as_size(i) + as_size(coarse->points.x - 1) *
+                                       (as_size(j) + as_size(coarse->points.y - 1) * as_size(k))];
             here += mark == 0 ? 1 : 0;
             mark = 1;
           }

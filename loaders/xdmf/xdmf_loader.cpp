@@ -51,8 +51,9 @@ struct Kind {
   int number = 0;        ///< in a mixed topology
   std::size_t nodes = 0;
 };
-constexpr std::array kKinds{Kind{"Triangle", 5, 4, 3},    Kind{"Quadrilateral", 9, 5, 4}, Kind{"Tetrahedron", 10, 6, 4},
-                            Kind{"Pyramid", 14, 7, 5},    Kind{"Wedge", 13, 8, 6},        Kind{"Hexahedron", 12, 9, 8},
+constexpr std::array kKinds{Kind{"Triangle", 5, 4, 3},         Kind{"Quadrilateral", 9, 5, 4},
+                            Kind{"Tetrahedron", 10, 6, 4},     Kind{"Pyramid", 14, 7, 5},
+                            Kind{"Wedge", 13, 8, 6},           Kind{"Hexahedron", 12, 9, 8},
                             Kind{"Tetrahedron_10", 24, 38, 10}};
 
 template <typename T>
@@ -75,7 +76,8 @@ UnstructuredTopology cells_of(XdmfTopology& topology, std::size_t points) {
     if (mixed) {
       kind = std::ranges::find_if(kKinds, [&](const Kind& k) { return list[at] == k.number; });
       if (kind == kKinds.end())
-        throw Unusable{"has cells of number " + std::to_string(list[at]) + " in its mixed topology, which are not read"};
+        throw Unusable{"has cells of number " + std::to_string(list[at]) +
+                       " in its mixed topology, which are not read"};
       ++at;
     }
     if (list.size() - at < kind->nodes) throw Unusable{"has a list of cells that ends within one"};
@@ -119,7 +121,8 @@ void read_topology(const Grid& grid, DataSet& block) {
   } else if (const auto image = shared_dynamic_cast<XdmfRegularGrid>(grid)) {
     UniformTopology lattice;
     lattice.points = counts_of(*image->getDimensions());
-    const std::vector<double> origin = numbers_of<double>(*image->getOrigin()), step = numbers_of<double>(*image->getBrickSize());
+    const std::vector<double> origin = numbers_of<double>(*image->getOrigin()),
+                              step = numbers_of<double>(*image->getBrickSize());
     if (origin.size() != 3 || step.size() != 3) throw Unusable{"has no origin and spacing along three axes"};
     for (int axis = 0; axis < 3; ++axis) {
       lattice.origin[axis] = origin[as_size(2 - axis)];
@@ -135,9 +138,12 @@ void read_topology(const Grid& grid, DataSet& block) {
       const auto coordinates = lines->getCoordinates(axis);
       if (!coordinates) throw Unusable{"is no grid of three axes"};
       auto& x = lattice.coordinates[axis] = numbers_of<double>(*coordinates);
-      const bool rises = std::ranges::adjacent_find(x, [](double a, double b) { return !(a < b); }) == x.end();
-      const bool falls = std::ranges::adjacent_find(x, [](double a, double b) { return !(a > b); }) == x.end();
-      if (x.size() < 2 || !(rises || falls)) throw Unusable{"has coordinates that neither rise nor fall all along"};
+      const bool rises =
+          std::ranges::adjacent_find(x, [](double a, double b) { return !(a < b); }) == x.end();
+      const bool falls =
+          std::ranges::adjacent_find(x, [](double a, double b) { return !(a > b); }) == x.end();
+      if (x.size() < 2 || !(rises || falls))
+        throw Unusable{"has coordinates that neither rise nor fall all along"};
     }
     block.topology = std::move(lattice);
   } else if (const auto curved = shared_dynamic_cast<XdmfCurvilinearGrid>(grid)) {
@@ -146,7 +152,8 @@ void read_topology(const Grid& grid, DataSet& block) {
     lattice.positions = positions_of(*curved->getGeometry());
     const std::size_t due = as_size(lattice.points.x) * as_size(lattice.points.y) * as_size(lattice.points.z);
     if (lattice.positions.tuples != due)
-      throw Unusable{"has " + std::to_string(lattice.positions.tuples) + " points where " + std::to_string(due) + " are due"};
+      throw Unusable{"has " + std::to_string(lattice.positions.tuples) + " points where " +
+                     std::to_string(due) + " are due"};
     block.topology = std::move(lattice);
   } else {
     throw Unusable{"is of a kind that is not read"};
@@ -168,12 +175,14 @@ void read_attributes(XdmfGrid& grid, const std::set<std::string>* wanted, DataSe
     const std::size_t tuples = nodes ? block.point_count() : block.cell_count();
     const std::vector<double> values = numbers_of<double>(attribute);
     constexpr std::size_t kMost = 9;
-    if (tuples == 0 || values.size() % tuples != 0 || values.size() / tuples < 1 || values.size() / tuples > kMost) {
-      throw Unusable{"has " + std::to_string(values.size()) + " numbers of '" + name + "' for " + std::to_string(tuples) +
-                     (nodes ? " points" : " cells")};
+    if (tuples == 0 || values.size() % tuples != 0 || values.size() / tuples < 1 ||
+        values.size() / tuples > kMost) {
+      throw Unusable{"has " + std::to_string(values.size()) + " numbers of '" + name + "' for " +
+                     std::to_string(tuples) + (nodes ? " points" : " cells")};
     }
     block.arrays.push_back(make_array(name, nodes ? Association::kPoint : Association::kCell,
-                                      static_cast<int>(values.size() / tuples), std::span<const double>(values)));
+                                      static_cast<int>(values.size() / tuples),
+                                      std::span<const double>(values)));
   }
 }
 
@@ -203,8 +212,10 @@ class XdmfLoader : public Loader {
       throw input_error({request.files[1].string(), "", "is a second XDMF file", "one file"});
     file_ = request.files.front().string();
     const XdmfText text = look_at_xdmf(MappedFile(file_).text());
-    if (!text.problem.empty()) throw input_error({file_, "", text.problem, "values in the file or beside it"});
-    for (const std::string& name : text.hdf5) check_hdf5((request.files.front().parent_path() / name).string());
+    if (!text.problem.empty())
+      throw input_error({file_, "", text.problem, "values in the file or beside it"});
+    for (const std::string& name : text.hdf5)
+      check_hdf5((request.files.front().parent_path() / name).string());
     FileInfo info;
     guarded([&] {
       read_document();
@@ -225,7 +236,8 @@ class XdmfLoader : public Loader {
     std::vector<DataSet> blocks;
     guarded([&] {
       read_document();  // libxdmf holds the numbers of every step that was read
-      blocks = blocks_of(std::next(steps_.begin(), static_cast<std::ptrdiff_t>(step))->second, &wanted, nullptr);
+      blocks =
+          blocks_of(std::next(steps_.begin(), static_cast<std::ptrdiff_t>(step))->second, &wanted, nullptr);
     });
     return blocks;
   }
@@ -290,7 +302,8 @@ class XdmfLoader : public Loader {
       read_topology(grid, block);
       read_attributes(*grid, wanted, block, left_out);
       if (notes != nullptr) notes->insert(notes->end(), left_out.begin(), left_out.end());
-      const auto same = std::ranges::find_if(blocks, [&](const DataSet& other) { return same_grid(other, block); });
+      const auto same =
+          std::ranges::find_if(blocks, [&](const DataSet& other) { return same_grid(other, block); });
       if (same == blocks.end()) {
         blocks.push_back(std::move(block));
         continue;
@@ -326,7 +339,8 @@ class XdmfLoader : public Loader {
       about.grid = "curvilinear";
       about.points = curved.points;
       for (std::size_t p = 0; p < curved.positions.tuples; ++p)
-        about.bounds.include({curved.positions.at(p, 0), curved.positions.at(p, 1), curved.positions.at(p, 2)});
+        about.bounds.include(
+            {curved.positions.at(p, 0), curved.positions.at(p, 1), curved.positions.at(p, 2)});
     }
     return about;
   }

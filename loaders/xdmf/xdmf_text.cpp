@@ -11,10 +11,13 @@ XdmfText look_at_xdmf(std::string_view text) {
   XdmfText out;
   constexpr std::string_view kBlank = " \t\r\n";
   if (text.find("<!ENTITY") != std::string_view::npos) out.problem = "defines entities";
-  for (std::size_t at = text.find("include"); at != std::string_view::npos; at = text.find("include", at + 1)) {
+  for (std::size_t at = text.find("include"); at != std::string_view::npos;
+       at = text.find("include", at + 1)) {
     const std::size_t open = text.rfind('<', at), close = std::min(text.find('>', at), text.size());
-    if (open == std::string_view::npos || text.substr(open, at - open).find('>') != std::string_view::npos) continue;
-    if (text.substr(at, close - at).find("href") != std::string_view::npos) out.problem = "includes another file";
+    if (open == std::string_view::npos || text.substr(open, at - open).find('>') != std::string_view::npos)
+      continue;
+    if (text.substr(at, close - at).find("href") != std::string_view::npos)
+      out.problem = "includes another file";
   }
   for (std::size_t at = text.find(":/"); at != std::string_view::npos; at = text.find(":/", at + 1)) {
     std::size_t begin = at;

@@ -21,8 +21,8 @@ namespace {
 Vec3 helix(const Vec3& x) { return {2.0 - x.y, x.x - 2.0, 0.3}; }
 
 /// Cells i to j along each axis of a level of that cell size, with the helix, and -7 everywhere where `hidden`.
-void write_level(const TempFolder& folder, const std::string& name, const Index3& from, const Index3& to, double size,
-                 const std::function<bool(const Vec3&)>& hidden) {
+void write_level(const TempFolder& folder, const std::string& name, const Index3& from, const Index3& to,
+                 double size, const std::function<bool(const Vec3&)>& hidden) {
   std::string values;
   for (int k = from.z; k <= to.z; ++k) {
     for (int j = from.y; j <= to.y; ++j) {
@@ -38,13 +38,14 @@ void write_level(const TempFolder& folder, const std::string& name, const Index3
   };
   const Index3 n = to - from + 1;
   const Vec3 origin = size * Vec3(from);
-  (void)folder.write(name, "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + extent(n) + "\" Origin=\"" +
-                               exact_number(origin.x) + " " + exact_number(origin.y) + " " + exact_number(origin.z) +
-                               "\" Spacing=\"" + exact_number(size) + " " + exact_number(size) + " " + exact_number(size) +
-                               "\"><Piece Extent=\"" + extent(n) +
-                               "\"><CellData><DataArray type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\" "
-                               "format=\"ascii\">" +
-                               values + "</DataArray></CellData></Piece></ImageData></VTKFile>");
+  (void)folder.write(
+      name, "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + extent(n) + "\" Origin=\"" +
+                exact_number(origin.x) + " " + exact_number(origin.y) + " " + exact_number(origin.z) +
+                "\" Spacing=\"" + exact_number(size) + " " + exact_number(size) + " " + exact_number(size) +
+                "\"><Piece Extent=\"" + extent(n) +
+                "\"><CellData><DataArray type=\"Float64\" Name=\"velocity\" NumberOfComponents=\"3\" "
+                "format=\"ascii\">" +
+                values + "</DataArray></CellData></Piece></ImageData></VTKFile>");
 }
 
 class Amr : public ::testing::Test {
@@ -53,7 +54,8 @@ class Amr : public ::testing::Test {
     const auto inside = [](const Vec3& x, double low, double high) {
       return std::min({x.x, x.y, x.z}) > low && std::max({x.x, x.y, x.z}) < high;
     };
-    write_level(folder_, "c.vti", Index3{0}, Index3{3}, 1.0, [&](const Vec3& x) { return inside(x, 1.0, 3.0); });
+    write_level(folder_, "c.vti", Index3{0}, Index3{3}, 1.0,
+                [&](const Vec3& x) { return inside(x, 1.0, 3.0); });
     write_level(folder_, "f0.vti", {2, 2, 2}, {3, 5, 5}, 0.5, [](const Vec3&) { return false; });
     write_level(folder_, "f1.vti", {4, 2, 2}, {5, 5, 5}, 0.5, [](const Vec3&) { return false; });
     file_ = folder_.write(

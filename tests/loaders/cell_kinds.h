@@ -271,16 +271,19 @@ inline std::string gambit_file(const CellKind& kind) {
   if (kind.vtk == 14) type = 7, order = {0, 1, 3, 2, 4};
   if (type == 0) return {};
   const std::vector<Vec3> nodes = places(kind, {});
-  std::string out = "        CONTROL INFO 2.3.16\n** GAMBIT NEUTRAL FILE\none cell\n"
-                    "PROGRAM:                Gambit     VERSION:  2.3.16\n Jan 2009\n"
-                    "     NUMNP     NELEM     NGRPS    NBSETS     NDFCD     NDFVL\n         " +
-                    std::to_string(nodes.size()) +
-                    " 1 1 0 3 3\nENDOFSECTION\n   NODAL COORDINATES 2.3.16\n";
-  for (std::size_t i = 0; i < nodes.size(); ++i) out += std::to_string(i + 1) + " " + words_of(nodes[i]) + "\n";
-  out += "ENDOFSECTION\n      ELEMENTS/CELLS 2.3.16\n1 " + std::to_string(type) + " " + std::to_string(nodes.size());
+  std::string out =
+      "        CONTROL INFO 2.3.16\n** GAMBIT NEUTRAL FILE\none cell\n"
+      "PROGRAM:                Gambit     VERSION:  2.3.16\n Jan 2009\n"
+      "     NUMNP     NELEM     NGRPS    NBSETS     NDFCD     NDFVL\n         " +
+      std::to_string(nodes.size()) + " 1 1 0 3 3\nENDOFSECTION\n   NODAL COORDINATES 2.3.16\n";
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out += std::to_string(i + 1) + " " + words_of(nodes[i]) + "\n";
+  out += "ENDOFSECTION\n      ELEMENTS/CELLS 2.3.16\n1 " + std::to_string(type) + " " +
+         std::to_string(nodes.size());
   for (const int corner : order) out += " " + std::to_string(corner + 1);
-  return out + "\nENDOFSECTION\n       ELEMENT GROUP 2.3.16\nGROUP:          1 ELEMENTS:          1 MATERIAL:          "
-               "2 NFLAGS:          1\n                           fluid\n       0\n       1\nENDOFSECTION\n";
+  return out +
+         "\nENDOFSECTION\n       ELEMENT GROUP 2.3.16\nGROUP:          1 ELEMENTS:          1 MATERIAL:          "
+         "2 NFLAGS:          1\n                           fluid\n       0\n       1\nENDOFSECTION\n";
 }
 
 }  // namespace palpate::test

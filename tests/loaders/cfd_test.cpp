@@ -64,10 +64,11 @@ std::string fluent_case(const std::string& nodes = hex(4 * (kCubes + 1))) {
     }
   }
   const std::string cells = hex(kCubes), faces = hex(of_inner + of_outer);
-  return "(0 \"a row of cubes\")\n(2 3)\n(10 (0 1 " + nodes + " 0 3))\n(10 (1 1 " + hex(4 * (kCubes + 1)) + " 1 3)(\n" +
-         places_of_points(false) + "))\n(12 (0 1 " + cells + " 0))\n(12 (2 1 " + cells + " 1 4))\n(13 (0 1 " + faces +
-         " 0))\n(13 (3 1 " + hex(of_inner) + " 2 4)(\n" + inner + "))\n(13 (4 " + hex(of_inner + 1) + " " + faces +
-         " 3 4)(\n" + outer + "))\n(45 (2 fluid fluid-2)())\n(45 (3 interior default-interior)())\n(45 (4 wall wall-4)())\n";
+  return "(0 \"a row of cubes\")\n(2 3)\n(10 (0 1 " + nodes + " 0 3))\n(10 (1 1 " + hex(4 * (kCubes + 1)) +
+         " 1 3)(\n" + places_of_points(false) + "))\n(12 (0 1 " + cells + " 0))\n(12 (2 1 " + cells +
+         " 1 4))\n(13 (0 1 " + faces + " 0))\n(13 (3 1 " + hex(of_inner) + " 2 4)(\n" + inner +
+         "))\n(13 (4 " + hex(of_inner + 1) + " " + faces + " 3 4)(\n" + outer +
+         "))\n(45 (2 fluid fluid-2)())\n(45 (3 interior default-interior)())\n(45 (4 wall wall-4)())\n";
 }
 
 double value_of(int variable, int cell) { return variable + 0.25 * cell; }
@@ -147,8 +148,9 @@ TEST(Gambit, HeadsAreHeldAgainstTheFile) {
   const std::string head = "        CONTROL INFO 2.3.16\n NUMNP NELEM NGRPS NBSETS NDFCD NDFVL\n";
   EXPECT_NE(gambit_problem(head + " 4000000 1 1 0 3 3\n").find("4000000"), std::string::npos);
   EXPECT_NE(gambit_problem(head + " 4 1 1\n").find("3 counts"), std::string::npos);
-  EXPECT_NE(gambit_problem(head + " 4 1 1 0 3 3\nENDOFSECTION\n NODAL COORDINATES 2.3.16\n").find("ends before"),
-            std::string::npos);
+  EXPECT_NE(
+      gambit_problem(head + " 4 1 1 0 3 3\nENDOFSECTION\n NODAL COORDINATES 2.3.16\n").find("ends before"),
+      std::string::npos);
 }
 
 TEST(StarCd, MeshesAreRead) {

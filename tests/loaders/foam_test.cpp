@@ -220,9 +220,10 @@ TEST(FoamPrecision, TakesOneValueForAllAndNoOtherOrder) {
   const FoamBox box(3, border);
   FoamBox::write_control(folder.path());
   box.write_mesh(folder.path(), false);
-  FoamBox::write(folder.path("0/U"), FoamBox::header("volVectorField", "U", false) +
-                                         "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 27" +
-                                         "{(1 0.1 0)};\nboundaryField\n{\n" + kFree + "}\n");
+  FoamBox::write(folder.path("0/U"),
+                 FoamBox::header("volVectorField", "U", false) +
+                     "dimensions [0 1 -1 0 0 0 0];\ninternalField nonuniform List<vector> 27" +
+                     "{(1 0.1 0)};\nboundaryField\n{\n" + kFree + "}\n");
   Source source = Source::open({{folder.path()}, {}});
   const auto blocks = source.read({"U"});
   const DataArray* const u = blocks.at(0).find("U", Association::kCell);

@@ -58,7 +58,8 @@ class Hdf5File {
   /// A set of numbers that are never written.
   void claim(const std::string& path, const std::vector<hsize_t>& counts) const {
     const hid_t space = H5Screate_simple(static_cast<int>(counts.size()), counts.data(), nullptr);
-    H5Dclose(H5Dcreate2(file_, path.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    H5Dclose(
+        H5Dcreate2(file_, path.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     H5Sclose(space);
   }
   /// Numbers in double or single precision.
@@ -86,8 +87,8 @@ class Hdf5File {
     text.resize(length);
     const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, length);
-    const hid_t made = H5Acreate_by_name(file_, path.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT,
-                                         H5P_DEFAULT);
+    const hid_t made = H5Acreate_by_name(file_, path.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                         H5P_DEFAULT, H5P_DEFAULT);
     H5Awrite(made, type, text.data());
     H5Aclose(made);
     H5Tclose(type);

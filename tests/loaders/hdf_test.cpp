@@ -69,7 +69,8 @@ std::string structured_cgns(bool cut_short = false) {
       if (cut_short) line.resize(line.size() / 2);
       const std::vector<hsize_t> counts =
           cut_short ? std::vector<hsize_t>{line.size()} : std::vector<hsize_t>{kNz, kNy, kNx};
-      tree.real(at + "/GridCoordinates/Coordinate" + std::string(1, "XYZ"[axis]), "DataArray_t", line, true, counts);
+      tree.real(at + "/GridCoordinates/Coordinate" + std::string(1, "XYZ"[axis]), "DataArray_t", line, true,
+                counts);
     }
     tree.empty(at + "/Steps", "ZoneIterativeData_t");
     std::string names;
@@ -106,7 +107,8 @@ TEST(Cgns, ZonesAreBlocksAndSolutionsTimes) {
       ASSERT_TRUE(grid != nullptr && v != nullptr);
       const std::vector<Vec3> nodes = lattice();
       for (std::size_t p = 0; p < nodes.size(); ++p) {
-        const Vec3 x = nodes[p] + Vec3{0.0, 0.0, blocks[b].name.find("high") != std::string::npos ? 2.0 : 0.0};
+        const Vec3 x =
+            nodes[p] + Vec3{0.0, 0.0, blocks[b].name.find("high") != std::string::npos ? 2.0 : 0.0};
         for (int c = 0; c < 3; ++c) {
           EXPECT_EQ(grid->positions.at(p, c), x[c]);
           EXPECT_EQ(v->at(p, c), flow_at(x)[c] * (step == 0 ? 1.0 : 3.0));
@@ -118,7 +120,8 @@ TEST(Cgns, ZonesAreBlocksAndSolutionsTimes) {
 
 TEST(Cgns, DamagedFilesAreRefused) {
   const TempFolder folder;
-  EXPECT_NE(refusal(folder.write("short.cgns", structured_cgns(true))).find("has 12 numbers, expected 24"), std::string::npos);
+  EXPECT_NE(refusal(folder.write("short.cgns", structured_cgns(true))).find("has 12 numbers, expected 24"),
+            std::string::npos);
   const CellKind& tet = cell_kinds().front();
   EXPECT_NE(refusal(folder.write("cells.cgns", cgns_file(tet, true, 2))).find("has 4 numbers, expected 8"),
             std::string::npos);
@@ -162,7 +165,8 @@ TEST(VtkHdf, ClaimsBeyondTheFileAreRefused) {
   file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
   file.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
   file.claim("/VTKHDF/Points", {std::uint64_t{1} << 40U, 3});
-  EXPECT_NE(refusal(folder.write("claims.vtkhdf", file.bytes())).find("data set 'VTKHDF/Points'"), std::string::npos);
+  EXPECT_NE(refusal(folder.write("claims.vtkhdf", file.bytes())).find("data set 'VTKHDF/Points'"),
+            std::string::npos);
   const Hdf5File other;
   other.group("/VTKHDF");
   other.claim("/VTKHDF/Points", {4, 3});
@@ -237,7 +241,8 @@ ClassicFile ocean(const std::string& units) {
                     {"y", {2}, {{"units", units}}, {0.0, 1.0, 2.0}},
                     {"x", {3}, {{"units", units}}, {0.0, 0.5, 1.5, 2.0}}};
   for (int axis = 0; axis < 3; ++axis) {
-    ClassicFile::Variable variable{std::string(1, "uvw"[axis]), {0, 1, 2, 3}, {}, {}, {{"_FillValue", -999.0}}};
+    ClassicFile::Variable variable{
+        std::string(1, "uvw"[axis]), {0, 1, 2, 3}, {}, {}, {{"_FillValue", -999.0}}};
     for (int t = 0; t < 2; ++t) {
       for (const Vec3& x : lattice()) variable.values.push_back(flow_at(x)[axis] + 100.0 * t);
     }

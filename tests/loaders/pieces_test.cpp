@@ -186,8 +186,8 @@ TEST(Pieces, MayEndWithNaNBeforeATag) {
     const std::string extent = std::to_string(from) + " " + std::to_string(from + 1) + " 0 1 0 1";
     (void)folder.write(name, "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + extent +
                                  "\" Origin=\"0 0 0\" Spacing=\"1 1 1\"><Piece Extent=\"" + extent +
-                                 "\"><PointData><DataArray type=\"Float64\" Name=\"s\" format=\"ascii\">" + values +
-                                 "</DataArray></PointData></Piece></ImageData></VTKFile>");
+                                 "\"><PointData><DataArray type=\"Float64\" Name=\"s\" format=\"ascii\">" +
+                                 values + "</DataArray></PointData></Piece></ImageData></VTKFile>");
   };
   piece("left.vti", 0, "1 2 3 4 5 6 7 2");
   piece("right.vti", 1, "2 9 4 10 6 11 2 nan");

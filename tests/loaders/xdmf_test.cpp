@@ -25,8 +25,8 @@ std::string heavy(const std::string& counts, const std::string& place, bool whol
          "\" Precision=\"8\" Format=\"HDF\">" + place + "</DataItem>";
 }
 std::string document(const std::string& domain) {
-  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\"><Domain>" + domain +
-         "</Domain></Xdmf>\n";
+  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" xmlns:xi=\"http://www.w3.org/2001/XInclude\"><Domain>" +
+         domain + "</Domain></Xdmf>\n";
 }
 
 std::string words(const std::vector<Vec3>& all) {
@@ -48,7 +48,7 @@ std::string refusal(const std::filesystem::path& file) {
 
 /// A hexahedron and a tetrahedron on its top, as a mixed mesh in HDF5, at two times.
 TEST(Xdmf, MeshesWithTimesAreRead) {
-  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1},
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},    {0, 0, 1},
                                  {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}};
   const TempFolder folder;
   const Hdf5File file;
@@ -59,19 +59,23 @@ TEST(Xdmf, MeshesWithTimesAreRead) {
   for (Vec3& v : later) v *= 2.0;
   file.set("/u1", tuples_of(later), {points.size(), 3});
   std::ofstream(folder.path("a.h5"), std::ios::binary) << file.bytes();
-  const std::string mesh = "<Topology TopologyType=\"Mixed\" NumberOfElements=\"2\">" + heavy("14", "a.h5:/cells", true) +
-                           "</Topology><Geometry GeometryType=\"XYZ\">" + heavy("9 3", "a.h5:/points") + "</Geometry>";
+  const std::string mesh = "<Topology TopologyType=\"Mixed\" NumberOfElements=\"2\">" +
+                           heavy("14", "a.h5:/cells", true) + "</Topology><Geometry GeometryType=\"XYZ\">" +
+                           heavy("9 3", "a.h5:/points") + "</Geometry>";
   const auto u = [](const std::string& at) {
-    return "<Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + heavy("9 3", "a.h5:/u" + at) + "</Attribute>";
+    return "<Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + heavy("9 3", "a.h5:/u" + at) +
+           "</Attribute>";
   };
-  const std::string p = "<Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Cell\">" + item("2", "3 4") + "</Attribute>";
+  const std::string p =
+      "<Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Cell\">" + item("2", "3 4") + "</Attribute>";
   const auto path = folder.write(
       "a.xdmf",
-      document("<Grid Name=\"mesh\" GridType=\"Uniform\">" + mesh + "</Grid>" +
-               "<Grid Name=\"T\" GridType=\"Collection\" CollectionType=\"Temporal\"><Grid Name=\"one\" GridType=\"Uniform\">" + mesh +
-               "<Time Value=\"0.5\"/>" + u("0") + p + "</Grid><Grid Name=\"two\" GridType=\"Uniform\">" +
-               "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;T&quot;]/Grid[1]/*[self::Topology or self::Geometry])\"/>" +
-               "<Time Value=\"1.5\"/>" + u("1") + p + "</Grid></Grid>"));
+      document(
+          "<Grid Name=\"mesh\" GridType=\"Uniform\">" + mesh + "</Grid>" +
+          "<Grid Name=\"T\" GridType=\"Collection\" CollectionType=\"Temporal\"><Grid Name=\"one\" GridType=\"Uniform\">" +
+          mesh + "<Time Value=\"0.5\"/>" + u("0") + p + "</Grid><Grid Name=\"two\" GridType=\"Uniform\">" +
+          "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;T&quot;]/Grid[1]/*[self::Topology or self::Geometry])\"/>" +
+          "<Time Value=\"1.5\"/>" + u("1") + p + "</Grid></Grid>"));
   Source source = Source::open({{path}, {}});
   EXPECT_EQ(source.info().times, (std::vector<double>{0.5, 1.5}));
   ASSERT_EQ(source.info().blocks.size(), 1U);
@@ -92,21 +96,25 @@ TEST(Xdmf, MeshesWithTimesAreRead) {
 
 TEST(Xdmf, GridsAreRead) {
   std::vector<Vec3> points;
-  for (int n = 0; n < 24; ++n) points.emplace_back(10.0 + n % 4, 20.0 + 2.0 * (n / 4 % 3), 30.0 + 3.0 * (n / 12));
-  const std::string values =
-      "<Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + item("2 3 4 3", words(flows_at(points))) + "</Attribute>";
+  for (int n = 0; n < 24; ++n)
+    points.emplace_back(10.0 + n % 4, 20.0 + 2.0 * (n / 4 % 3), 30.0 + 3.0 * (n / 12));
+  const std::string values = "<Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" +
+                             item("2 3 4 3", words(flows_at(points))) + "</Attribute>";
   const std::string shape = " Dimensions=\"2 3 4\"/>";
   const std::vector<std::pair<std::string, std::string>> kinds{
-      {"uniform", "<Topology TopologyType=\"3DCoRectMesh\"" + shape + "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
-                      item("3", "30 20 10") + item("3", "3 2 1") + "</Geometry>"},
+      {"uniform", "<Topology TopologyType=\"3DCoRectMesh\"" + shape +
+                      "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" + item("3", "30 20 10") +
+                      item("3", "3 2 1") + "</Geometry>"},
       {"rectilinear", "<Topology TopologyType=\"3DRectMesh\"" + shape + "<Geometry GeometryType=\"VXVYVZ\">" +
-                          item("4", "10 11 12 13") + item("3", "20 22 24") + item("2", "30 33") + "</Geometry>"},
+                          item("4", "10 11 12 13") + item("3", "20 22 24") + item("2", "30 33") +
+                          "</Geometry>"},
       {"curvilinear", "<Topology TopologyType=\"3DSMesh\"" + shape + "<Geometry GeometryType=\"XYZ\">" +
                           item("24 3", words(points)) + "</Geometry>"}};
   for (const auto& [kind, grid] : kinds) {
     SCOPED_TRACE(kind);
     const TempFolder folder;
-    const auto path = folder.write("a.xmf", document("<Grid Name=\"g\" GridType=\"Uniform\">" + grid + values + "</Grid>"));
+    const auto path =
+        folder.write("a.xmf", document("<Grid Name=\"g\" GridType=\"Uniform\">" + grid + values + "</Grid>"));
     Source source = Source::open({{path}, {}});
     EXPECT_EQ(source.info().blocks.at(0).grid, kind);
     EXPECT_EQ(source.info().blocks[0].points, (Index3{4, 3, 2}));
@@ -123,24 +131,29 @@ TEST(Xdmf, GridsAreRead) {
 TEST(Xdmf, DamagedFilesAreRefused) {
   const TempFolder folder;
   const auto mesh = [](const std::string& kind, const std::string& cells, const std::string& u) {
-    return document("<Grid Name=\"g\" GridType=\"Uniform\"><Topology TopologyType=\"" + kind + "\" NumberOfElements=\"1\">" +
-                    item("1 4", cells, true) + "</Topology><Geometry GeometryType=\"XYZ\">" +
-                    item("4 3", "0 0 0 1 0 0 0 1 0 0 0 1") +
-                    "</Geometry><Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + u + "</Attribute></Grid>");
+    return document("<Grid Name=\"g\" GridType=\"Uniform\"><Topology TopologyType=\"" + kind +
+                    "\" NumberOfElements=\"1\">" + item("1 4", cells, true) +
+                    "</Topology><Geometry GeometryType=\"XYZ\">" + item("4 3", "0 0 0 1 0 0 0 1 0 0 0 1") +
+                    "</Geometry><Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + u +
+                    "</Attribute></Grid>");
   };
   const std::string right = item("4 3", "1 2 3 1 2 3 1 2 3 1 2 3");
   EXPECT_NO_THROW((void)Source::open({{folder.write("a.xdmf", mesh("Tetrahedron", "0 1 2 3", right))}, {}}));
-  EXPECT_NE(refusal(folder.write("b.xdmf", mesh("Tetrahedron", "0 1 2 9", right))).find("point 9 of 4"), std::string::npos);
-  EXPECT_NE(refusal(folder.write("c.xdmf", mesh("Tetrahedron", "0 1 2 3", item("7", "1 2 3 4 5 6 7")))).find("7 numbers"),
+  EXPECT_NE(refusal(folder.write("b.xdmf", mesh("Tetrahedron", "0 1 2 9", right))).find("point 9 of 4"),
+            std::string::npos);
+  EXPECT_NE(refusal(folder.write("c.xdmf", mesh("Tetrahedron", "0 1 2 3", item("7", "1 2 3 4 5 6 7"))))
+                .find("7 numbers"),
             std::string::npos);
   EXPECT_NE(refusal(folder.write("d.xdmf", mesh("Tetrahedron", "0 1 2 3", heavy("4 3", "gone.h5:/u")))), "");
-  EXPECT_NE(refusal(folder.write("e.xdmf", mesh("Wedge_15", "0 1 2 3", right))).find("Wedge_15"), std::string::npos);
+  EXPECT_NE(refusal(folder.write("e.xdmf", mesh("Wedge_15", "0 1 2 3", right))).find("Wedge_15"),
+            std::string::npos);
   EXPECT_NE(refusal(folder.write("f.xdmf", document(""))).find("no grid"), std::string::npos);
   EXPECT_NE(refusal(folder.write("g.xdmf", "<Xdmf><Domain>")), "");
 }
 
 TEST(Xdmf, LeadsNowhereElse) {
-  EXPECT_EQ(look_at_xdmf("<D>a.h5:/x</D><D> b.h5:/y</D><D>a.h5:/z</D>").hdf5, (std::vector<std::string>{"a.h5", "b.h5"}));
+  EXPECT_EQ(look_at_xdmf("<D>a.h5:/x</D><D> b.h5:/y</D><D>a.h5:/z</D>").hdf5,
+            (std::vector<std::string>{"a.h5", "b.h5"}));
   EXPECT_EQ(look_at_xdmf("<Xdmf xmlns:xi=\"http://www.w3.org/\">").problem, "");
   EXPECT_NE(look_at_xdmf("<D>../a.h5:/x</D>").problem, "");
   EXPECT_NE(look_at_xdmf("<D>/etc/a.h5:/x</D>").problem, "");

@@ -248,7 +248,8 @@ bool FlowInTime::locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) 
     if (!(u >= -kFace && u <= 1.0 + kFace)) return false;
     // Frames that turn round: a place on the border of one is beyond that of another.
     constexpr double kBorder = 1e-12;
-    at.u[axis] = std::clamp(u, low == 0 ? kBorder : 0.0, low + 2 == grid.points()[axis] ? 1.0 - kBorder : 1.0);
+    at.u[axis] =
+        std::clamp(u, low == 0 ? kBorder : 0.0, low + 2 == grid.points()[axis] ? 1.0 - kBorder : 1.0);
   }
   return true;
 }

@@ -16,7 +16,8 @@ bool is_rounded(double found, double exact) {
   constexpr double kLargest = std::numeric_limits<float>::max();
   constexpr double kSmallest = std::numeric_limits<float>::min();
   if (std::isnan(exact) || std::isnan(found)) return std::isnan(exact) && std::isnan(found);
-  if (std::abs(exact) >= kLargest) return std::abs(found) >= kLargest && std::signbit(found) == std::signbit(exact);
+  if (std::abs(exact) >= kLargest)
+    return std::abs(found) >= kLargest && std::signbit(found) == std::signbit(exact);
   return std::abs(found - exact) <= std::max(kPart * std::abs(exact), kSmallest);
 }
 
@@ -46,7 +47,8 @@ std::vector<double> read_foam_points(std::string_view text, const std::string& f
     }
     while (!tokens.done() && tokens.peek() != ")") append_foam_tuple(tokens, kAxes, out);
     if (out.size() != kAxes * count)
-      throw FoamMalformed{std::to_string(out.size() / kAxes) + " points where " + std::to_string(count) + " are due"};
+      throw FoamMalformed{std::to_string(out.size() / kAxes) + " points where " + std::to_string(count) +
+                          " are due"};
     return out;
   } catch (const FoamMalformed& problem) {
     throw input_error({file, "", problem.found, "a file of OpenFOAM", "the file may be damaged"});

@@ -398,7 +398,8 @@ struct StretchedBox {
 };
 
 TEST(Pathlines, GoWithAGridThatMoves) {
-  for (const StretchedBox box : {StretchedBox{true, 0.3}, StretchedBox{false, 0.3}, StretchedBox{true, 40.0}}) {
+  for (const StretchedBox box :
+       {StretchedBox{true, 0.3}, StretchedBox{false, 0.3}, StretchedBox{true, 40.0}}) {
     const std::vector<double> times = test::steps_until(2.0, 40);
     const auto read = [&](std::size_t step) { return box.at(times[step]); };
     std::vector<Vec3> seeds{{1.0, 0.1, 0.2}};  // on the border, which moves with the flow
