@@ -42,8 +42,8 @@ Document reopened(const Document& document) {
 std::vector<std::function<void(SceneView&)>> edits() {
   SceneView view;
   auto& [bounds, lines, outline, style, units, background, show_outline, show_axes, show_color_bar, title,
-         subtitle, camera, stereo, probe, surfaces, color_lens, volume, slice, tensors, tracts, notes, labels,
-         volume_label, anatomical] = view;
+         subtitle, camera, aspect, stereo, probe, surfaces, color_lens, volume, slice, tensors, tracts, notes,
+         labels, volume_label, anatomical] = view;
   auto& [color_by, array, range, usual, logarithmic, color_map, width, opacity, clearing, halo, depth_cue,
          dimming] = style;
   // What data, seeds, stereo options, hands and annotations make, and what has a keep_…() of its own.
@@ -52,7 +52,8 @@ std::vector<std::function<void(SceneView&)>> edits() {
   (void)labels, (void)slice, (void)volume_label, (void)anatomical, (void)array, (void)clearing, (void)dimming,
       (void)usual;
   // What an edit of these changes of another view.
-  (void)background, (void)show_outline, (void)show_axes, (void)show_color_bar, (void)camera, (void)color_by;
+  (void)background, (void)show_outline, (void)show_axes, (void)show_color_bar, (void)camera, (void)color_by,
+      (void)aspect;
   (void)range, (void)logarithmic, (void)color_map, (void)width, (void)opacity, (void)halo, (void)depth_cue;
   return {[](SceneView& v) { v.background = Background::kLight; },
           [](SceneView& v) {
