@@ -93,10 +93,10 @@ int main(int argc, char** argv) {
                            "an experiment in which people follow fibres, with guidance and without"},
                           {"cardiac study simulate trial-study", "simulated participants in all places"}}),
               open_heart_verb({{"cardiac heart.exelem.gz", "a file in the window"},
-                         {"cardiac --example ventricle", "a built-in heart"},
-                         {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",
-                          "on the tetrahedra of 'mesh', which are kept for the next opening"},
-                         {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
+                               {"cardiac --example ventricle", "a built-in heart"},
+                               {"cardiac heart.exelem.gz --refine 8 --mesher delaunay",
+                                "on the tetrahedra of 'mesh', which are kept for the next opening"},
+                               {"cardiac open --session heart.palpate.toml", "what Ctrl+S saved"}}),
           },
       .complete = [](Document& options) { options.input.remesher = remesher_of(options); }};
   return run_explorer(cardiac, argc, argv);

@@ -41,8 +41,8 @@ int main(int argc, char** argv) {
                            "an experiment in which people trace bundles, with guidance and without"},
                           {"dtmri study simulate trial-study", "simulated participants in all places"}}),
               open_tensors_verb({{"dtmri helix-DTI.nhdr", "a file in the window"},
-                         {"dtmri --example helix", "a built-in data set"},
-                         {"dtmri open --session dwi.palpate.toml", "what Ctrl+S saved"}}),
+                                 {"dtmri --example helix", "a built-in data set"},
+                                 {"dtmri open --session dwi.palpate.toml", "what Ctrl+S saved"}}),
               trace_tracts_verb(
                   {{"dtmri trace helix-DTI.nhdr --seeds fa:0.5 --out tracts.tck",
                     "from the centre of every voxel whose FA is above one half"},

@@ -65,8 +65,8 @@ int main(int argc, char** argv) {
                {"flow study simulate trial-study", "simulated participants in all places"},
                {"flow study analyse trial-study", "then open trial-study/analysis/index.html"}}),
           open_lines_verb({{"flow carotid.vtk", "a file in the window"},
-                     {"flow --example abc", "a built-in data set"},
-                     {"flow open --session carotid.palpate.toml", "what Ctrl+S saved"}}),
+                           {"flow --example abc", "a built-in data set"},
+                           {"flow open --session carotid.palpate.toml", "what Ctrl+S saved"}}),
       }};
   return run_explorer(flow, argc, argv);
 }

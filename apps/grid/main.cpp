@@ -88,8 +88,8 @@ int main(int argc, char** argv) {
                         "an experiment in which people place planes, with guidance and without"},
                        {"grid study simulate trial-study", "simulated participants in all places"}}),
            open_volume_verb({{"grid tooth.nhdr", "a file in the window"},
-                      {"grid --example shells", "a built-in volume"},
-                      {"grid open --session tooth.palpate.toml", "what Ctrl+S saved"}})},
+                             {"grid --example shells", "a built-in volume"},
+                             {"grid open --session tooth.palpate.toml", "what Ctrl+S saved"}})},
 
   };
   return run_explorer(grid, argc, argv);

@@ -184,7 +184,7 @@ void take_session(const Verb& verb, FieldKind kind, const std::vector<const Sett
   if (!input_typed) take_inputs(session, document);
 }
 
-/// A session among the files opens like one of them: "flow carotid.palpate.toml". @throws Error (usage) for two.
+/// A session among the files opens like one of them: "carotid.palpate.toml". @throws Error (usage) for two.
 void find_session(Document& document) {
   std::vector<std::filesystem::path>& files = document.input.files;
   const auto session = std::ranges::find_if(files, is_session);

@@ -34,8 +34,8 @@ double thread_microseconds() noexcept {
   return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-StreamlineRun::StreamlineRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
-                   const ChainSettings& settings)
+StreamlineRun::StreamlineRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace,
+                             int threads, const ChainSettings& settings)
     : workspace_(workspace) {
   auto constraint = std::make_unique<StreamlineConstraint>(
       std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, threads), workspace);

@@ -30,7 +30,7 @@ class StreamlineRun {
  public:
   /// With limits that are default.
   StreamlineRun(const std::shared_ptr<const VectorField>& field, const Workspace& workspace, int threads,
-           const ChainSettings& settings = {});
+                const ChainSettings& settings = {});
 
   [[nodiscard]] const ChainSettings& settings() const noexcept { return chain_->settings(); }
   [[nodiscard]] const DeviceLimits& limits() const noexcept { return stepper_->limits(); }

@@ -1,11 +1,10 @@
 #include "common/field/tensor/diffusion_measures.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "common/base/error.h"
-
-#include <algorithm>
-#include <cmath>
 
 namespace palpate {
 namespace {

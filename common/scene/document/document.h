@@ -251,13 +251,14 @@ struct HandOptions {
 
 /// What is written.
 struct OutputOptions {
-  std::filesystem::path file;         ///< or the folder of a report; empty: none
-  std::filesystem::path tract;        ///< probe: where the way of the proxy is saved as a line
-  std::filesystem::path tracts;       ///< tracts: those that are held against the image
-  std::string turn;                   ///< tracts: grammar of parse_tract_turn(); empty: none
-  std::filesystem::path profile;      ///< tracts: where a measure along the bundle is written; empty: nowhere
-  std::filesystem::path profiled;     ///< tracts: the image whose values that are; empty: `measure` of the tensors
-  int nodes = 100;                    ///< tracts: places of the profile
+  std::filesystem::path file;     ///< or the folder of a report; empty: none
+  std::filesystem::path tract;    ///< probe: where the way of the proxy is saved as a line
+  std::filesystem::path tracts;   ///< tracts: those that are held against the image
+  std::string turn;               ///< tracts: grammar of parse_tract_turn(); empty: none
+  std::filesystem::path profile;  ///< tracts: where a measure along the bundle is written; empty: nowhere
+  std::filesystem::path
+      profiled;     ///< tracts: the image whose values that are; empty: `measure` of the tensors
+  int nodes = 100;  ///< tracts: places of the profile
   std::filesystem::path density;      ///< tracts: where lines a voxel are written; empty: nowhere
   std::string size;                   ///< WxH; empty: 1280x960, or that of the screen
   int repeat = 0;                     ///< render: frames to be timed after the first one
