@@ -315,7 +315,9 @@ TEST_F(TouchVolume, AnotherInputForgetsAnnotationsPlanesAndIsovalues) {
   at(next(), {.kind = InputKind::kDrop, .files = {"other.nrrd"}});
   key('D');  // they are not saved
   last_ += 3 * kPause;
-  key('S', kModifierControl);
+  key('S', kModifierControl);  // other data: a name is asked for
+  last_ += kPause;
+  key(kEnter);
   const std::string other = run().message;
   EXPECT_EQ(settings_of(other, "annotation"), "") << other;
   EXPECT_EQ(settings_of(other, "isovalue"), "") << other;
