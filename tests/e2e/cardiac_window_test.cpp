@@ -29,11 +29,11 @@ namespace {
 double layer_of(const WindowResult& result) { return std::atof(result.document.heart.layer.c_str()); }
 
 /// What a window saves of a scene and its view.
-Session saved_session(CardiacModel& model, const SceneState& state, const SceneView& view) {
+Session saved_session(CardiacModel& model, const SceneState& state, const SceneView& view,
+                      const std::filesystem::path& file) {
   Document document = state.document;
   model.keep(view, document);
-  const TempFolder folder;
-  return load_session(model.save_session(document, folder.path("heart.palpate.toml")));
+  return load_session(model.save_session(document, file));
 }
 
 double distance_to(const Vec3& x, const Vec3& a, const Vec3& b) {
@@ -394,11 +394,11 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
   const SceneState state = model.start(progress);
   SceneView view;
   show_scene(state, ShownAs::kNew, view);
-  const Session saved = saved_session(model, state, view);
+  const std::filesystem::path session = folder_.path(file.stem().string() + ".palpate.toml");
+  const Session saved = saved_session(model, state, view, session);
   for (const auto& option : given)
     EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), option), saved.options.end())
         << option.first;
-  const std::filesystem::path session = folder_.path(file.stem().string() + ".palpate.toml");
   EXPECT_TRUE(std::filesystem::exists(session));
   std::filesystem::remove(folder_.path(file.stem().string() + ".palpate.layers"));
   const auto lines = [&](const std::string& name, const std::vector<std::string>& words) {
@@ -442,7 +442,7 @@ TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
   show_scene(half, ShownAs::kNew, view);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());
-  const Session saved = saved_session(model, half, view);
+  const Session saved = saved_session(model, half, view, TempFolder().path("heart.palpate.toml"));
   std::filesystem::current_path(before);
   const auto cut = std::find_if(saved.options.begin(), saved.options.end(),
                                 [](const auto& option) { return option.first == "cut"; });
@@ -474,7 +474,7 @@ TEST_F(CardiacSession, OpensAgainInTheProgramThatSavedIt) {
   view.style.range = ValueRange{-60.0, 20.0};
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());
-  const Session saved = saved_session(model, state, view);
+  const Session saved = saved_session(model, state, view, TempFolder().path("heart.palpate.toml"));
   std::filesystem::current_path(before);
   for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"background", "light"},
                                                                                     {"axes", "off"},
@@ -504,7 +504,7 @@ TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {
   show_scene(state, ShownAs::kNew, view);
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder_.path());
-  const Session saved = saved_session(model, state, view);
+  const Session saved = saved_session(model, state, view, TempFolder().path("heart.palpate.toml"));
   std::filesystem::current_path(before);
   const std::pair<std::string, std::string> markers{"surface-markers", "1,4/2"};
   EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), markers), saved.options.end());
