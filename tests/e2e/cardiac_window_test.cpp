@@ -440,10 +440,7 @@ TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
   EXPECT_NEAR(farthest(half), 0.1, 1e-9);
   SceneView view;
   show_scene(half, ShownAs::kNew, view);
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder_.path());
   const Session saved = saved_session(model, half, view, TempFolder().path("heart.palpate.toml"));
-  std::filesystem::current_path(before);
   const auto cut = std::find_if(saved.options.begin(), saved.options.end(),
                                 [](const auto& option) { return option.first == "cut"; });
   ASSERT_NE(cut, saved.options.end());
@@ -472,10 +469,7 @@ TEST_F(CardiacSession, OpensAgainInTheProgramThatSavedIt) {
   view.style.halo = true;
   view.style.color_map = ColorMap::kHeat;
   view.style.range = ValueRange{-60.0, 20.0};
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder_.path());
-  const Session saved = saved_session(model, state, view, TempFolder().path("heart.palpate.toml"));
-  std::filesystem::current_path(before);
+  const Session saved = saved_session(model, state, view, folder_.path("cardiac-wave.palpate.toml"));
   for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"background", "light"},
                                                                                     {"axes", "off"},
                                                                                     {"line-width", "5"},
@@ -502,10 +496,7 @@ TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {
   const SceneState state = model.start(progress);
   SceneView view;
   show_scene(state, ShownAs::kNew, view);
-  const auto before = std::filesystem::current_path();
-  std::filesystem::current_path(folder_.path());
   const Session saved = saved_session(model, state, view, TempFolder().path("heart.palpate.toml"));
-  std::filesystem::current_path(before);
   const std::pair<std::string, std::string> markers{"surface-markers", "1,4/2"};
   EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), markers), saved.options.end());
 }

@@ -214,9 +214,9 @@ class PanelWalk : public ExplorerTest {
   }
 
   /// What a click into its control changes: not lists of what the data have (fields, modes, seeds), nor what is
-  /// drawn (colours of values), nor two whose pictures and words need more than that.
+  /// drawn (colours of values), nor three whose words or pictures need more than that.
   static bool pressed_by_a_click(const Setting& row) {
-    static const std::set<std::string_view> kOthers{"stroke", "surface"},
+    static const std::set<std::string_view> kOthers{"stroke", "surface", "voxels"},
         kTexts{"integrator",      "color", "background", "angle", "cross",
                "contour-spacing", "range", "resample",   "layer"};
     if (kOthers.contains(row.name)) return false;
