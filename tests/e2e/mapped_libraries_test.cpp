@@ -100,7 +100,7 @@ TEST(MappedLibraries, AreFewWhateverFileIsOpened) {
     std::vector<std::string> command{bin("flow").string(), "trace"};
     command.insert(command.end(), input.begin(), input.end());
     const std::string out = std::to_string(++number) + ".vtp";
-    command.insert(command.end(), {"--seeds", "random:300", "--out", out});
+    command.insert(command.end(), {"--seeds", "random:3000", "--out", out});
     const Observation seen = observe(command, folder.path());
     EXPECT_EQ(seen.result.exit_code, 0) << input[0] << ": " << seen.result.err;
     expect_small(seen);
