@@ -84,10 +84,11 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
     EXPECT_TRUE(again.identical) << again.verdict;
     EXPECT_EQ(again.outcome.error, record.outcome.error) << record.task << " " << record.run;
     EXPECT_EQ(again.outcome.seconds, record.outcome.seconds);
-    EXPECT_LT(record.outcome.error, 100.0);  // [mm] what the analysis leaves out
     // A servo that a busy machine lets stand still cuts the force, and a window that it lets stand still for seconds
-    // lets the time run out: of the trials of a task one is neither.
-    if (!record.outcome.flaws.any() && !record.outcome.timed_out) ++good[record.task];
+    // lets the time run out, both far from the goal: of the trials of a task one is neither.
+    constexpr double kNear = 60.0;  // [mm]
+    const bool whole = !record.outcome.flaws.any() && !record.outcome.timed_out;
+    if (whole && record.outcome.error < kNear) ++good[record.task];
   }
   EXPECT_EQ(good.size(), 4U) << "each task was done";
 }
