@@ -26,7 +26,7 @@
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/hand/mode/haptic_mode.h"
-#include "common/scene/session_of.h"
+#include "common/scene/session.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/volume/volume_panel.h"
@@ -78,8 +78,11 @@ class PanelWalk : public ExplorerTest {
     return run_window(*model, window);
   }
 
-  /// Of the last window, without its panel.
-  std::vector<unsigned char> picture() {
+  /// Of the last window, without its panel. @param name of the copy that PALPATE_PICTURES gets.
+  std::vector<unsigned char> picture(const std::string& name) {
+    if (const char* folder = std::getenv("PALPATE_PICTURES"))
+      std::filesystem::copy(folder_.path("window.png"), std::filesystem::path(folder) / (name + ".png"),
+                            std::filesystem::copy_options::overwrite_existing);
     int width = 0, height = 0;
     unsigned char* pixels = stbi_load(folder_.path("window.png").c_str(), &width, &height, nullptr, 3);
     if (pixels == nullptr) return {};
@@ -173,36 +176,47 @@ class PanelWalk : public ExplorerTest {
     const std::string name = program.name + words + ": " + control.setting;
     const std::string was = value_text(*row, start);
     WindowResult made;
+    int attempt = 0;
     // A value may be the one that is there already: another place then.
-    for (int attempt = 0; attempt < 2; ++attempt) {
-      made = open(program, start, context, events(*row, control, was, attempt), 44);
+    for (; attempt < 2; ++attempt) {
+      made = open(program, start, context, events(*row, control, was, attempt), kFrames);
       if (value_text(*row, made.document) != was) break;
     }
     EXPECT_TRUE(made.missing.empty()) << name;
     EXPECT_NE(value_text(*row, made.document), was) << name << " is as it was";
     if (!row->saved) return;
-    const auto picture_before = picture();
-    if (const char* folder = std::getenv("PALPATE_PICTURES"))
-      std::filesystem::copy(folder_.path("window.png"),
-                            std::filesystem::path(folder) / (control.setting + "_made.png"),
-                            std::filesystem::copy_options::overwrite_existing);
     Document again = plain;
-    Document saved = made.document;  // as the model saves it
-    for (const std::string& one : saved.input.secondary) saved.input.field += "," + one;
-    const Session session = session_of(saved, program.name);
-    take_into(again, session, program.kind);
+    const std::filesystem::path file = folder_.path("walk.palpate.toml");
+    (void)program.model(start)->save_session(made.document, file);
+    take_into(again, load_session(file), program.kind);
     EXPECT_EQ(value_text(*row, again), value_text(*row, made.document)) << name << " is not in the session";
-    (void)open(program, again, context, {}, 44);
-    const auto picture_after = picture();
-    if (const char* folder = std::getenv("PALPATE_PICTURES"))
-      std::filesystem::copy(folder_.path("window.png"),
-                            std::filesystem::path(folder) / (control.setting + "_again.png"),
-                            std::filesystem::copy_options::overwrite_existing);
-    ASSERT_EQ(picture_before.size(), picture_after.size());
-    int worst = 0;
-    for (std::size_t i = 0; i < picture_before.size(); ++i)
-      worst = std::max(worst, std::abs(picture_before[i] - picture_after[i]));
+    const auto first = picture(control.setting + "_made");
+    int worst =
+        difference(first, picture_of(program, again, context, {}, kFrames, control.setting + "_again"));
+    if (worst > 1) {
+      // What hands make besides, surfaces say, takes a busy machine more frames.
+      constexpr int kMore = 300;
+      auto script = events(*row, control, was, attempt);
+      worst =
+          difference(picture_of(program, start, context, std::move(script), kMore, control.setting + "_made"),
+                     picture_of(program, again, context, {}, kMore, control.setting + "_again"));
+    }
     EXPECT_LE(worst, 1) << name << " [1/255]";
+  }
+
+  /// What a window shows at its end.
+  std::vector<unsigned char> picture_of(const Program& program, const Document& document,
+                                        const VerbContext& context, std::vector<ScriptedEvent> script,
+                                        int frames, const std::string& name) {
+    (void)open(program, document, context, std::move(script), frames);
+    return picture(name);
+  }
+
+  static int difference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b) {
+    if (a.empty() || a.size() != b.size()) return 255;
+    int worst = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+    return worst;
   }
 
   static void take_into(Document& document, const Session& session, FieldKind kind) {
@@ -214,9 +228,9 @@ class PanelWalk : public ExplorerTest {
   }
 
   /// What a click into its control changes: not lists of what the data have (fields, modes, seeds), nor what is
-  /// drawn (colours of values), nor three whose words or pictures need more than that.
+  /// drawn (colours of values), nor two whose lists say other words.
   static bool pressed_by_a_click(const Setting& row) {
-    static const std::set<std::string_view> kOthers{"stroke", "surface", "voxels"},
+    static const std::set<std::string_view> kOthers{"stroke", "voxels"},
         kTexts{"integrator",      "color", "background", "angle", "cross",
                "contour-spacing", "range", "resample",   "layer"};
     if (kOthers.contains(row.name)) return false;
@@ -276,6 +290,7 @@ class PanelWalk : public ExplorerTest {
   }
 
   std::set<std::pair<std::string, std::string>> walked_;  // by the program
+  static constexpr int kFrames = 44;                      // for all events of a control, and what follows
   static constexpr int kEnter = 257;                      // GLFW's
   static constexpr int kWidth = 700, kHeight = 1900;
   static constexpr float kTextHeight = 14.0F;
