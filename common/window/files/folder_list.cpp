@@ -1,21 +1,15 @@
 #include "common/window/files/folder_list.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <string_view>
 
+#include "common/base/text.h"
 #include "common/load/format.h"
 #include "common/scene/session_of.h"
 
 namespace palpate {
 namespace {
-
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Whether what `row` may hold is something that a program of `kind` shows.
 bool holds_for(const FormatRow& row, FieldKind kind) {
@@ -56,7 +50,7 @@ FolderList list_folder(const std::filesystem::path& folder, const FileFilter& sh
   }
   std::ranges::sort(list.entries, [](const FolderEntry& a, const FolderEntry& b) {
     if (a.folder != b.folder) return a.folder;
-    const std::string left = lower(a.name), right = lower(b.name);
+    const std::string left = lowered(a.name), right = lowered(b.name);
     return left != right ? left < right : a.name < b.name;
   });
   return list;
@@ -66,8 +60,8 @@ bool can_open(const std::filesystem::path& path, bool folder, FieldKind kind) {
   const auto opens = [&](const FormatRow& row) {
     if (!holds_for(row, kind)) return false;
     if (folder) return row.recognise_folder != nullptr && row.recognise_folder(path);
-    const std::string ending = lower(path.extension().string());
-    if (row.gzip && ending == ".gz") return names_ending(row, lower(path.stem().extension().string()));
+    const std::string ending = lowered(path.extension().string());
+    if (row.gzip && ending == ".gz") return names_ending(row, lowered(path.stem().extension().string()));
     return names_ending(row, ending);
   };
   const bool session = !folder && path.filename().string().ends_with(kSessionEnding);
@@ -75,7 +69,7 @@ bool can_open(const std::filesystem::path& path, bool folder, FieldKind kind) {
 }
 
 bool matches(const std::string& name, const std::string& typed) {
-  const std::string all = lower(name), part = lower(typed);
+  const std::string all = lowered(name), part = lowered(typed);
   for (std::size_t at = all.find(part); at != std::string::npos; at = all.find(part, at + 1)) {
     if (at == 0 || std::isalnum(static_cast<unsigned char>(all[at - 1])) == 0) return true;
   }

@@ -1,7 +1,6 @@
 #include "common/window/panels/setting_search.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include <imgui.h>
@@ -15,16 +14,9 @@ namespace {
 // GLFW's numbers.
 constexpr int kEscape = 256, kEnter = 257, kDown = 264, kUp = 265, kPadEnter = 335;
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
 /// 0 is the best; none where a word is nowhere.
 std::optional<int> rank(const Setting& row, const std::vector<std::string>& words) {
-  const std::string label = lower(row.label()), name = lower(row.name), help = lower(row.help);
+  const std::string label = lowered(row.label()), name = lowered(row.name), help = lowered(row.help);
   int worst = 0;
   for (const std::string& word : words) {
     const auto in = [&](const std::string& text) { return text.find(word) != std::string::npos; };
@@ -39,7 +31,8 @@ std::optional<int> rank(const Setting& row, const std::vector<std::string>& word
 
 std::vector<const Setting*> find_settings(std::string_view typed, FieldKind kind) {
   std::vector<std::string> words;
-  for (const std::string_view word : split(lower(typed), ' ')) {
+  const std::string small = lowered(typed);
+  for (const std::string_view word : split(small, ' ')) {
     if (!word.empty()) words.emplace_back(word);
   }
   std::vector<std::pair<int, const Setting*>> ranked;
