@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -51,9 +52,15 @@ template <typename T>
 
 /// The parts between blanks and line ends, none of them empty.
 [[nodiscard]] std::vector<std::string_view> words(std::string_view text);
+/// The parts would outlive the text.
+template <std::same_as<std::string> Text>
+std::vector<std::string_view> words(Text&& text) = delete;
 
 /// The parts between separators, empty ones included.
 [[nodiscard]] std::vector<std::string_view> split(std::string_view text, char separator);
+/// As of words().
+template <std::same_as<std::string> Text>
+std::vector<std::string_view> split(Text&& text, char separator) = delete;
 
 /// Their opposite.
 [[nodiscard]] std::string joined(const std::vector<std::string>& parts, std::string_view separator);
