@@ -21,7 +21,7 @@ LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress
   check.steps.push_back({0.0, phase});
   for (std::int64_t now = start;;) {
     progress.check();
-    const bool fresh = link.round(Vec3{0.0});
+    const bool fresh = link.round();
     const std::int64_t after = monotonic_ns();
     if (link.status().phase != phase) {
       phase = link.status().phase;

@@ -159,7 +159,7 @@ ExitCode run_monitor(const Document& document, const VerbContext& context) {
   std::string said;
   for (double next = 0.0; elapsed() < options.seconds;) {
     context.progress.check();
-    const bool fresh = link->round(Vec3{0.0});
+    const bool fresh = link->round();
     const double now = elapsed();
     if (std::string advice = link->advice(); advice != said) {
       said = std::move(advice);

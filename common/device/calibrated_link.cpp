@@ -27,10 +27,18 @@ CalibratedLink::CalibratedLink(std::unique_ptr<DriverLink> link, LinkCalibration
   by_joints_ = has_joints_of(*link_, calibration_);
   if (!by_joints_) agreement_ = Agreement::kAlike;
   atoms_ = link_->atoms();
+  link_->obey(this);
 }
 
-bool CalibratedLink::round(const Vec3& force) noexcept {
-  const bool fresh = link_->round(agreement_ == Agreement::kAlike ? force : Vec3{0.0});
+CalibratedLink::~CalibratedLink() { link_->obey(nullptr); }
+
+Vec3 CalibratedLink::newest() noexcept {
+  const Vec3 asked = ordered();
+  return agreement_ == Agreement::kAlike ? asked : Vec3{0.0};
+}
+
+bool CalibratedLink::round() noexcept {
+  const bool fresh = link_->round();
   if (fresh) correct();
   return fresh;
 }

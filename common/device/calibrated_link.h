@@ -19,6 +19,7 @@
 /// or a frame that lies another way, would push the hand where nothing is felt.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,7 +37,7 @@ struct LinkCalibration {
   Rigid device_from_arm;  ///< B
 };
 
-class CalibratedLink final : public DriverLink {
+class CalibratedLink final : public DriverLink, private ForceSource {
  public:
   static constexpr double kSeen = 0.02;  ///< [m]
 
@@ -45,8 +46,9 @@ class CalibratedLink final : public DriverLink {
 
   /// @pre link is not null, and concerns() holds.
   CalibratedLink(std::unique_ptr<DriverLink> link, LinkCalibration calibration);
+  ~CalibratedLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const PoseAtoms* poses() const noexcept override { return link_->poses(); }
   [[nodiscard]] Rigid device_from_poses() const noexcept override { return link_->device_from_poses(); }
@@ -60,6 +62,7 @@ class CalibratedLink final : public DriverLink {
   /// Whether both have been seen to move alike, or not.
   enum class Agreement : std::uint8_t { kUnseen, kAlike, kUnlike };
 
+  Vec3 newest() noexcept override;
   void correct() noexcept;
   void compare(const Vec3& own) noexcept;
 
@@ -68,7 +71,7 @@ class CalibratedLink final : public DriverLink {
   DeviceAtoms atoms_;
   bool by_joints_;  ///< by (1), else by (2)
 
-  Agreement agreement_ = Agreement::kUnseen;
+  std::atomic<Agreement> agreement_{Agreement::kUnseen};
   std::uint64_t opened_ = 0;  ///< the connection that the next two are of
   std::optional<Vec3> own_;   ///< where the arm said that it was [m]
   Vec3 corrected_{0.0};       ///< where it was then

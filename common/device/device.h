@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/base/bell.h"
 #include "common/device/device_limits.h"
 #include "common/math/vec.h"
 
@@ -41,6 +42,9 @@ class Device {
   /// Shows no force from now on, until the next command(). Any thread, also while the servo thread is inside
   /// another call.
   virtual void emergency_stop() noexcept = 0;
+  /// What rings when there is a newer sample; null: the device is read whenever it suits, a mouse. Does not change
+  /// while the device lives.
+  [[nodiscard]] virtual const Bell* bell() const noexcept { return nullptr; }
   /// Does not change while the device lives.
   [[nodiscard]] virtual const DeviceLimits& limits() const noexcept = 0;
 };

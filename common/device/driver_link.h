@@ -5,10 +5,12 @@
 /// it and, plugged out and in again, starts over by itself, without force.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -55,6 +57,18 @@ struct LinkStatus {
   std::uint64_t uploads = 0;      ///< tries to load the firmware
 };
 
+/// What force a link is to show.
+class ForceSource {
+ public:
+  ForceSource() = default;
+  ForceSource(const ForceSource&) = delete;
+  ForceSource& operator=(const ForceSource&) = delete;
+  virtual ~ForceSource() = default;
+
+  /// The newest one that is asked for [N, frame D]. The one thread of a link that tells its device. @rt Safe.
+  virtual Vec3 newest() noexcept = 0;
+};
+
 class DriverLink {
  public:
   DriverLink() = default;
@@ -63,11 +77,17 @@ class DriverLink {
   /// Leaves the device without force.
   virtual ~DriverLink() = default;
 
+  /// Where the forces come from that the device is to show, from now on; null: there are none. Returns once the
+  /// source before it is no longer asked.
+  void obey(ForceSource* source) noexcept {
+    source_.store(source);
+    while (asking_.load()) std::this_thread::yield();
+  }
   /// Does what is next, for some milliseconds with a device that is ready, for less than kLongestRound else.
-  /// The device shows `force` [N, frame D] from then on if it is ready, the force is finite and every answer
-  /// made sense, else none.
+  /// The source is asked at the moment at which the device is told, so that no force waits for a round. The
+  /// device shows it if it is ready, the force is finite and every answer made sense, else none.
   /// @return whether atoms() or poses() are new. One thread.
-  virtual bool round(const Vec3& force) noexcept = 0;
+  virtual bool round() noexcept = 0;
   [[nodiscard]] virtual const DeviceAtoms& atoms() const noexcept = 0;
   /// Of a tracker: all stations that it could have, those that it does not see as not valid. Null: it is
   /// none.
@@ -79,12 +99,26 @@ class DriverLink {
   [[nodiscard]] virtual std::string advice() const = 0;
   [[nodiscard]] virtual const DeviceLimits& limits() const noexcept = 0;
   /// From now on no force that the device is told is larger than the cap of `asked` or of limits(), or grows
-  /// or turns faster than their slew limits, whatever round() is asked for. Before the first round.
+  /// or turns faster than their slew limits, whatever is asked for. Before the first round.
   virtual void restrain(const DeviceLimits& asked) noexcept { (void)asked; }
   /// Bus and place, "usb 1-2.3", or empty while there is none.
   [[nodiscard]] virtual std::string place() const = 0;
 
   static constexpr double kLongestRound = 0.8;  ///< [s] a program that is told to end waits for it
+
+ protected:
+  /// What the source asks for now. @rt Safe.
+  [[nodiscard]] Vec3 ordered() noexcept {
+    asking_.store(true);
+    ForceSource* const source = source_.load();
+    const Vec3 force = source != nullptr ? source->newest() : Vec3{0.0};
+    asking_.store(false);
+    return force;
+  }
+
+ private:
+  std::atomic<ForceSource*> source_{nullptr};
+  std::atomic<bool> asking_{false};
 };
 
 /// What a driver is told: `falcon:firmware=FILE,gain=3500` as names and values.

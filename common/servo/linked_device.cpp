@@ -34,31 +34,39 @@ LinkedDevice::LinkedDevice(std::shared_ptr<DriverLink> link, const EnablingSwitc
     switch_button_ = enabling.button;
     limits_.enabling_button = enabling.sample_button();
   }
+  link_->obey(this);
   thread_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
 }
 
 LinkedDevice::~LinkedDevice() {
   thread_.request_stop();
   thread_.join();
+  link_->obey(nullptr);
+  (void)link_->round();
+}
+
+Vec3 LinkedDevice::newest() noexcept {
+  (void)orders_.read(order_);
+  const bool fresh = now_seconds() - order_.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
+  if (!fresh || order_.force == Vec3{0.0} || !end_.may_show()) return Vec3{0.0};
+  showed_.store(true);
+  return order_.force;
 }
 
 void LinkedDevice::work(const std::stop_token& stop) {
   ForceEnd::leave_signals_to_others();
   request_real_time_priority(kLinkPriority);
-  Order order;
   LinkPhase told = LinkPhase::kAbsent;
   double reported_at = 0.0;
   const double begun = now_seconds();
   while (!stop.stop_requested()) {
-    (void)orders_.read(order);
-    const double now = now_seconds();
-    const bool fresh = now - order.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
-    const bool shows = fresh && order.force != Vec3{0.0} && end_.may_show();
-    if (link_->round(shows ? order.force : Vec3{0.0})) {
+    if (link_->round()) {
       atoms_.write(link_->atoms());
       if (const PoseAtoms* const poses = link_->poses()) poses_.write(*poses);
+      bell_.ring(monotonic_ns());
     }
-    if (!shows) end_.rested();
+    if (!showed_.exchange(false)) end_.rested();
+    const double now = now_seconds();
     // Words are for people: when something has changed, and now and then.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
@@ -72,7 +80,6 @@ void LinkedDevice::work(const std::stop_token& stop) {
     status_ = status;
     advice_ = std::move(advice);
   }
-  (void)link_->round(Vec3{0.0});
 }
 
 bool LinkedDevice::read_atoms(double now, DeviceAtoms& atoms) noexcept {

@@ -31,7 +31,7 @@ namespace palpate {
 [[nodiscard]] std::uint32_t with_switch(std::uint32_t buttons, const DeviceAtoms* heard, int button,
                                         double now) noexcept;
 
-class LinkedDevice final : public Device {
+class LinkedDevice final : public Device, private ForceSource {
  public:
   static constexpr double kFreshFor = 0.020;  ///< [s]
   static constexpr double kChance = 1.0;      ///< [s]
@@ -50,6 +50,7 @@ class LinkedDevice final : public Device {
   bool read(double now, DeviceSample& sample) noexcept override;
   void command(const Vec3& force) noexcept override;
   void emergency_stop() noexcept override { stopped_.store(true, std::memory_order_release); }
+  [[nodiscard]] const Bell* bell() const noexcept override { return &bell_; }
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
 
   /// The newest of all that the device has, at most kKept old. Servo thread, in place of read(). @rt Safe.
@@ -77,6 +78,8 @@ class LinkedDevice final : public Device {
   };
 
   void work(const std::stop_token& stop);
+  /// The servo's newest force, where it is fresh and may be shown.
+  Vec3 newest() noexcept override;
 
   std::shared_ptr<DriverLink> link_;
   DeviceLimits limits_;
@@ -86,8 +89,11 @@ class LinkedDevice final : public Device {
   TripleBuffer<DeviceAtoms> atoms_;
   TripleBuffer<PoseAtoms> poses_;
   TripleBuffer<Order> orders_;
+  Bell bell_;
   std::atomic<bool> stopped_{false};
+  std::atomic<bool> showed_{false};  ///< in the round that is under way
   ForceEnd end_;
+  Order order_;  ///< the thread's that asks for forces
 
   DeviceAtoms newest_;  ///< the servo thread's
   bool seen_ = false;

@@ -78,6 +78,7 @@ class PlacedDevice final : public Device {
   bool read(double now, DeviceSample& sample) noexcept override;
   void command(const Vec3& force) noexcept override;
   void emergency_stop() noexcept override { device_.emergency_stop(); }
+  [[nodiscard]] const Bell* bell() const noexcept override { return device_.bell(); }
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
 
  private:

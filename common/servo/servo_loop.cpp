@@ -1,5 +1,6 @@
 #include "common/servo/servo_loop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/servo/real_time.h"
+#include "common/servo/tick_pace.h"
 
 namespace palpate {
 namespace {
@@ -129,11 +131,16 @@ void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
                       .memory_locked = lock_memory()};
   }
   ServoStatistics& statistics = now_.statistics;
-  for (std::int64_t due = monotonic_ns() + period_; !stop.stop_requested();) {
-    sleep_until_ns(due);
-    const std::int64_t woken = monotonic_ns();
+  const Bell* const bell = device_ != nullptr ? device_->bell() : nullptr;
+  const auto rang = [bell] { return bell != nullptr ? bell->rang() : Bell::Rang(); };
+  TickPace pace(period_, monotonic_ns());
+  while (!stop.stop_requested()) {
+    const TickPace::Wait wait = pace.next();
+    sleep_until_ns(wait.from);
+    if (const Bell::Rang sample = rang(); pace.awaits(sample)) bell->wait(sample.count, wait.until);
+    const std::int64_t due = pace.began(rang()), woken = monotonic_ns();
     if (watchdog_) watchdog_->beat(woken);
-    const std::int64_t late = woken - due;
+    const std::int64_t late = std::max(std::int64_t{0}, woken - due);
     now_.late = 2 * late > period_;
     statistics.late += now_.late ? 1 : 0;
     statistics.lateness.add(late);
@@ -149,11 +156,8 @@ void ServoLoop::run(const std::stop_token& stop, bool real_time) noexcept {
     statistics.update.add(update);
     state_.write(now_);
 
-    due += period_;
-    if (const std::int64_t behind = monotonic_ns() - due; behind >= 0) {
-      const std::int64_t passed = behind / period_ + 1;
+    if (const std::int64_t passed = pace.ended(monotonic_ns()); passed > 0) {
       statistics.skipped += static_cast<std::uint64_t>(passed);
-      due += passed * period_;
       overran({.step = now_.hand.number,
                .skipped = static_cast<std::uint64_t>(passed),
                .late = late,

@@ -2,7 +2,8 @@
 ///
 /// Each tick has an absolute deadline. A tick that wakes more than half a period after it is *late*;
 /// deadlines that have passed when a tick is done are *skipped*, never caught up in a burst. Steps get the
-/// time at which they really ran, so neither changes what the hand feels other than by its sampling.
+/// time at which they really ran, so neither changes what the hand feels other than by its sampling. Where the
+/// samples of a device come about as often, deadlines follow them (tick_pace.h).
 ///
 /// The thread asks for SCHED_FIFO and for its memory to stay; both may be refused, ServoState::real_time says
 /// what was granted. A Watchdog stops the device if the thread stalls, after which the force grows from zero.

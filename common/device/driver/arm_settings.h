@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -68,19 +69,19 @@ inline constexpr std::string_view kArmOptions = "axes, middle_x, middle_y, middl
 }
 
 /// After an arm took its force away by itself there is none until none was asked for: a force does not come
-/// back under a hand that still leans on it.
+/// back under a hand that still leans on it. What trips it may be another thread than the one that shows.
 class ForceRearm {
  public:
-  void trip() noexcept { tripped_ = true; }
-  [[nodiscard]] bool tripped() const noexcept { return tripped_; }
+  void trip() noexcept { tripped_.store(true, std::memory_order_release); }
+  [[nodiscard]] bool tripped() const noexcept { return tripped_.load(std::memory_order_acquire); }
   /// What of `asked` may be shown.
   [[nodiscard]] Vec3 allowed(const Vec3& asked) noexcept {
-    if (asked == Vec3{0.0}) tripped_ = false;
-    return tripped_ ? Vec3{0.0} : asked;
+    if (asked == Vec3{0.0}) tripped_.store(false, std::memory_order_release);
+    return tripped() ? Vec3{0.0} : asked;
   }
 
  private:
-  bool tripped_ = false;
+  std::atomic<bool> tripped_{false};
 };
 
 }  // namespace palpate

@@ -2,6 +2,7 @@
 // force that waits until both were seen to fit.
 
 #include "common/device/calibrated_link.h"
+#include "tests/common/device/driver/round_with.h"
 
 #include <cmath>
 #include <memory>
@@ -14,7 +15,8 @@ namespace {
 /// An arm of three joints that says whatever the test wants.
 class SayingLink final : public DriverLink {
  public:
-  bool round(const Vec3& force) noexcept override {
+  bool round() noexcept override {
+    const Vec3 force = ordered();
     shown = force;
     return true;
   }
@@ -78,16 +80,16 @@ TEST_F(CalibratedArm, IsWhereItsJointsSayOnceBothMoveAlikeItGetsForce) {
   for (const double base : {0.0, 0.02, 0.1, -0.1}) {
     // The maker is 40 mm and 5 degrees off.
     tell(base, rotation_by({0.0, 0.0, 0.09}) * end_at(base) + Vec3(0.04, 0.0, 0.0));
-    EXPECT_TRUE(calibrated_->round(kForce));
+    EXPECT_TRUE(round_with(*calibrated_, kForce));
     EXPECT_LT(glm::distance(calibrated_->atoms().position, end_at(base)), 1e-15);
     EXPECT_EQ(calibrated_->advice().empty(), base == 0.1 || base == -0.1) << base;
   }
-  (void)calibrated_->round(kForce);
+  (void)round_with(*calibrated_, kForce);
   EXPECT_EQ(link_->shown, kForce);
   // What is plugged in anew may be another one.
   ++link_->state.opened;
-  (void)calibrated_->round(kForce);
-  (void)calibrated_->round(kForce);
+  (void)round_with(*calibrated_, kForce);
+  (void)round_with(*calibrated_, kForce);
   EXPECT_EQ(link_->shown, Vec3(0.0));
   EXPECT_NE(calibrated_->advice().find("move the arm"), std::string::npos);
 }
@@ -97,7 +99,7 @@ TEST_F(CalibratedArm, GetsNoForceWhereBothMoveAnotherWay) {
     ++link_->state.opened;
     for (const double base : {0.0, 0.05, 0.1, 0.15}) {
       tell(base, factor * (turn * end_at(base)));
-      (void)calibrated_->round(kForce);
+      (void)round_with(*calibrated_, kForce);
     }
     return link_->shown != Vec3(0.0);
   };
@@ -128,7 +130,7 @@ TEST(CalibratedTracker, MovesAProbeByItsCorrectedTip) {
   shifted.orientation = {.degree = 0, .center = Vec3{0.0}, .scale = 1.0, .coefficients = {Vec3{0.0}}};
   calibration.tracker = shifted;
   CalibratedLink calibrated(std::move(link), calibration);
-  (void)calibrated.round(Vec3{0.0});
+  (void)round_with(calibrated, Vec3{0.0});
   const Vec3 tip{1.01, 2.0, 2.9};  // the turn is about the stylus
   const Vec3 expected = tracker.lies * tip;
   EXPECT_LT(glm::distance(calibrated.atoms().position, expected), 1e-12);

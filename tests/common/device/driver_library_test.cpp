@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
@@ -80,7 +81,7 @@ TEST_F(DriverLibrary, OpensAModuleThatIsAskedForAndWorksItsLink) {
   const auto start = std::chrono::steady_clock::now();
   constexpr std::chrono::seconds kLimit{20};
   while (link->status().phase != LinkPhase::kReady && std::chrono::steady_clock::now() - start < kLimit) {
-    (void)link->round(Vec3{0.0});
+    (void)round_with(*link, Vec3{0.0});
   }
   EXPECT_EQ(link->status().phase, LinkPhase::kReady) << link->advice();
   EXPECT_EQ(link->place(), "usb 1-2");

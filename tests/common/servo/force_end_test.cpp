@@ -45,7 +45,8 @@ struct Word {
 class WireLink final : public DriverLink {
  public:
   explicit WireLink(int wire) : wire_(wire) { atoms_.has_position = true; }
-  bool round(const Vec3& force) noexcept override {
+  bool round() noexcept override {
+    const Vec3 force = ordered();
     say({monotonic_ns(), force.x});
     if (force.x != 0.0) shown_ = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -3,18 +3,26 @@
 
 #include "common/servo/linked_device.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/haptics/constraint/half_space.h"
+#include "common/haptics/proxy_chain.h"
 #include "common/servo/live_hands.h"
 #include "common/servo/placed_device.h"
 #include "common/servo/real_time.h"
+#include "common/servo/servo_loop.h"
 
 namespace palpate::test {
 namespace {
@@ -22,7 +30,8 @@ namespace {
 /// Says what the test wants and remembers what it was told.
 class ScriptedLink final : public DriverLink {
  public:
-  bool round(const Vec3& force) noexcept override {
+  bool round() noexcept override {
+    const Vec3 force = ordered();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(mutex_);
     reported_ = force;
@@ -172,6 +181,64 @@ TEST_F(LinkedDeviceTest, StopsAtOnceAndUntilTheNextCommand) {
     device.command(force);
     return link_->told() == force;
   }));
+}
+
+/// Tells the force of a round first, then reads the next position, as arms do; each position has its round's number.
+class CountingLink final : public DriverLink {
+ public:
+  static constexpr double kStep = 1e-5;  // [m] by which the wall is pressed further each round, back after kRounds
+  static constexpr int kRounds = 1000;
+
+  CountingLink() {
+    limits_.reach_lower = Vec3{-1.0};
+    limits_.reach_upper = Vec3{1.0};
+    limits_.force_cap = limits_.slew_cap = limits_.velocity_gate = 1e6;
+  }
+  bool round() noexcept override {
+    std::this_thread::sleep_until(next_ += std::chrono::milliseconds(1));
+    const double depth = -ordered().z / kStiffness;
+    const int shown = static_cast<int>(std::lround(depth / kStep));
+    const int lag = (round_ - shown + kRounds) % kRounds + 1;
+    // Not where the depth falls back, and not where no force was shown yet.
+    if (shown > 0 && round_ > 100) ++lags_[static_cast<std::size_t>(std::min(lag, 3))];
+    round_ = (round_ + 1) % kRounds;
+    atoms_ = {.time = now(), .has_position = true, .position = {0.0, 0.0, kStep * round_}};
+    ++rounds_;
+    return true;
+  }
+  [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
+  [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
+  [[nodiscard]] std::string advice() const override { return {}; }
+  [[nodiscard]] const DeviceLimits& limits() const noexcept override { return limits_; }
+  [[nodiscard]] std::string place() const override { return "here"; }
+
+  static constexpr double kStiffness = 100.0;  // [N/m]
+  std::array<std::atomic<int>, 4> lags_{};     ///< rounds by how many rounds old the sample of their force was
+  std::atomic<int> rounds_{0};
+
+ private:
+  int round_ = 0;
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+  DeviceAtoms atoms_;
+  LinkStatus status_{.phase = LinkPhase::kReady};
+  DeviceLimits limits_;
+};
+
+// Counted in rounds, not in time: it was two before the link asked for the force as late as it can, and before the
+// servo followed the samples.
+TEST_F(LinkedDeviceTest, AForceIsShownInTheRoundAfterItsSample) {
+  const auto link = std::make_shared<CountingLink>();
+  LinkedDevice device(link);
+  ChainSettings settings;
+  settings.stiffness = CountingLink::kStiffness;
+  settings.damping = 0.0;
+  std::vector<std::unique_ptr<Constraint>> wall;
+  wall.push_back(std::make_unique<HalfSpaceConstraint>(Vec3{0.0}, Vec3{0.0, 0.0, -1.0}));
+  ServoLoop servo(device, std::make_unique<ProxyChain>(std::move(wall), settings), "");
+  ASSERT_TRUE(comes([&] { return link->rounds_ > 3000; }));
+  const int all = link->lags_[0] + link->lags_[1] + link->lags_[2] + link->lags_[3];
+  EXPECT_GT(link->lags_[1], all / 2) << link->lags_[0] << " " << link->lags_[1] << " " << link->lags_[2] << " "
+                                         << link->lags_[3];
 }
 
 TEST_F(LinkedDeviceTest, LeavesNoForceBehind) {

@@ -13,6 +13,7 @@
 #include "common/field/analytic/examples.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/servo/hand_step.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/e2e/explorer_test.h"
 
 namespace palpate::test {
@@ -57,7 +58,7 @@ class HandInFlow : public ExplorerTest {
     Vec3 force{0.0};
     while (now() < kEnd) {
       want(wanted(now()));
-      if (!link.round(force)) continue;
+      if (!round_with(link, force)) continue;
       const DeviceAtoms& atoms = link.atoms();
       const HandStep step = stepper.step(
           {.time = now(), .present = true, .sample = {atoms.time, middle_ + atoms.position, atoms.buttons}});

@@ -44,7 +44,7 @@ std::string DataGloveLink::advice() const {
   return refusal_advice("the Data Glove", refused_);
 }
 
-bool DataGloveLink::round(const Vec3& /*force*/) noexcept {
+bool DataGloveLink::round() noexcept {
   if (!connection_) {
     search();
     return false;

@@ -62,7 +62,7 @@ class DataGloveLink final : public DriverLink {
   /// `transport` outlives this.
   explicit DataGloveLink(UsbTransport& transport) : transport_(transport) {}
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;

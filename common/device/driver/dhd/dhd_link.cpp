@@ -146,9 +146,9 @@ std::string DhdLink::advice() const {
 
 std::string DhdLink::place() const { return open_ ? "dhd " + std::to_string(int{id_}) + " " + name_ : ""; }
 
-bool DhdLink::round(const Vec3& force) noexcept {
+bool DhdLink::round() noexcept {
   try {
-    return work(force);
+    return work();
   } catch (...) {
     give_up();
     clock_.sleep(kDhdLookPause);  // a library that throws is not asked again at once
@@ -156,14 +156,14 @@ bool DhdLink::round(const Vec3& force) noexcept {
   }
 }
 
-bool DhdLink::work(const Vec3& force) {
+bool DhdLink::work() {
   if (!open_) {
     search();
     return false;
   }
   clock_.sleep(round_ + kPeriod - clock_.now());
   round_ = clock_.now();
-  return exchange(force);
+  return exchange();
 }
 
 void DhdLink::search() {
@@ -206,8 +206,9 @@ bool DhdLink::look() {
   return state[kDhdError] == 0;
 }
 
-bool DhdLink::exchange(const Vec3& force) {
+bool DhdLink::exchange() {
   bool sound = true;
+  const Vec3 force = ordered();
   if (looked_ < 0.0 || clock_.now() - looked_ > kDhdStatusPause) sound = look();
   const bool usable = state_[kDhdPower] != 0 && state_[kDhdReset] != 0;
   const bool was_ready = status_.phase == LinkPhase::kReady;

@@ -86,7 +86,7 @@ class DhdLink final : public DriverLink {
   DhdLink(const DhdFunctions& dhd, LinkClock& clock, const DhdSettings& settings);
   ~DhdLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
@@ -96,9 +96,9 @@ class DhdLink final : public DriverLink {
 
  private:
   // What calls the library, which may be of C++ and throw.
-  bool work(const Vec3& force);
+  bool work();
   void search();
-  bool exchange(const Vec3& force);
+  bool exchange();
   /// Reads what the device says of itself; false: the call failed.
   bool look();
   bool take_sample(double now);

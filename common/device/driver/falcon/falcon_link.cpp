@@ -170,7 +170,7 @@ FalconLink::FalconLink(UsbTransport& transport, FalconSettings settings)
 
 FalconLink::~FalconLink() { close(); }
 
-bool FalconLink::round(const Vec3& force) noexcept {
+bool FalconLink::round() noexcept {
   switch (stage_) {
     case Stage::kSearch:
       search();
@@ -185,7 +185,7 @@ bool FalconLink::round(const Vec3& force) noexcept {
       upload();
       return false;
     case Stage::kRun:
-      return exchange(force);
+      return exchange();
   }
   return false;
 }
@@ -383,7 +383,8 @@ std::optional<FalconReply> FalconLink::ask(const FalconCommand& command) noexcep
   return newest;
 }
 
-bool FalconLink::exchange(const Vec3& force) noexcept {
+bool FalconLink::exchange() noexcept {
+  const Vec3 force = ordered();
   const bool ready = status_.phase == LinkPhase::kReady;
   FalconCommand command{.lights = ready ? kFalconGreen : kFalconRed};
   command.motors = motors_for(ready && misses_ == 0 ? force : Vec3{0.0});

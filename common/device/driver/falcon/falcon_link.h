@@ -56,7 +56,7 @@ class FalconLink final : public DriverLink {
   FalconLink(UsbTransport& transport, FalconSettings settings);
   ~FalconLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
@@ -71,7 +71,7 @@ class FalconLink final : public DriverLink {
   void probe() noexcept;
   void load() noexcept;
   void upload() noexcept;
-  bool exchange(const Vec3& force) noexcept;
+  bool exchange() noexcept;
 
   bool set_running_speed() noexcept;
   bool greet_loader() noexcept;

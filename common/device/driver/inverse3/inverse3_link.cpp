@@ -104,7 +104,7 @@ std::string Inverse3Link::place() const {
   return device_ ? "inverse3 " + std::string(device_->view()) + " at " + settings_.service.host : "";
 }
 
-bool Inverse3Link::round(const Vec3& force) noexcept {
+bool Inverse3Link::round() noexcept {
   if (!connection_) {
     search();
     return false;
@@ -115,7 +115,7 @@ bool Inverse3Link::round(const Vec3& force) noexcept {
   }
   transport_.sleep(round_ + kPeriod - transport_.now());
   round_ = transport_.now();
-  return exchange(force);
+  return exchange();
 }
 
 void Inverse3Link::search() noexcept {
@@ -163,7 +163,8 @@ void Inverse3Link::meet() noexcept {
   transport_.sleep(kServicePause);
 }
 
-bool Inverse3Link::exchange(const Vec3& force) noexcept {
+bool Inverse3Link::exchange() noexcept {
+  const Vec3 force = ordered();
   const bool ready = status_.phase == LinkPhase::kReady && misses_ == 0;
   const bool sent = send(ready ? force : Vec3{0.0});
   HaplyState state;

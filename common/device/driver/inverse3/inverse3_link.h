@@ -44,7 +44,7 @@ class Inverse3Link final : public DriverLink {
   Inverse3Link(WebTransport& transport, const Inverse3Settings& settings);
   ~Inverse3Link() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
@@ -55,7 +55,7 @@ class Inverse3Link final : public DriverLink {
  private:
   void search() noexcept;
   void meet() noexcept;
-  bool exchange(const Vec3& force) noexcept;
+  bool exchange() noexcept;
   bool send(const Vec3& force) noexcept;
   /// Waits for the newest of the states that are under way; false: none came.
   bool hear(HaplyState& state) noexcept;

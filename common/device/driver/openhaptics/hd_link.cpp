@@ -124,9 +124,9 @@ std::string HdLink::place() const {
   return device_ == HdFunctions::kNoDevice ? "" : "hd " + std::to_string(device_) + " " + model_;
 }
 
-bool HdLink::round(const Vec3& force) noexcept {
+bool HdLink::round() noexcept {
   try {
-    return work(force);
+    return work();
   } catch (...) {
     give_up();
     clock_.sleep(kHdRefusedPause);  // a library that throws is not asked again at once
@@ -134,7 +134,7 @@ bool HdLink::round(const Vec3& force) noexcept {
   }
 }
 
-bool HdLink::work(const Vec3& force) {
+bool HdLink::work() {
   if (device_ == HdFunctions::kNoDevice) {
     search();
     return false;
@@ -143,9 +143,8 @@ bool HdLink::work(const Vec3& force) {
     give_up();
     return false;
   }
-  const bool ready = status_.phase == LinkPhase::kReady && misses_ == 0;
-  const Vec3 allowed = rearm_.allowed(is_finite(force) ? force : Vec3{0.0});
-  orders_.write({ready ? allowed : Vec3{0.0}, clock_.now()});
+  ready_.store(status_.phase == LinkPhase::kReady && misses_ == 0, std::memory_order_release);
+  heard_.store(clock_.now(), std::memory_order_release);
   Frame frame;
   const double until = clock_.now() + kAnswerTime;
   bool come = frames_.read(frame);
@@ -193,8 +192,7 @@ void HdLink::search() {
   errors_ = 0;
   rearm_.trip();
   frame_ = {};
-  order_ = {};
-  orders_.write({});
+  ready_ = false;
   while (frames_.read(frame_)) {
   }
   frame_ = {};
@@ -242,9 +240,11 @@ unsigned HdLink::tick() {
     hd_.update_calibration(static_cast<unsigned>(style));
     calibration = hd_.check_calibration();
   }
-  (void)orders_.read(order_);
-  const bool fresh = now - order_.time <= kFreshFor && !ending && frame_.error == 0;
-  const Vec3 wanted = force_within(fresh ? order_.force : Vec3{0.0}, cap_);
+  const bool fresh = now - heard_.load(std::memory_order_acquire) <= kFreshFor && !ending && frame_.error == 0 &&
+                     ready_.load(std::memory_order_acquire);
+  const Vec3 asked = ordered();
+  const Vec3 allowed = rearm_.allowed(is_finite(asked) ? asked : Vec3{0.0});
+  const Vec3 wanted = force_within(fresh ? allowed : Vec3{0.0}, cap_);
   const Vec3 force = shown_.next(heat_.factor({wanted.x, wanted.y, wanted.z}) * wanted, now);
   heat_.add({force.x, force.y, force.z}, std::min(now - frame_.time, 1.0));
   const Vec3 f = settings_.arm.frame.force_for_maker(force);

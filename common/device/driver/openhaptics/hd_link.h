@@ -84,7 +84,7 @@ struct HdSettings {
 
 class HdLink final : public DriverLink {
  public:
-  static constexpr double kFreshFor = 0.020;    ///< [s]
+  static constexpr double kFreshFor = 0.020;    ///< [s] without a round after which there is no force
   static constexpr double kAnswerTime = 0.015;  ///< [s] in which a callback must come
   static constexpr int kMostMisses = 4;         ///< in a row
 
@@ -92,7 +92,7 @@ class HdLink final : public DriverLink {
   HdLink(const HdFunctions& hd, LinkClock& clock, const HdSettings& settings);
   ~HdLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;
@@ -101,10 +101,6 @@ class HdLink final : public DriverLink {
   [[nodiscard]] std::string place() const override;
 
  private:
-  struct Order {
-    Vec3 force{0.0};
-    double time = -1.0;  ///< [s]
-  };
   struct Frame {
     double time = 0.0;  ///< [s]
     Vec3 position{0.0};
@@ -120,7 +116,7 @@ class HdLink final : public DriverLink {
   // What calls the library, which may be of C++ and throw.
   /// One callback, on the library's thread.
   unsigned tick();
-  bool work(const Vec3& force);
+  bool work();
   void search();
 
   bool take_frame(const Frame& frame) noexcept;
@@ -144,12 +140,12 @@ class HdLink final : public DriverLink {
   ForceRearm rearm_;
   int misses_ = 0;  ///< in a row
 
-  TripleBuffer<Order> orders_;
   TripleBuffer<Frame> frames_;
   std::atomic<bool> ending_{false}, ended_{true};
+  std::atomic<bool> ready_{false};  ///< there may be force
+  std::atomic<double> heard_{-1.0};  ///< [s] when the link's own thread was last at work
 
   // The callback's own while there is one.
-  Order order_;
   Frame frame_;
   double cap_ = 0.0;  ///< [N] of the device that is open
   MotorHeat heat_{1.0, 1.0, 1.0};

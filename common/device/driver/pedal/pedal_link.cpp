@@ -72,7 +72,7 @@ std::string PedalLink::advice() const {
   return refusal_advice("the foot switch", refused_);
 }
 
-bool PedalLink::round(const Vec3& /*force*/) noexcept {
+bool PedalLink::round() noexcept {
   if (!connection_) {
     search();
     return false;

@@ -49,7 +49,7 @@ class PedalLink final : public DriverLink {
   explicit PedalLink(UsbTransport& transport) : transport_(transport) {}
   ~PedalLink() override = default;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;

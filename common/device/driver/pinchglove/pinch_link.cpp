@@ -114,7 +114,7 @@ std::string PinchLink::advice() const {
          (refused_ == TransferStatus::kDenied ? "); you must be in its group, mostly dialout" : ")");
 }
 
-bool PinchLink::round(const Vec3& /*force*/) noexcept {
+bool PinchLink::round() noexcept {
   if (stream_) return listen();
   search();
   return false;

@@ -67,7 +67,7 @@ class PinchLink final : public DriverLink {
 
   explicit PinchLink(std::unique_ptr<StreamPlace> line) : line_(std::move(line)) {}
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;

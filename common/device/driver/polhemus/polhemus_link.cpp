@@ -157,7 +157,7 @@ std::string PolhemusLink::advice() const {
   return {};
 }
 
-bool PolhemusLink::round(const Vec3& /*force*/) noexcept {
+bool PolhemusLink::round() noexcept {
   switch (stage_) {
     case Stage::kSearch:
       search();

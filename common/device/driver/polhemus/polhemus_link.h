@@ -76,7 +76,7 @@ class PolhemusLink final : public DriverLink {
   /// Leaves it silent.
   ~PolhemusLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const PoseAtoms* poses() const noexcept override { return &stations_.poses(); }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }

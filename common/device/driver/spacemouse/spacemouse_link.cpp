@@ -106,7 +106,7 @@ std::string SpaceMouseLink::advice() const {
 
 std::string SpaceMouseLink::place() const { return path_.empty() ? path_ : "usb " + path_; }
 
-bool SpaceMouseLink::round(const Vec3& /*force*/) noexcept {
+bool SpaceMouseLink::round() noexcept {
   if (!connection_) {
     search();
     return false;

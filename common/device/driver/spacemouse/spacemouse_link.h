@@ -59,7 +59,7 @@ class SpaceMouseLink final : public DriverLink {
   SpaceMouseLink(UsbTransport& transport, const SpaceMouseSettings& settings);
   ~SpaceMouseLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   [[nodiscard]] const LinkStatus& status() const noexcept override { return status_; }
   [[nodiscard]] std::string advice() const override;

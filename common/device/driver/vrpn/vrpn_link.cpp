@@ -143,12 +143,12 @@ std::string VrpnLink::place() const {
   return stream_ ? "vrpn " + settings_.address.name + " at " + place_->name() : "";
 }
 
-bool VrpnLink::round(const Vec3& force) noexcept {
+bool VrpnLink::round() noexcept {
   if (!stream_) {
     search();
     return false;
   }
-  speak(force);
+  speak();
   return stream_ && listen();
 }
 
@@ -197,7 +197,7 @@ void VrpnLink::greet() noexcept {
   if (!send(writer)) give_up();
 }
 
-void VrpnLink::speak(const Vec3& force) noexcept {
+void VrpnLink::speak() noexcept {
   const double now = place_->now();
   const double since = greeted_ ? heard_ : opened_at_;
   if (now - since > (greeted_ ? kSilence : kGreetTime)) return give_up();
@@ -210,6 +210,7 @@ void VrpnLink::speak(const Vec3& force) noexcept {
   if (settings_.force) {
     const bool ready = status_.phase == LinkPhase::kReady && atoms_.has_position && misses_ == 0 &&
                        now - posed_ <= kFreshPose;
+    const Vec3 force = ordered();
     const Vec3 allowed = rearm_.allowed(is_finite(force) ? force : Vec3{0.0});
     const Vec3 shown = shown_.next(ready ? allowed : Vec3{0.0}, now);
     local_.add(atoms_.position, shown);

@@ -68,7 +68,7 @@ class VrpnLink final : public DriverLink {
   VrpnLink(std::unique_ptr<StreamPlace> place, const VrpnSettings& settings);
   ~VrpnLink() override;
 
-  bool round(const Vec3& force) noexcept override;
+  bool round() noexcept override;
   [[nodiscard]] const DeviceAtoms& atoms() const noexcept override { return atoms_; }
   /// Of what is no arm: sensor i as station i + 1, in the server's frame.
   [[nodiscard]] const PoseAtoms* poses() const noexcept override {
@@ -84,7 +84,7 @@ class VrpnLink final : public DriverLink {
  private:
   void search() noexcept;
   void greet() noexcept;
-  void speak(const Vec3& force) noexcept;
+  void speak() noexcept;
   bool listen() noexcept;
   bool take(const VrpnMessage& message, double now) noexcept;
   bool take_pose(const VrpnPose& pose, double now) noexcept;

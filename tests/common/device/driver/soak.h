@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/device/driver_link.h"
+#include "tests/common/device/driver/round_with.h"
 
 namespace palpate::test {
 
@@ -58,7 +59,7 @@ class Soak {
     std::uint64_t fresh = 0;
     for (const double until = now() + longest * part(); now() < until;) {
       const double began = now();
-      fresh += link.round(force) ? 1U : 0U;
+      fresh += round_with(link, force) ? 1U : 0U;
       EXPECT_LT(now() - began, DriverLink::kLongestRound);
       EXPECT_TRUE(is_finite(link.atoms().position));
       EXPECT_LE(connections(), 1);

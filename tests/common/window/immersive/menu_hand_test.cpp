@@ -33,7 +33,8 @@ class HeldLink final : public DriverLink {
     limits_.reach_lower = Vec3{-0.05};
     limits_.reach_upper = Vec3{0.05};
   }
-  bool round(const Vec3& force) noexcept override {
+  bool round() noexcept override {
+    const Vec3 force = ordered();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(mutex_);
     reported_ = force;

@@ -11,6 +11,7 @@
 #include "common/device/driver/dataglove/dataglove_link.h"
 #include "common/device/driver/transport/usb_search.h"
 #include "tests/common/device/driver/dataglove/dataglove_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
 #include "tests/support/allocation_guard.h"
@@ -80,7 +81,7 @@ class DataGloveLinkTest : public ::testing::Test {
     run(0.2);
   }
   void run(double seconds) {
-    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)link_->round(Vec3{0.0});
+    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)round_with(*link_, Vec3{0.0});
   }
   /// A fist and a flat hand, as its wearer is asked to make.
   void teach() {
@@ -136,7 +137,7 @@ TEST_F(DataGloveLinkTest, IsAnOpenHandOnceItIsSilentOrGone) {
   ASSERT_EQ(atoms().buttons, 0b11111U);
   const double pulled = bus_.now();
   bus_.unplug("1-6");
-  while (atoms().buttons != 0) (void)link_->round(Vec3{0.0});
+  while (atoms().buttons != 0) (void)round_with(*link_, Vec3{0.0});
   EXPECT_LT(bus_.now() - pulled, 0.1);
   EXPECT_EQ(bus_.open_connections(), 0);
   bus_.refuse(TransferStatus::kDenied);
@@ -169,7 +170,7 @@ TEST_F(DataGloveLinkTest, BearsEveryFaultForTwoHours) {
     glove_->hang(unit(random) < 0.05);
     glove_->bend_all(unit(random) < 0.5 ? 1.0 : 0.0);
     for (const double until = bus_.now() + 2.0 * unit(random); bus_.now() < until;) {
-      (void)link_->round(Vec3{1.0});
+      (void)round_with(*link_, Vec3{1.0});
       if (atoms().buttons == 0b11111U) ++fists;
       for (const double each : atoms().bends) ASSERT_TRUE(each >= 0.0 && each <= 1.0);
       ASSERT_LT(atoms().buttons, 32U);

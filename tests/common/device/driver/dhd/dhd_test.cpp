@@ -11,6 +11,7 @@
 #include "common/servo/safety_stage.h"
 #include "tests/common/device/driver/fake_dhd.h"
 #include "tests/common/device/driver/moved_clock.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/support/project_folders.h"
 
@@ -50,7 +51,7 @@ class DhdLinkTest : public ::testing::Test {
 
   void run(double seconds, const Vec3& force) {
     for (const double until = clock_.now() + seconds; clock_.now() < until;) {
-      (void)link_->round(force);
+      (void)round_with(*link_, force);
       // The hand lives on whether it is asked or not.
       fake_.arm.advance(clock_.now());
     }
@@ -145,7 +146,7 @@ TEST_F(DhdLinkTest, ShowsForceOnlyWhileItsSwitchIsHeld) {
   Vec3 force{0.0};
   double last = clock_.now();
   const auto step = [&] {
-    (void)link_->round(force);
+    (void)round_with(*link_, force);
     const DeviceAtoms& atoms = link_->atoms();
     force = stage.apply({.force = {0.0, 0.0, 2.0},
                          .dt = clock_.now() - last,
@@ -215,7 +216,7 @@ TEST_F(DhdLinkTest, TheLastCommandOnAnyFaultIsZero) {
     const double before = clock_.now();
     bool silenced = false;
     while (clock_.now() < before + kNoticed) {
-      (void)link_->round(kForce);
+      (void)round_with(*link_, kForce);
       silenced = silenced || silent();
     }
     EXPECT_TRUE(silenced) << name;
@@ -289,7 +290,7 @@ TEST_F(DhdLinkTest, NoticesAtOnceThatItIsUnpluggedAndComesBack) {
     const double pulled = clock_.now();
     fake_.plugged = false;
     while (link_->status().phase == LinkPhase::kReady && clock_.now() < pulled + 1.0)
-      (void)link_->round(kForce);
+      (void)round_with(*link_, kForce);
     EXPECT_LT(clock_.now() - pulled, kNoticed);
     EXPECT_EQ(fake_.opened, fake_.closed);
     EXPECT_EQ(link_->place(), "");

@@ -8,6 +8,7 @@
 #include "common/servo/linked_device.h"
 #include "common/servo/safety_stage.h"
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
 
 namespace palpate::test {
@@ -27,7 +28,7 @@ class DeadMan : public ::testing::Test {
   void step() {
     const double before = bus_.now();
     const Vec3 told = force_;
-    (void)link_.round(told);
+    (void)round_with(link_, told);
     const DeviceAtoms& atoms = link_.atoms();
     force_ = stage_.apply({.force = {0.0, 0.0, 2.0},
                            .dt = bus_.now() - before,

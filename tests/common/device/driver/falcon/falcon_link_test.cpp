@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
 
@@ -46,13 +47,13 @@ class FalconLinkTest : public ::testing::Test {
   void run(
       double seconds, const Force& force = [](const DeviceAtoms&) { return Vec3{0.0}; }) {
     for (const double until = bus_.now() + seconds; bus_.now() < until;) {
-      (void)link_->round(force(link_->atoms()));
+      (void)round_with(*link_, force(link_->atoms()));
     }
   }
   bool run_until(LinkPhase phase, double seconds) {
     for (const double until = bus_.now() + seconds; bus_.now() < until;) {
       const double began = bus_.now();
-      (void)link_->round(Vec3{0.0});
+      (void)round_with(*link_, Vec3{0.0});
       EXPECT_LT(bus_.now() - began, DriverLink::kLongestRound);
       if (link_->status().phase == phase) return true;
     }
@@ -144,7 +145,7 @@ TEST_F(FalconLinkTest, ShowsNoForceBeforeAllEncodersHaveTheirZero) {
   falcon_->home_by_itself(true);
   // A force is asked for all the time, over the jump of each encoder's zero, too.
   for (double until = bus_.now() + 5.0; bus_.now() < until && link_->status().phase != LinkPhase::kReady;) {
-    (void)link_->round({0.0, 0.0, 5.0});
+    (void)round_with(*link_, {0.0, 0.0, 5.0});
   }
   ASSERT_EQ(link_->status().phase, LinkPhase::kReady);
   run(0.5, constant);
@@ -245,8 +246,8 @@ TEST_F(FalconLinkTest, GivesUpWhereEncodersJumpAsNoHandDoes) {
   plug_ready();
   run(0.1, constant);
   falcon_->slip(1, 3000);
-  (void)link_->round(constant({}));
-  (void)link_->round(constant({}));
+  (void)round_with(*link_, constant({}));
+  (void)round_with(*link_, constant({}));
   EXPECT_GT(link_->status().implausible, 0U);
   run(0.05, constant);
   EXPECT_TRUE(silent());
@@ -260,7 +261,7 @@ TEST_F(FalconLinkTest, NoticesWithinATenthOfASecondThatItIsUnplugged) {
     const double pulled = bus_.now();
     bus_.unplug(kPath);
     while (link_->status().phase == LinkPhase::kReady && bus_.now() < pulled + 1.0)
-      (void)link_->round({0, 0, 1});
+      (void)round_with(*link_, {0, 0, 1});
     EXPECT_LT(bus_.now() - pulled, 0.1);
     EXPECT_EQ(bus_.open_connections(), 0);
     falcon_->restart();
@@ -324,7 +325,7 @@ TEST_F(FalconLinkTest, BearsEveryFaultForLong) {
         *link_, [&] { return bus_.now(); }, 0.5, soak.force(15.0), [&] { return bus_.open_connections(); });
     ASSERT_LE(falcon_->largest_motor(), kFalconLargestCommand);
     if (bus_.devices().empty()) {
-      (void)link_->round({0, 0, 0});
+      (void)round_with(*link_, {0, 0, 0});
       ASSERT_NE(link_->status().phase, LinkPhase::kReady);
       ASSERT_EQ(bus_.open_connections(), 0);
       bus_.plug(kPath, falcon_);

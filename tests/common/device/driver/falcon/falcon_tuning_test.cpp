@@ -7,6 +7,7 @@
 #include "common/device/driver/falcon/falcon_link.h"
 #include "common/servo/tuning_run.h"
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
 
 namespace palpate::test {
@@ -17,11 +18,11 @@ class SteppedLink final : public Device {
  public:
   SteppedLink(FakeUsb& bus, DriverLink& link) : bus_(bus), link_(link), limits_(link.limits()) {
     limits_.enabling_button = DeviceLimits::kNoButton;  // a hand on it would hold the arm
-    while (link_.status().phase != LinkPhase::kReady && bus_.now() < 20.0) (void)link_.round(Vec3{0.0});
+    while (link_.status().phase != LinkPhase::kReady && bus_.now() < 20.0) (void)round_with(link_, Vec3{0.0});
   }
 
   bool read(double now, DeviceSample& sample) noexcept override {
-    (void)link_.round(force_);
+    (void)round_with(link_, force_);
     sample = {now, link_.atoms().position, link_.atoms().buttons};
     return link_.atoms().has_position;
   }
@@ -55,7 +56,7 @@ TEST(FalconTuning, FindsWhatAnEmulatedFalconBears) {
   }
   EXPECT_LE(falcon->largest_force(), 1.1 * link.limits().force_cap);
   // Zero is the last command.
-  (void)link.round(Vec3{0.0});
+  (void)round_with(link, Vec3{0.0});
   EXPECT_EQ(falcon->motors(), (std::array<int, 3>{}));
 }
 

@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/device/driver/inverse3/inverse3_link.h"
 #include "tests/common/device/driver/inverse3/haply_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_web.h"
 
@@ -139,7 +140,7 @@ TEST(Inverse3Options, AreChecked) {
 class Inverse3LinkTest : public ::testing::Test {
  protected:
   void run(double seconds, const Vec3& force) {
-    for (const double until = web_.now() + seconds; web_.now() < until;) (void)link_.round(force);
+    for (const double until = web_.now() + seconds; web_.now() < until;) (void)round_with(link_, force);
   }
   void get_ready() {
     run(1.0, Vec3{0.0});
@@ -218,7 +219,7 @@ TEST_F(Inverse3LinkTest, TheLastCommandOnAnyFaultIsZero) {
     fault(web_, service_);
     bool silenced = false;
     for (const double until = web_.now() + kNoticed; web_.now() < until;) {
-      (void)link_.round(kForce);
+      (void)round_with(link_, kForce);
       silenced = silenced || silent();
     }
     EXPECT_TRUE(silenced) << name;
@@ -285,7 +286,7 @@ TEST_F(Inverse3LinkTest, NoticesAtOnceThatTheServiceEndedAndFindsItAgain) {
     run(0.05 + 0.0007 * n, kForce);
     const double ended = web_.now();
     web_.listens = false;
-    while (link_.status().phase == LinkPhase::kReady && web_.now() < ended + 1.0) (void)link_.round(kForce);
+    while (link_.status().phase == LinkPhase::kReady && web_.now() < ended + 1.0) (void)round_with(link_, kForce);
     EXPECT_LT(web_.now() - ended, kNoticed);
     EXPECT_EQ(web_.connections(), 0);
     run(0.3, kForce);

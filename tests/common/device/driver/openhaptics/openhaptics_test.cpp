@@ -11,6 +11,7 @@
 #include "common/device/driver/openhaptics/hd_link.h"
 #include "tests/common/device/driver/fake_hd.h"
 #include "tests/common/device/driver/moved_clock.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/support/project_folders.h"
 
@@ -47,7 +48,7 @@ class HdLinkTest : public ::testing::Test {
     fake_.tick = tick;
   }
   void run(double seconds, const Vec3& force) {
-    for (const double until = clock_.now() + seconds; clock_.now() < until;) (void)link_->round(force);
+    for (const double until = clock_.now() + seconds; clock_.now() < until;) (void)round_with(*link_, force);
   }
   void get_ready() {
     run(0.1, Vec3{0.0});
@@ -153,7 +154,7 @@ TEST_F(HdLinkTest, TheLastCommandOnAnyFaultIsZero) {
     fault(fake_);
     bool silenced = false;
     for (const double until = clock_.now() + kNoticed; clock_.now() < until;) {
-      (void)link_->round(0.2 * kForce);
+      (void)round_with(*link_, 0.2 * kForce);
       silenced = silenced || silent();
     }
     EXPECT_TRUE(silenced) << name;
@@ -213,7 +214,7 @@ TEST_F(HdLinkTest, NoticesAtOnceThatItIsUnpluggedOrHungAndComesBack) {
     const double pulled = clock_.now();
     (n % 2 == 0 ? fake_.plugged : fake_.hung) = n % 2 != 0;
     while (link_->status().phase == LinkPhase::kReady && clock_.now() < pulled + 1.0) {
-      (void)link_->round(0.2 * kForce);
+      (void)round_with(*link_, 0.2 * kForce);
     }
     EXPECT_LT(clock_.now() - pulled, kNoticed);
     EXPECT_EQ(fake_.opened, fake_.closed);

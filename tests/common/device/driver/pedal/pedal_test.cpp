@@ -13,6 +13,7 @@
 #include "common/servo/linked_device.h"
 #include "common/servo/safety_stage.h"
 #include "tests/common/device/driver/pedal/pedal_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
 #include "tests/support/allocation_guard.h"
@@ -70,7 +71,7 @@ class PedalLinkTest : public ::testing::Test {
   }
   /// As LinkedDevice works it: what is not new is not heard of.
   void round() {
-    if (link_->round(Vec3{0.0})) heard_ = link_->atoms();
+    if (round_with(*link_, Vec3{0.0})) heard_ = link_->atoms();
   }
   void run(double seconds) {
     for (const double until = bus_.now() + seconds; bus_.now() < until;) round();

@@ -13,6 +13,7 @@
 #include "common/device/driver/pinchglove/pinch_link.h"
 #include "common/device/driver/transport/serial_line.h"
 #include "tests/common/device/driver/pinchglove/pinch_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/pty_pair.h"
 #include "tests/support/allocation_guard.h"
@@ -78,7 +79,7 @@ class PinchLinkTest : public ::testing::Test {
     link_ = std::make_unique<PinchLink>(std::move(line));
   }
   void run(double seconds) {
-    for (const double until = line_->now() + seconds; line_->now() < until;) (void)link_->round(Vec3{0.0});
+    for (const double until = line_->now() + seconds; line_->now() < until;) (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] std::uint32_t buttons() const { return link_->atoms().buttons; }
 
@@ -115,7 +116,7 @@ TEST_F(PinchLinkTest, LetsGoWhereItIsPulledOutSwitchedOffOrNotThere) {
   ASSERT_EQ(buttons(), 0b11U);
   const double pulled = line_->now();
   line_->unplug();
-  while (buttons() != 0) (void)link_->round(Vec3{0.0});
+  while (buttons() != 0) (void)round_with(*link_, Vec3{0.0});
   EXPECT_LT(line_->now() - pulled, 0.1);
   EXPECT_EQ(link_->status().phase, LinkPhase::kAbsent);
   EXPECT_EQ(line_->open_streams(), 0);
@@ -156,7 +157,7 @@ TEST_F(PinchLinkTest, BearsEveryFaultForTwoHours) {
     glove_->touch(unit(random) < 0.5 ? std::vector<std::pair<int, int>>{{0, 0x18}}
                                      : std::vector<std::pair<int, int>>{});
     for (const double until = line_->now() + 3.0 * unit(random); line_->now() < until;) {
-      (void)link_->round(Vec3{1.0});
+      (void)round_with(*link_, Vec3{1.0});
       if (buttons() == 0b11U) ++pinched;
       ASSERT_LT(buttons(), 1U << 10U);
       ASSERT_TRUE(line_->plugged() || line_->open_streams() <= 1);
@@ -179,13 +180,13 @@ TEST(PinchAtAPty, IsFollowed) {
   PinchLink link(std::make_unique<SerialLine>(pair.path(), 9600));
   constexpr int kMostRounds = 5000;
   for (int n = 0; n < kMostRounds && link.status().phase != LinkPhase::kReady; ++n)
-    (void)link.round(Vec3{0.0});
+    (void)round_with(link, Vec3{0.0});
   ASSERT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
   {
     const std::lock_guard lock(pair.mutex());
     glove->touch({{0x10, 0x10}});
   }
-  for (int n = 0; n < kMostRounds && link.atoms().buttons == 0; ++n) (void)link.round(Vec3{0.0});
+  for (int n = 0; n < kMostRounds && link.atoms().buttons == 0; ++n) (void)round_with(link, Vec3{0.0});
   EXPECT_EQ(link.atoms().buttons, 0b100001U) << "thumb to thumb";
 }
 

@@ -16,6 +16,7 @@
 #include "common/device/driver/transport/serial_line.h"
 #include "common/device/driver/transport/usb_search.h"
 #include "tests/common/device/driver/polhemus/polhemus_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/pty_pair.h"
 
@@ -51,7 +52,7 @@ class PolhemusOnUsbTest : public ::testing::Test {
     run(1.0);
   }
   void run(double seconds) {
-    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)link_->round(Vec3{0.0});
+    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] const PoseAtom& pose(int station) const {
     return link_->poses()->stations[static_cast<std::size_t>(station - 1)];
@@ -141,7 +142,7 @@ TEST_F(PolhemusOnUsbTest, SetsUpAnewOneThatFellSilent) {
   plug();
   tracker_->hang(true);
   const double hung = bus_.now();
-  while (pose(1).valid) (void)link_->round(Vec3{0.0});
+  while (pose(1).valid) (void)round_with(*link_, Vec3{0.0});
   EXPECT_LT(bus_.now() - hung, TrackerStations::kSilence + 0.05);
   run(20.0);
   EXPECT_EQ(link_->status().phase, LinkPhase::kRefused);
@@ -160,7 +161,7 @@ TEST_F(PolhemusOnUsbTest, LosesAllItsStationsOnceItIsUnplugged) {
   const double pulled = bus_.now();
   bus_.unplug("1-3");
   bool told = false;
-  while (link_->status().phase == LinkPhase::kReady) told = link_->round(Vec3{0.0});
+  while (link_->status().phase == LinkPhase::kReady) told = round_with(*link_, Vec3{0.0});
   EXPECT_LT(bus_.now() - pulled, 0.1);
   EXPECT_TRUE(told) << "that they are out of sight is news";
   for (const PoseAtom& each : link_->poses()->stations) EXPECT_FALSE(each.valid || each.buttons != 0);
@@ -233,7 +234,7 @@ TEST_F(PolhemusOnUsbTest, BearsEveryFaultForTwoHours) {
       tracker_->hang(unit(random) < 0.05);
       tracker_->press(1, unit(random) < 0.5);
       for (const double until = bus_.now() + 4.0 * unit(random); bus_.now() < until;) {
-        (void)link_->round(Vec3{1.0});
+        (void)round_with(*link_, Vec3{1.0});
         if (pose(1).valid) ++good;
         ASSERT_TRUE(plausible(*link_, bus_.now(), 0.15)) << text_of(id);
       }
@@ -265,7 +266,7 @@ class FastrakAtALine : public ::testing::Test {
                                            settings_);
   }
   void run(double seconds) {
-    for (const double until = line_->now() + seconds; line_->now() < until;) (void)link_->round(Vec3{0.0});
+    for (const double until = line_->now() + seconds; line_->now() < until;) (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] const PoseAtom& pose(int station) const {
     return link_->poses()->stations[static_cast<std::size_t>(station - 1)];
@@ -302,7 +303,7 @@ TEST_F(FastrakAtALine, IsFoundSetUpAndFollowed) {
   }
   const double pulled = line_->now();
   line_->unplug();
-  while (link_->status().phase == LinkPhase::kReady) (void)link_->round(Vec3{0.0});
+  while (link_->status().phase == LinkPhase::kReady) (void)round_with(*link_, Vec3{0.0});
   EXPECT_LT(line_->now() - pulled, 0.1);
   EXPECT_FALSE(pose(1).valid);
   EXPECT_EQ(line_->open_streams(), 0);
@@ -357,7 +358,7 @@ TEST_F(FastrakAtALine, BearsEveryFaultForTwoHours) {
     if (unit(random) < 0.1) line_->unplug_at_call(1 + random() % 500);
     tracker_->hang(unit(random) < 0.05);
     for (const double until = line_->now() + 4.0 * unit(random); line_->now() < until;) {
-      (void)link_->round(Vec3{1.0});
+      (void)round_with(*link_, Vec3{1.0});
       if (pose(1).valid) ++good;
       ASSERT_TRUE(plausible(*link_, line_->now(), 0.2));
     }
@@ -384,13 +385,13 @@ TEST(PolhemusAtAPty, IsFollowedAndItsEndIsNoted) {
     constexpr int kMostRounds = 20'000;
     int n = 0;
     const auto seen = [&] { return link.poses()->stations[0].valid && link.poses()->stations[1].valid; };
-    for (; n < kMostRounds && !seen(); ++n) (void)link.round(Vec3{0.0});
+    for (; n < kMostRounds && !seen(); ++n) (void)round_with(link, Vec3{0.0});
     ASSERT_TRUE(seen()) << link.advice();
     constexpr double kLoaded = 0.5;  // [s] that a loaded machine may take to hand bytes on
     EXPECT_LT(error_of(link.poses()->stations[0], kLoaded), 2e-3);
     pair.reset();
     for (n = 0; n < kMostRounds && link.status().phase != LinkPhase::kAbsent; ++n)
-      (void)link.round(Vec3{0.0});
+      (void)round_with(link, Vec3{0.0});
     EXPECT_FALSE(seen());
   }
 }

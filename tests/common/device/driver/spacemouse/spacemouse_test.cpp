@@ -11,6 +11,7 @@
 #include "common/base/error.h"
 #include "common/device/driver/spacemouse/spacemouse_link.h"
 #include "common/device/driver/transport/usb_search.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/spacemouse/spacemouse_emulator.h"
 #include "tests/common/device/driver/transport/fake_usb.h"
@@ -84,7 +85,7 @@ class SpaceMouseLinkTest : public ::testing::Test {
     run(0.05);
   }
   void run(double seconds) {
-    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)link_->round(Vec3{0.0});
+    for (const double until = bus_.now() + seconds; bus_.now() < until;) (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] const Axes& axes() const { return link_->atoms().valuators; }
 
@@ -132,7 +133,7 @@ TEST_F(SpaceMouseLinkTest, IsAtRestOnceItIsUnplugged) {
   run(0.1);
   const double pulled = bus_.now();
   bus_.unplug("1-4");
-  while (link_->status().phase == LinkPhase::kReady) (void)link_->round(Vec3{0.0});
+  while (link_->status().phase == LinkPhase::kReady) (void)round_with(*link_, Vec3{0.0});
   EXPECT_LT(bus_.now() - pulled, 0.1);
   EXPECT_EQ(axes(), Axes{});
   EXPECT_EQ(bus_.open_connections(), 0);
@@ -200,7 +201,7 @@ TEST_F(SpaceMouseLinkTest, BearsEveryFaultForTwoHours) {
       mouse_->deflect({});
     }
     for (const double until = bus_.now() + 2.0 * unit(random); bus_.now() < until; ++rounds) {
-      (void)link_->round(Vec3{1.0});
+      (void)round_with(*link_, Vec3{1.0});
       for (const double v : axes()) ASSERT_LE(std::abs(v), 1.0);
     }
     if (bus_.devices().empty()) bus_.plug("1-4", mouse_);

@@ -9,6 +9,7 @@
 #include "common/device/driver/inverse3/inverse3_link.h"
 #include "common/device/driver/transport/web_transport.h"
 #include "tests/common/device/driver/inverse3/haply_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/transport/web_server.h"
 
 namespace palpate::test {
@@ -61,12 +62,12 @@ TEST(BeastTransport, WorksAnInverse3WholeInPiecesAndByteByByte) {
     const auto transport = make_beast_transport();
     Inverse3Link link(*transport, service.settings());
     const double start = now();
-    while (link.status().rounds < 50 && now() < start + 20.0) (void)link.round(Vec3{0.0});
+    while (link.status().rounds < 50 && now() < start + 20.0) (void)round_with(link, Vec3{0.0});
     ASSERT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
     Vec3 last{0.0};
     const Vec3 force{0.5, -1.0, 1.5};
     for (int n = 0; n < 1000 && glm::distance(last, force) > 1e-6; ++n) {
-      (void)link.round(force);
+      (void)round_with(link, force);
       last = service.with([](const HaplyEmulator& haply) { return haply.last; });
     }
     EXPECT_NEAR(glm::distance(last, force), 0.0, 1e-6);
@@ -86,7 +87,7 @@ TEST(BeastTransport, ComesToNoHarmByAHostileServer) {
     Inverse3Link link(*transport, service.settings());
     for (int n = 0; n < 3; ++n) {
       const double began = now();
-      EXPECT_FALSE(link.round({1.0, 2.0, 3.0}));
+      EXPECT_FALSE(round_with(link, {1.0, 2.0, 3.0}));
       RecordProperty("round_" + std::to_string(static_cast<int>(manner)), std::to_string(now() - began));
       EXPECT_NE(link.status().phase, LinkPhase::kReady) << static_cast<int>(manner);
     }

@@ -32,6 +32,7 @@
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
 #include "tests/common/device/driver/pedal/pedal_emulator.h"
 #include "tests/common/device/driver/polhemus/polhemus_emulator.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/spacemouse/spacemouse_emulator.h"
 
 namespace palpate::test {
@@ -345,13 +346,13 @@ TEST_F(LibusbTransport, MovesDataBothWaysAndSaysWhatWentWrong) {
 TEST_F(LibusbTransport, CarriesTheFalconFromOpeningToForcesAndUnplugging) {
   FalconLink link(*bus_, {});
   for (const double until = now() + 20.0; now() < until && link.status().phase != LinkPhase::kReady;) {
-    (void)link.round(Vec3{0.0});
+    (void)round_with(link, Vec3{0.0});
   }
   ASSERT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
-  for (int n = 0; n < 100; ++n) (void)link.round({0.0, 0.0, 1.0});
+  for (int n = 0; n < 100; ++n) (void)round_with(link, {0.0, 0.0, 1.0});
   EXPECT_GT(falcon_.largest_motor(), 0);
   usbfs_->unplug();
-  for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n) (void)link.round({0.0, 0.0, 1.0});
+  for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n) (void)round_with(link, {0.0, 0.0, 1.0});
   EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
 }
 
@@ -366,23 +367,23 @@ TEST(LibusbPedal, IsHeardWhileItIsHeldAndReleasedWhenItIsPulledOut) {
     PedalLink link(*bus);
     const auto until_down = [&](std::uint32_t buttons) {
       for (const double until = now() + 20.0; now() < until && link.atoms().buttons != buttons;) {
-        (void)link.round(Vec3{0.0});
+        (void)round_with(link, Vec3{0.0});
       }
       return link.atoms().buttons == buttons;
     };
-    for (int n = 0; n < 20; ++n) (void)link.round(Vec3{0.0});
+    for (int n = 0; n < 20; ++n) (void)round_with(link, Vec3{0.0});
     EXPECT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
     pedal.press(0b001);
     EXPECT_TRUE(until_down(0b001));
     const std::uint64_t before = link.status().rounds;
-    for (int n = 0; n < 20; ++n) (void)link.round(Vec3{0.0});
+    for (int n = 0; n < 20; ++n) (void)round_with(link, Vec3{0.0});
     EXPECT_GE(link.status().rounds, before + 10);
     if (!repeats) {
       EXPECT_GT(pedal.asked(), 0);
     }
     usbfs.unplug();
     EXPECT_TRUE(until_down(0));
-    for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n) (void)link.round(Vec3{0.0});
+    for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n) (void)round_with(link, Vec3{0.0});
     EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
   }
 }
@@ -392,7 +393,7 @@ template <class Holds>
 bool work_until(DriverLink& link, const Holds& holds) {
   for (const double until = now() + 20.0; !holds();) {
     if (now() > until) return false;
-    (void)link.round(Vec3{0.0});
+    (void)round_with(link, Vec3{0.0});
   }
   return true;
 }

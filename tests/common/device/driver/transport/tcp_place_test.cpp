@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "common/device/driver/vrpn/vrpn_link.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/vrpn/vrpn_server.h"
 
 namespace palpate::test {
@@ -21,11 +22,11 @@ TEST(TcpPlace, CarriesAVrpnLinkBothWays) {
   VrpnLink link(std::move(to), vrpn_settings({{"at", "Phantom0@localhost"}, {"cap", "3"}}));
   const double start = place.now();
   constexpr double kPatience = 20.0;  // [s]
-  while (link.status().rounds < 100 && place.now() < start + kPatience) (void)link.round(Vec3{0.0});
+  while (link.status().rounds < 100 && place.now() < start + kPatience) (void)round_with(link, Vec3{0.0});
   ASSERT_EQ(link.status().phase, LinkPhase::kReady) << link.advice();
   while (server.with([](VrpnEmulator& vrpn) { return vrpn.fields; }) < 20 &&
          place.now() < start + kPatience) {
-    (void)link.round({0.5, -1.0, 1.5});
+    (void)round_with(link, {0.5, -1.0, 1.5});
   }
   EXPECT_GE(server.with([](VrpnEmulator& vrpn) { return vrpn.fields; }), 20U);
   EXPECT_LE(server.with([](VrpnEmulator& vrpn) { return vrpn.largest_field; }), 3.003);

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/device/driver/vrpn/vrpn_link.h"
+#include "tests/common/device/driver/round_with.h"
 #include "tests/common/device/driver/soak.h"
 #include "tests/common/device/driver/transport/fake_place.h"
 #include "tests/common/device/driver/vrpn/vrpn_emulator.h"
@@ -33,7 +34,7 @@ class VrpnLinkTest : public ::testing::Test {
   }
 
   void run(double seconds, const Vec3& force) {
-    for (const double until = place_->now() + seconds; place_->now() < until;) (void)link_->round(force);
+    for (const double until = place_->now() + seconds; place_->now() < until;) (void)round_with(*link_, force);
   }
   void get_ready() {
     run(1.0, Vec3{0.0});
@@ -115,7 +116,7 @@ TEST_F(VrpnLinkTest, KeepsTheTimeAtWhichAPoseWasMade) {
     double last = link_->atoms().time;
     int news = 0;
     for (const double until = place_->now() + 5.0; place_->now() < until;) {
-      if (!link_->round(Vec3{0.0})) continue;
+      if (!round_with(*link_, Vec3{0.0})) continue;
       const double time = link_->atoms().time;
       EXPECT_LE(time, place_->now());
       EXPECT_LT(place_->now() - time, 0.1);
@@ -172,7 +173,7 @@ TEST_F(VrpnLinkTest, SendsSpringsThatTheServersLoopShows) {
     const double t = place_->now() - start;
     server_.arm.set_target(0.03 * Vec3{std::sin(1.3 * t), std::sin(0.9 * t), std::sin(1.7 * t)});
     const Vec3 force = -kStiffness * (link_->atoms().position - rest);
-    (void)link_->round(glm::length(force) < kCap ? force : force * (kCap / glm::length(force)));
+    (void)round_with(*link_, glm::length(force) < kCap ? force : force * (kCap / glm::length(force)));
     if (t < 1.0) continue;
     const Vec3 ideal = -kStiffness * (server_.arm.position() - rest);
     if (glm::length(ideal) > 0.8 * kCap) continue;  // there the cap makes it softer
@@ -242,7 +243,7 @@ TEST_F(VrpnLinkTest, TheLastModelOnAnyFaultHasNoForce) {
     fault(*place_, server_);
     bool silenced = false;
     for (const double until = place_->now() + kNoticed; place_->now() < until;) {
-      (void)link_->round(kForce);
+      (void)round_with(*link_, kForce);
       silenced = silenced || silent();
     }
     EXPECT_TRUE(silenced) << name;
@@ -256,7 +257,7 @@ TEST_F(VrpnLinkTest, AStalledNetworkLeavesAPassiveSpringThatEndsNearby) {
   run(0.1, kForce);
   place_->stalled = true;
   const double stalled = place_->now();
-  while (place_->connections() > 0 && place_->now() < stalled + 10.0) (void)link_->round(kForce);
+  while (place_->connections() > 0 && place_->now() < stalled + 10.0) (void)round_with(*link_, kForce);
   EXPECT_LT(place_->now() - stalled, kNoticed) << "writes are not taken";
   EXPECT_TRUE(silent());
   place_->stalled = false;
@@ -326,7 +327,7 @@ TEST_F(VrpnLinkTest, NoticesAtOnceThatAServerEndedAndFindsItAgain) {
     const double ended = place_->now();
     place_->listens = false;
     while (link_->status().phase == LinkPhase::kReady && place_->now() < ended + 1.0)
-      (void)link_->round(kForce);
+      (void)round_with(*link_, kForce);
     EXPECT_LT(place_->now() - ended, kNoticed);
     EXPECT_EQ(place_->connections(), 0);
     place_->listens = true;
