@@ -13,6 +13,7 @@
 #include "common/base/text.h"
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
+#include "common/haptics/coupling.h"
 #include "common/servo/real_time.h"
 
 namespace palpate {
@@ -146,6 +147,17 @@ Json check_json(const LinkCheck& check) {
           {"uploads", check.status.uploads}};
 }
 
+/// How old a sample is when its force is told to the device, and what that means for walls, by (3) of
+/// haptics/coupling.h at the longest of 99 in 100.
+std::string delay_text(const TimeHistogram& delays) {
+  if (delays.count() == 0) return {};
+  const double longest = 1e-9 * static_cast<double>(delays.percentile_ns(0.99));
+  const double bound = stiffness_bound({.damping = 1.0, .delay = longest}, 0.0).stiffness;
+  return "  force       half " + milliseconds(delays.percentile_ns(0.5)) + " after its sample, 99 % within " +
+         milliseconds(delays.percentile_ns(0.99)) + ": walls up to " + short_number(std::round(bound)) +
+         " N/m for each N s/m of the arm's own damping\n";
+}
+
 /// The device that is asked for, or all that are plugged in, may be opened and have a driver; a driver works
 /// the first of its devices.
 std::vector<std::string> devices_to_check(const std::string& asked, const Survey& seen) {
@@ -206,9 +218,9 @@ ExitCode run_doctor(const Document& document, const VerbContext& context) {
   const std::vector<std::string> devices = devices_to_check(options.device, seen);
   for (const std::string& device : devices) {
     const DeviceText named = device_at_workbench(device, workbench);
-    const OpenedDevice opened =
+    OpenedDevice opened =
         open_at_workbench(named, workbench, [&](const std::string& line) { context.console.note(line); });
-    const auto work = [&](DriverLink& link, const std::string& name) {
+    const auto work = [&](DriverLink& link, const std::string& name) -> Json& {
       context.progress.begin("working the device", 0);
       const LinkCheck check = check_link(link, options.seconds, options.patience, context.progress);
       text += name + (check.ready ? "\n" : ": not ready\n") + check_text(check);
@@ -217,8 +229,16 @@ ExitCode run_doctor(const Document& document, const VerbContext& context) {
       checks.push_back(std::move(checked));
       for (std::string& line : advice_on(check)) advice.push_back(std::move(line));
       usable = usable && check.ready;
+      return checks.back();
     };
-    work(*opened.link, device);
+    Json& checked = work(*opened.link, device);
+    if (checked["ready"] == true && opened.link->atoms().has_position && opened.link->poses() == nullptr) {
+      context.progress.begin("timing its forces", 0);
+      const TimeHistogram delays = force_delays(std::move(opened.link), options.seconds, context.progress);
+      text += delay_text(delays);
+      checked["force_delay_ms_p50"] = 1e-6 * static_cast<double>(delays.percentile_ns(0.5));
+      checked["force_delay_ms_p99"] = 1e-6 * static_cast<double>(delays.percentile_ns(0.99));
+    }
     if (opened.enabling.link) work(*opened.enabling.link, named.enable);
     if (const std::string held = description_of(opened.enabling, named); !held.empty()) {
       text += "  force       only " + held + "\n";

@@ -1,9 +1,14 @@
 #include "apps/workbench/link_check.h"
 
+#include <chrono>
 #include <cmath>
+#include <thread>
+#include <utility>
 
 #include "common/base/text.h"
+#include "common/servo/linked_device.h"
 #include "common/servo/real_time.h"
+#include "common/servo/servo_loop.h"
 
 namespace palpate {
 namespace {
@@ -48,6 +53,18 @@ LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress
   check.tracks = link.poses() != nullptr;
   check.felt = link.atoms().has_position && !check.tracks;
   return check;
+}
+
+TimeHistogram force_delays(std::shared_ptr<DriverLink> link, double seconds, Progress& progress) {
+  LinkedDevice device(std::move(link));
+  const ServoLoop servo(device, nullptr, "");
+  for (const std::int64_t start = monotonic_ns(); seconds_of(monotonic_ns() - start) < seconds;) {
+    progress.check();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  TimeHistogram delays;
+  (void)device.read_delays(delays);
+  return delays;
 }
 
 std::vector<std::string> advice_on(const LinkCheck& check) {

@@ -1,6 +1,7 @@
 /// How well a link to a device does: what it went through, its rate, how evenly, and how long a round takes.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,10 @@ struct LinkCheck {
 /// `patience` [s].
 /// @throws Cancelled.
 [[nodiscard]] LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress& progress);
+
+/// How long after its sample each force would be told to a device that is ready, by a servo of 1 kHz that asks for
+/// none, for `seconds`. @pre link is not null. @throws Cancelled.
+[[nodiscard]] TimeHistogram force_delays(std::shared_ptr<DriverLink> link, double seconds, Progress& progress);
 
 /// What to do about it, a sentence a line, for people; empty where all is well.
 [[nodiscard]] std::vector<std::string> advice_on(const LinkCheck& check);

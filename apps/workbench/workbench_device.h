@@ -26,6 +26,7 @@ class SampleClock final : public Device {
   bool read(double now, DeviceSample& sample) noexcept override;
   void command(const Vec3& force) noexcept override { device_.command(force); }
   void emergency_stop() noexcept override { device_.emergency_stop(); }
+  [[nodiscard]] const Bell* bell() const noexcept override { return device_.bell(); }
   [[nodiscard]] const DeviceLimits& limits() const noexcept override { return device_.limits(); }
 
   /// Of the newest sample [s]; any thread.

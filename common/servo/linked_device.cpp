@@ -47,7 +47,15 @@ LinkedDevice::~LinkedDevice() {
 
 Vec3 LinkedDevice::newest() noexcept {
   (void)orders_.read(order_);
-  const bool fresh = now_seconds() - order_.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
+  const double now = now_seconds();
+  if (order_.sample != answered_) {
+    constexpr double kNanoseconds = 1e9;
+    constexpr std::uint64_t kShare = 100;  // a copy of all bins each time would cost more than all else
+    delays_.add(static_cast<std::int64_t>(kNanoseconds * (now - order_.sample)));
+    answered_ = order_.sample;
+    if (delays_.count() % kShare == 0) delays_out_.write(delays_);
+  }
+  const bool fresh = now - order_.time <= kFreshFor && !stopped_.load(std::memory_order_acquire);
   if (!fresh || order_.force == Vec3{0.0} || !end_.may_show()) return Vec3{0.0};
   showed_.store(true);
   return order_.force;
@@ -113,7 +121,7 @@ bool LinkedDevice::read(double now, DeviceSample& sample) noexcept {
 
 void LinkedDevice::command(const Vec3& force) noexcept {
   stopped_.store(false, std::memory_order_release);
-  orders_.write({force, now_seconds()});
+  orders_.write({force, now_seconds(), newest_.time});
 }
 
 LinkStatus LinkedDevice::status() const {

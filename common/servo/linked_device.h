@@ -22,6 +22,7 @@
 #include "common/device/device_limits.h"
 #include "common/device/driver_link.h"
 #include "common/servo/force_end.h"
+#include "common/servo/time_histogram.h"
 
 namespace palpate {
 
@@ -56,6 +57,10 @@ class LinkedDevice final : public Device, private ForceSource {
   /// The newest of all that the device has, at most kKept old. Servo thread, in place of read(). @rt Safe.
   bool read_atoms(double now, DeviceAtoms& atoms) noexcept;
 
+  /// How long after its sample the link asked for each force, shared a hundred forces at a time. One thread. False
+  /// where there are no more since.
+  bool read_delays(TimeHistogram& delays) noexcept { return delays_out_.read(delays); }
+
   /// Whether it is a tracker, all its life.
   [[nodiscard]] bool tracks() const noexcept { return tracks_; }
   /// The newest poses, those that are older than kPosesKept as not valid. One thread, which need not be the
@@ -74,7 +79,8 @@ class LinkedDevice final : public Device, private ForceSource {
  private:
   struct Order {
     Vec3 force{0.0};
-    double time = 0.0;  ///< [s]
+    double time = 0.0;    ///< [s]
+    double sample = 0.0;  ///< [s] of the sample that it answers
   };
 
   void work(const std::stop_token& stop);
@@ -93,7 +99,10 @@ class LinkedDevice final : public Device, private ForceSource {
   std::atomic<bool> stopped_{false};
   std::atomic<bool> showed_{false};  ///< in the round that is under way
   ForceEnd end_;
-  Order order_;  ///< the thread's that asks for forces
+  Order order_;  ///< of the thread that asks for forces, as the next two
+  TimeHistogram delays_;
+  double answered_ = 0.0;  ///< [s] the newest sample whose force was asked for
+  TripleBuffer<TimeHistogram> delays_out_;
 
   DeviceAtoms newest_;  ///< the servo thread's
   bool seen_ = false;
