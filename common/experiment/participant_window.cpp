@@ -40,7 +40,7 @@ class ParticipantWindow {
         device_(options.touch),
         left_(folder.left_for(who_)) {
     header_.limits = options.touch.limits;
-    glfwSwapInterval(options.hands ? 0 : 1);
+    glfwSwapInterval(1);
     gui_.set_background(kGround);
     done_ = static_cast<std::size_t>(
                 std::ranges::count(folder.design(), who_.number, &PlannedTrial::participant)) -
@@ -109,6 +109,7 @@ class ParticipantWindow {
   ForceCut refusal_ = ForceCut::kNone;  ///< what was told of the trial at work
   Camera camera_;
   Vec2 mouse_{0.0};
+  Vec3 lead_{0.0};      ///< [m] where the mouse leads the cursor
   double depth_ = 0.0;  ///< [m] of the mouse's cursor, towards the viewer from the focal point
   bool pressed_ = false;
   bool space_down_ = false;
@@ -150,6 +151,8 @@ ParticipantSight ParticipantWindow::sight() const {
   out.trial = &live_->trial();
   out.task = live_->info().name;
   out.hint = hint();
+  out.guided = live_->planned().guided;
+  out.lead = lead_;
   if (live_->newest() != nullptr) out.cursor = live_->newest()->probe;
   return out;
 }
@@ -227,11 +230,11 @@ void ParticipantWindow::lead_mouse(bool grab) {
   const double perspective =
       camera_.projection == Projection::kPerspective ? 1.0 - depth_ / distance(camera_) : 1.0;
   const double unit = camera_.view_height / eye_.height * perspective;
-  const Vec3 x = camera_.focal_point + unit * (mouse_.x - 0.5 * eye_.width) * camera_.axes[0] -
-                 unit * (mouse_.y - 0.5 * eye_.height) * camera_.axes[1] + depth_ * camera_.axes[2];
+  lead_ = camera_.focal_point + unit * (mouse_.x - 0.5 * eye_.width) * camera_.axes[0] -
+          unit * (mouse_.y - 0.5 * eye_.height) * camera_.axes[1] + depth_ * camera_.axes[2];
   const double now = glfwGetTime();
-  if (grab) device_.grab(now, x);
-  device_.move(now, x, pressed_);
+  if (grab) device_.grab(now, lead_);
+  device_.move(now, lead_, pressed_);
 }
 
 void ParticipantWindow::space() {
@@ -414,9 +417,7 @@ void ParticipantWindow::run() {
     }
     eye_ = eye_picture_size(options_.stereo.mode, width_, height_);
     std::vector<InputEvent> events = std::exchange(glfw_.events(), {});
-    if (options_.hands) {
-      for (InputEvent& event : options_.hands(sight())) events.push_back(std::move(event));
-    }
+    if (options_.each_frame) options_.each_frame(sight());
     for (InputEvent& event : events) {  // in either half the mouse is where the same thing is seen
       if (event.kind != InputKind::kMove) continue;
       const PictureArea window{0.0, 0.0, static_cast<double>(width_), static_cast<double>(height_)};
@@ -439,7 +440,6 @@ void ParticipantWindow::run() {
     }
     glfwSwapBuffers(glfw_.get());
     ++frame_;
-    if (screen_ == ParticipantScreen::kThanks && options_.hands) break;
   }
 }
 

@@ -13,13 +13,11 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "common/hand/probe_options.h"
 #include "common/render/camera.h"
 #include "common/render/stereo/stereo_view.h"
 #include "common/study/study_folder.h"
-#include "common/window/input_event.h"
 
 namespace palpate {
 
@@ -42,6 +40,8 @@ struct ParticipantSight {
   Camera camera;                      ///< of a trial
   const StudyTrial* trial = nullptr;  ///< null on other screens
   Vec3 cursor{0.0};                   ///< [m]
+  Vec3 lead{0.0};                     ///< [m] where the mouse leads it
+  bool guided = false;                ///< the condition of the trial
   std::string task;                   ///< name; empty on other screens
   std::string hint;                   ///< what is written below the picture
   std::size_t left = 0;               ///< trials
@@ -55,8 +55,8 @@ struct ParticipantWindowOptions {
   /// What whoever leads the experiment is told: a line at a time, when there is no force. Null: nobody listens.
   std::function<void(const std::string&)> tell;
   std::function<bool()> stop_requested;  ///< asked each frame; true closes the window
-  /// Events put in at each frame as if they came from mouse and keyboard.
-  std::function<std::vector<InputEvent>(const ParticipantSight&)> hands;
+  /// Called at each frame: for who works the window, or tells of it.
+  std::function<void(const ParticipantSight&)> each_frame;
   /// Where a picture of the window is saved that was asked for at the end of a frame; empty: none.
   std::function<std::filesystem::path(const ParticipantSight&)> photograph;
 };

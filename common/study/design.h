@@ -42,6 +42,9 @@ struct PlannedTrial {
 /// @throws Error (usage) where `recorded` is odd or a number is too small.
 [[nodiscard]] std::vector<PlannedTrial> make_design(const DesignRequest& request);
 
+/// Trials of each condition that the analysis needs of a participant, for a deviation.
+inline constexpr int kLeastOfCondition = 2;
+
 /// How far the recorded trials are from equal numbers: the largest difference of two counts.
 struct DesignBalance {
   int conditions_of_participant = 0;  ///< guided less unguided, of a participant in a task

@@ -274,8 +274,8 @@ void StudyFolder::write(const TrialRecord& record, const std::string& recording,
   if (!std::isfinite(record.outcome.seconds) || !std::isfinite(record.outcome.error) || steps.empty())
     throw work_error(start +
                      "beh.json: the trial has no steps, or its time or error is no number; it is not kept");
-  write_safely(start + "recording.txt.gz", packed(recording));
-  write_safely(start + "motion.tsv.gz", packed(motion_table(steps)));
+  write_safely(start + kRecordingFile, packed(recording));
+  write_safely(start + kMotionFile, packed(motion_table(steps)));
   const TrialOutcome& o = record.outcome;
   write_safely(start + "beh.json",
                pretty({{"participant", record.participant},
@@ -340,7 +340,7 @@ TrialRecord StudyFolder::read(const StudyParticipant& who, const PlannedTrial& p
 }
 
 Recording StudyFolder::recording(const std::string& code, const std::string& task, int run) const {
-  const std::string file = stem(code, task, run).string() + "recording.txt.gz";
+  const std::string file = stem(code, task, run).string() + kRecordingFile;
   return read_packed_recording(file);
 }
 

@@ -60,6 +60,9 @@ struct TrialRecord {
   int attempt = 0;                   ///< 0, or which repeat it is
 };
 
+inline constexpr const char* kRecordingFile = "recording.txt.gz";
+inline constexpr const char* kMotionFile = "motion.tsv.gz";
+
 class StudyFolder {
  public:
   /// Opens one that is there. @throws Error (bad input) where it is none.
@@ -80,6 +83,8 @@ class StudyFolder {
   static constexpr int kMostAttempts = 3;
   /// The number of a trial in its files, from 1.
   [[nodiscard]] int run_of(const PlannedTrial& trial) const noexcept;
+  /// What the files of a trial begin with, folders included; then kRecordingFile or kMotionFile.
+  [[nodiscard]] std::filesystem::path stem(const std::string& code, const std::string& task, int run) const;
   /// Whether the stimuli that the tasks have prepared are those of the folder, to 1e-6. @throws Error (bad input).
   void check_stimuli(const StudyTasks& tasks) const;
   /// Takes a place of the design, or the whole folder, for a session: `kShared` where others may sit at other places.
@@ -114,7 +119,6 @@ class StudyFolder {
 
  private:
   StudyFolder() = default;
-  [[nodiscard]] std::filesystem::path stem(const std::string& code, const std::string& task, int run) const;
 
   std::filesystem::path folder_;
   StudyPlan plan_;

@@ -34,7 +34,8 @@ TaskAnalysis analyse_task(const StudyTaskInfo& info, const std::vector<TrialReco
   }
   std::array<std::vector<TrialValue>, 2> values;
   for (const auto& [code, by_condition] : good) {
-    if (by_condition[0].size() < 2 || by_condition[1].size() < 2) {
+    if (std::ranges::any_of(by_condition,
+                            [](const auto& some) { return some.size() < as_size(kLeastOfCondition); })) {
       out.lacking.push_back(code);
       continue;
     }
@@ -101,6 +102,13 @@ ExperimentAnalysis analyse_experiment(const StudyFolder& folder, const std::vect
   out.simulated = programs == who.size();
   out.set_aside = out.simulated ? 0 : programs;
   out.participants = who.size() - out.set_aside;
+  for (const StudyParticipant& one : folder.participants()) {
+    if (one.simulated != out.simulated) continue;
+    out.missing += as_size(std::ranges::count(folder.design(), one.number, &PlannedTrial::participant)) -
+                   as_size(std::ranges::count_if(all, [&](const TrialRecord& trial) {
+                     return trial.participant == one.code && trial.attempt == 0;
+                   }));
+  }
   std::vector<TrialRecord> trials = all;
   std::erase_if(trials, [&](const TrialRecord& trial) { return trial.simulated != out.simulated; });
   for (const std::string& name : folder.plan().tasks)

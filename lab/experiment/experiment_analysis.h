@@ -60,6 +60,8 @@ struct ExperimentAnalysis {
   std::size_t participants = 0;  ///< who is analysed: all people, or all programs
   bool simulated = false;        ///< they are programs
   std::size_t set_aside = 0;     ///< programs beside people: not analysed
+  std::size_t missing =
+      0;  ///< trials of theirs, practice included, that the design has and the folder has not
 };
 
 /// Whether a trial counts: practice does not, nor do errors and times beyond the limits of its task, nor trials in which

@@ -1,5 +1,6 @@
 #include "lab/experiment/experiment_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -9,38 +10,18 @@
 
 #include "common/base/text.h"
 #include "common/study/data_column.h"
+#include "lab/experiment/printed_tests.h"
 #include "lab/page/interval_plot.h"
 #include "lab/page/scatter_plot.h"
 
 namespace palpate {
 namespace {
 
-/// What the reference prints of a task; NaN where it prints nothing. n = 20, t(19).
-struct Printed {
-  const char* task;
-  const char* error_mean;
-  const char* error_deviation;
-  const char* time_mean;
-  const char* time_deviation;
-};
-constexpr Printed kPrinted[]{
-    {"advection2d", "12.25, p < 0.001", "8.75, p < 0.001", "6.19, p < 0.001", "2.65, p < 0.016"},
-    {"tracing2d", "11.14, p < 0.001", "3.17, p < 0.005", "6.93, p < 0.001", "0.127, p < 0.9"},
-    {"advection3d", "8.12, p < 0.001", "9.77, p < 0.001", "3.76, p < 0.001", "2.5, p < 0.022"},
-    {"tracing3d", "4.76, p < 0.001", "3.1, p < 0.006", "8.75, p < 0.001", "1.58, p < 0.13"}};
-
 /// "69 (34 %)": of those that were left out and those that count.
 std::string share_text(std::size_t out, std::size_t kept) {
   if (out + kept == 0) return "-";
   const double share = 100.0 * static_cast<double>(out) / static_cast<double>(out + kept);
   return std::to_string(out) + " (" + short_number(std::round(share)) + " %)";
-}
-
-std::string printed(const std::string& task, const char* const Printed::*member) {
-  for (const Printed& row : kPrinted) {
-    if (task == row.task) return row.*member;
-  }
-  return "-";
 }
 
 std::string p_text(double p) {
@@ -76,8 +57,8 @@ struct Numbers {
 class ExperimentPage {
  public:
   ExperimentPage(const StudyFolder& folder, const std::vector<TrialRecord>& trials,
-                 const ExperimentAnalysis& found)
-      : folder_(folder), trials_(trials), found_(found) {}
+                 const ExperimentAnalysis& found, const std::vector<DamagedFile>& damaged)
+      : folder_(folder), trials_(trials), found_(found), damaged_(damaged) {}
 
   [[nodiscard]] std::vector<ReportSection> sections() const;
 
@@ -98,6 +79,7 @@ class ExperimentPage {
   const StudyFolder& folder_;
   const std::vector<TrialRecord>& trials_;
   const ExperimentAnalysis& found_;
+  const std::vector<DamagedFile>& damaged_;
 };
 
 ReportSection ExperimentPage::begin(const std::string& title) const {
@@ -160,7 +142,25 @@ ReportSection ExperimentPage::data() const {
     numbers.add("", "limit of time [s]", t.info.cutoff_time);
   }
   section.paragraphs.push_back(std::to_string(left_out) + " of " + std::to_string(trials) +
-                               " trials are left out.");
+                               " trials are left out; printed: 70 of 1600.");
+  if (found_.missing > 0)
+    section.paragraphs.push_back(
+        counted(found_.missing, "trial") +
+        " that the design has for those who have begun, practice included: not in the "
+        "folder. They were not done yet, or were deleted.");
+  if (!damaged_.empty()) {
+    std::string files;
+    for (const DamagedFile& one : damaged_) files += (files.empty() ? "" : "; ") + one.file + ": " + one.why;
+    section.paragraphs.push_back(
+        counted(damaged_.size(), "file") +
+        " beside the trials missing or damaged. Their trials count by what was noted of them at once, and can be "
+        "neither played back nor looked at again: " +
+        files + ".");
+  }
+  section.measurements.push_back(
+      {"trials", "all tasks", "", "of the design, not there", static_cast<double>(found_.missing)});
+  section.measurements.push_back(
+      {"trials", "all tasks", "", "files missing or damaged", static_cast<double>(damaged_.size())});
   section.measurements.push_back({"trials", "all tasks", "", "left out", static_cast<double>(left_out)});
   section.csv.file = "trials.csv";
   const std::vector<DataColumn> columns{
@@ -177,11 +177,15 @@ ReportSection ExperimentPage::data() const {
       {"reached", "whether the goal was met"},
       {"end", "space: the participant ended it; timeout: it ended by itself"},
       {"flawed_steps", "steps that were lost or faulty, or in which there was no force"},
-      {"counts", "whether it is part of what is tested"}};
+      {"counts", "whether it is part of what is tested"},
+      {"files", "whole: recording and motion are there; damaged: one of them is not, or not all of it"}};
   section.csv.content = table_header(columns, ',');
   section.csv.dictionary = data_dictionary(columns);
   for (const TrialRecord& r : trials_) {
     bool kept = false;
+    const bool damaged = std::ranges::any_of(damaged_, [&r](const DamagedFile& one) {
+      return one.participant == r.participant && one.task == r.task && one.run == r.run;
+    });
     const TrialFlaws& flaws = r.outcome.flaws;
     for (const TaskAnalysis& t : found_.tasks)
       kept = kept || (r.simulated == found_.simulated && t.info.name == r.task && counts(r, t.info));
@@ -192,7 +196,7 @@ ReportSection ExperimentPage::data() const {
                            exact_number(r.outcome.seconds) + (r.outcome.reached ? ",true," : ",false,") +
                            (r.outcome.timed_out ? "timeout," : "space,") +
                            std::to_string(flaws.lost + flaws.faults + flaws.cut + flaws.off) + "," +
-                           (kept ? "true" : "false") + "\n";
+                           (kept ? "true," : "false,") + (damaged ? "damaged" : "whole") + "\n";
   }
   return section;
 }
@@ -209,8 +213,9 @@ ReportSection ExperimentPage::comparison(Measure measure) const {
     const MeasureAnalysis& m = t.of(measure);
     section.table.push_back(
         {t.info.title, t_text(m.of_means),
-         printed(t.info.name, error ? &Printed::error_mean : &Printed::time_mean), t_text(m.of_deviations),
-         printed(t.info.name, error ? &Printed::error_deviation : &Printed::time_deviation)});
+         printed(t.info.name, error ? &PrintedTests::error_mean : &PrintedTests::time_mean),
+         t_text(m.of_deviations),
+         printed(t.info.name, error ? &PrintedTests::error_deviation : &PrintedTests::time_deviation)});
     const Numbers numbers{section, error ? "position error" : "completion time", t.info.name};
     const std::string unit = error ? " [mm]" : " [s]";
     numbers.add_test("means, ISO - ANISO", m.of_means, unit);
@@ -235,10 +240,28 @@ ReportSection ExperimentPage::comparison(Measure measure) const {
   const std::string name = error ? "position_errors.svg" : "completion_times.svg";
   section.plots.push_back({name, plot.title + " with 95 % inferential confidence intervals", svg(plot)});
   section.paragraphs.push_back(
-      "The figure is figures 7.4 and 7.5: means over participants with 95 % inferential confidence intervals (Tryon "
+      "The first figure is figures 7.4 and 7.5: means over participants with 95 % inferential confidence intervals (Tryon "
       "2001), which do not overlap exactly where the paired test finds a difference at the level of 5 %. The printed "
       "figures show both measures lower with ANISO in all four tasks; of times, the intervals do not overlap in 3D "
       "tracing alone.");
+  IntervalPlot effects{.title = titled(error ? "Effect on position errors" : "Effect on completion times"),
+                       .y_label = "d_z of the means, ISO - ANISO",
+                       .series = {"here", "printed"}};
+  for (const TaskAnalysis& t : found_.tasks) {
+    const double there =
+        printed_effect(t.info.name, error ? &PrintedTests::error_mean : &PrintedTests::time_mean);
+    const double here = t.of(measure).of_means.effect_z;
+    if (std::isfinite(there))
+      effects.groups.push_back({t.info.title, {{here > 0.0 ? here : NAN, NAN}, {there, NAN}}});
+  }
+  if (effects.groups.empty()) return section;
+  section.plots.push_back({error ? "position_effects.svg" : "time_effects.svg",
+                           effects.title + " beside the printed one", svg(effects)});
+  section.paragraphs.push_back(
+      "The heights of the printed bars of figures 7.4 and 7.5 and the widths of their intervals are not available as numbers: the "
+      "reference has them as pictures alone. The second figure therefore sets beside what was found the one size that follows from a printed "
+      "number: d_z = t(19) / sqrt(20), of table " +
+      std::string(error ? "7.1" : "7.2") + ". Where guidance did not help here, there is no bar of it.");
   return section;
 }
 
@@ -337,7 +360,8 @@ ReportSection ExperimentPage::correlations() const {
   section.paragraphs.push_back(
       "A point a participant and condition: means of error and time. Pearson's correlation with its 95 % interval "
       "(Fisher). The reference prints r = -0.704, p < 0.001 for 2D tracing with ISO, the strongest one, and says that shorter "
-      "times go with larger errors with ISO, and not necessarily with ANISO.");
+      "times go with larger errors with ISO, and not necessarily with ANISO. Its points are not available as numbers, as the figure is a "
+      "picture alone: the figures below have those of this experiment only, and r beside the printed one is in the table.");
   section.columns = {"task", "condition", "r", "95 %", "p", "printed r"};
   for (const TaskAnalysis& t : found_.tasks) {
     const MeasureAnalysis &e = t.of(Measure::kError), &s = t.of(Measure::kTime);
@@ -467,8 +491,9 @@ std::string experiment_label(const ExperimentAnalysis& found) {
 
 std::vector<ReportSection> experiment_sections(const StudyFolder& folder,
                                                const std::vector<TrialRecord>& trials,
-                                               const ExperimentAnalysis& found) {
-  return ExperimentPage(folder, trials, found).sections();
+                                               const ExperimentAnalysis& found,
+                                               const std::vector<DamagedFile>& damaged) {
+  return ExperimentPage(folder, trials, found, damaged).sections();
 }
 
 }  // namespace palpate

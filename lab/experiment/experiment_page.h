@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/study/study_damage.h"
 #include "lab/experiment/experiment_analysis.h"
 #include "lab/page/section.h"
 
@@ -16,9 +17,10 @@ namespace palpate {
 /// Whether it is of programs, or leaves them out: above every section; empty where there are people alone.
 [[nodiscard]] std::string experiment_label(const ExperimentAnalysis& found);
 
-/// @param trials all of the folder, practice included.
+/// @param trials all of the folder, practice included. @param damaged files of theirs.
 [[nodiscard]] std::vector<ReportSection> experiment_sections(const StudyFolder& folder,
                                                              const std::vector<TrialRecord>& trials,
-                                                             const ExperimentAnalysis& found);
+                                                             const ExperimentAnalysis& found,
+                                                             const std::vector<DamagedFile>& damaged);
 
 }  // namespace palpate

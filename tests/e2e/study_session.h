@@ -1,4 +1,5 @@
-/// A session of an experiment in the window, in a process of its own, worked by somebody with mouse and keyboard.
+/// A session of an experiment in the window, in a process of its own, worked by somebody with the mouse and keyboard of
+/// its display.
 #pragma once
 
 #include <algorithm>
@@ -6,9 +7,13 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -28,8 +33,6 @@
 namespace palpate::test {
 
 namespace fs = std::filesystem;
-
-inline constexpr int kSpace = 32;  // GLFW's number of the key
 
 inline StudyPlan session_plan() {
   StudyPlan plan{.program = "flow",
@@ -54,114 +57,194 @@ inline StudyTasks prepared_tasks(const StudyPlan& plan) {
   return out;
 }
 
-inline void press_key(int key, std::vector<InputEvent>& events) {
-  events.push_back({.kind = InputKind::kKeyDown, .key = key});
-  events.push_back({.kind = InputKind::kKeyUp, .key = key});
-}
-
 using Clock = std::chrono::steady_clock;
 
-/// Somebody with a mouse who does what the screens say, a few times faster than people do. What they do depends on what
-/// they see and on the time, however long a picture takes: nothing is counted in frames.
+/// Mouse and keyboard of the display, worked through the X server's own test extension by xdotool: events reach the
+/// window as those of people do. What is to be done is done at its time, however long a picture takes.
+class MouseAndKeys {
+ public:
+  struct Stroke {
+    double after;      ///< [s] the one before it
+    std::string what;  ///< a command of xdotool
+  };
+
+  [[nodiscard]] static bool is_there() { return std::system("command -v xdotool >/dev/null 2>&1") == 0; }
+
+  MouseAndKeys()
+      : to_(::popen("exec xdotool -", "w")), worker_([this](const std::stop_token& s) { work(s); }) {}
+  MouseAndKeys(const MouseAndKeys&) = delete;
+  MouseAndKeys& operator=(const MouseAndKeys&) = delete;
+  ~MouseAndKeys() {
+    worker_.request_stop();
+    worker_.join();
+    if (to_ != nullptr) (void)::pclose(to_);
+  }
+
+  void play(const std::vector<Stroke>& strokes) {
+    const std::lock_guard lock(mutex_);
+    Clock::time_point at = left_.empty() ? Clock::now() : left_.back().first;
+    for (const auto& [after, what] : strokes) {
+      at += std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after));
+      left_.emplace_back(at, what);
+    }
+  }
+  /// What is not yet done will not be.
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    left_.clear();
+  }
+  [[nodiscard]] bool idle() const {
+    const std::lock_guard lock(mutex_);
+    return left_.empty();
+  }
+
+ private:
+  void work(const std::stop_token& stopped) {
+    while (!stopped.stop_requested()) {
+      constexpr auto kTick = std::chrono::milliseconds(2);
+      std::this_thread::sleep_for(kTick);
+      const std::lock_guard lock(mutex_);
+      for (; !left_.empty() && left_.front().first <= Clock::now(); left_.pop_front()) {
+        std::fputs((left_.front().second + "\n").c_str(), to_);
+        std::fflush(to_);
+      }
+    }
+  }
+
+  std::FILE* to_;
+  mutable std::mutex mutex_;
+  std::deque<std::pair<Clock::time_point, std::string>> left_;
+  std::jthread worker_;
+};
+
+/// Somebody with a mouse who does what the screens say, a few times faster than people do. The window is in the upper
+/// left corner of a display without a window manager.
 class Hands {
  public:
   /// @param slow [s] for which each picture stays longer than it must. @param faults presses F12 at the first start and
   /// in the first trial.
   explicit Hands(double slow = 0.0, bool faults = false) : slow_(slow), faults_(faults) {}
 
-  std::vector<InputEvent> operator()(const ParticipantSight& sight) {
+  void operator()(const ParticipantSight& sight) {
     std::this_thread::sleep_for(std::chrono::duration<double>(slow_));
-    std::vector<InputEvent> events;
+    if (!x_) {
+      x_ = std::make_shared<MouseAndKeys>();
+      act({{0.0, "mousemove 200 200"},
+           {0.0, "keyup space"},
+           {0.0, "mouseup 1"}});  // who was killed held them
+    }
     if (sight.screen != screen_ || sight.left != left_) {
       screen_ = sight.screen;
       left_ = sight.left;
-      since_ = Clock::now();
-      aim_.reset();
+      at_start_ = traced_ = said_ = false;
     }
-    const double waited = std::chrono::duration<double>(Clock::now() - since_).count();
-    constexpr double kRead = 0.1;  // [s]
+    if (!x_->idle()) {
+      frames_ = 0;
+      rested_ = Clock::now();
+    }
+    ++frames_;
     switch (sight.screen) {
       case ParticipantScreen::kWelcome:
       case ParticipantScreen::kTask:
       case ParticipantScreen::kPause:
-        if (waited > kRead) press_key(kSpace, events);
+        if (ready()) press("space");
         break;
       case ParticipantScreen::kStart:
-        lead(sight, sight.trial->start(), events);
-        if (std::exchange(faults_, false)) {
-          off_in_trial_ = true;
-          events.push_back({.kind = InputKind::kKeyDown, .key = kForceOff});
-        }
-        // The bar is pressed, and let go in the next frame, until the trial begins.
-        events.push_back({.kind = down_ ? InputKind::kKeyUp : InputKind::kKeyDown, .key = kSpace});
-        if (!down_ && glm::distance(sight.cursor, sight.trial->start()) > 0.003) events.pop_back();
-        down_ = events.back().kind == InputKind::kKeyDown && events.back().key == kSpace;
+        begin(sight);
         break;
       case ParticipantScreen::kTrial:
-        // The bar is held longer than a shortest trial: a key that comes again ends none.
-        events.push_back({.kind = InputKind::kKeyDown, .key = kSpace});
-        if (waited > 0.4) {
-          events.back().kind = InputKind::kKeyUp;
-          down_ = false;
-          if (std::exchange(off_in_trial_, false))
-            events.push_back({.kind = InputKind::kKeyDown, .key = kForceOff});
-          trace(sight, events);
-        }
+        trace(sight);
         break;
       case ParticipantScreen::kForm:
-        fill_in(events);
+        if (ready()) fill_in();
         break;
       case ParticipantScreen::kThanks:
+        if (ready()) press("Escape");
         break;
     }
-    return events;
   }
 
  private:
-  static constexpr int kForceOff = 301;  // GLFW's number of F12
+  using Strokes = std::vector<MouseAndKeys::Stroke>;
 
-  /// The mouse to where `x` is seen, the wheel to its depth.
-  void lead(const ParticipantSight& sight, const Vec3& x, std::vector<InputEvent>& events) {
+  void act(const Strokes& strokes) {
+    x_->play(strokes);
+    frames_ = 0;
+    rested_ = Clock::now();
+  }
+  void press(const std::string& key) { act({{0.0, "key " + key}}); }
+  /// Whether what was done last has been seen for a while.
+  [[nodiscard]] bool ready(double rest = 0.1) const {
+    constexpr int kFrames = 4;
+    return x_->idle() && frames_ >= kFrames &&
+           std::chrono::duration<double>(Clock::now() - rested_).count() >= rest;
+  }
+  /// The mouse to where `x` is seen, the wheel by the notches that the depth is off. @param turned notches up till now.
+  static void lead(const ParticipantSight& sight, const Vec3& x, double after, int& turned,
+                   Strokes& strokes) {
     const Vec3 pixel = project(sight.camera, x, sight.width, sight.height);
-    events.push_back({.kind = InputKind::kMove, .x = pixel.x, .y = pixel.y});
-    const double depth = glm::dot(sight.cursor - x, sight.camera.axes[2]);
+    strokes.push_back({after, "mousemove " + std::to_string(std::lround(pixel.x)) + " " +
+                                  std::to_string(std::lround(pixel.y))});
+    if (sight.camera.projection != Projection::kPerspective) return;
     constexpr double kNotch = 0.002;  // [m]
-    if (sight.camera.projection == Projection::kPerspective && std::abs(depth) > 0.5 * kNotch &&
-        glm::length(sight.cursor) > 0.0)
-      events.push_back({.kind = InputKind::kWheel, .y = std::clamp(std::round(depth / kNotch), -4.0, 4.0)});
+    const auto wanted =
+        static_cast<int>(std::lround(glm::dot(sight.lead - x, sight.camera.axes[2]) / kNotch));
+    for (; turned < wanted; ++turned) strokes.push_back({0.0, "click 4"});
+    for (; turned > wanted; --turned) strokes.push_back({0.0, "click 5"});
   }
-  /// The way on for as long as the last picture stayed, a little at a time: a slow window makes nobody slower.
-  void trace(const ParticipantSight& sight, std::vector<InputEvent>& events) {
-    const auto now = Clock::now();
-    if (!aim_) {
-      aim_ = sight.cursor;
-      last_ = now;
+  /// To the start, and the bar, until the trial begins. It is held longer than a shortest trial, and the first time
+  /// until it comes again: neither ends the trial.
+  void begin(const ParticipantSight& sight) {
+    if (!ready()) return;
+    if (!std::exchange(at_start_, true)) {
+      Strokes strokes;
+      int turned = 0;
+      lead(sight, sight.trial->start(), 0.0, turned, strokes);
+      if (faults_) strokes.push_back({0.1, "key F12"});
+      off_in_trial_ = off_in_trial_ || std::exchange(faults_, false);
+      act(strokes);
+      return;
     }
-    constexpr double kSpeed = 0.06;                  // [m/s]
-    constexpr double kPiece = 0.01, kLongest = 0.5;  // [s]
-    double left = std::min(std::chrono::duration<double>(now - last_).count(), kLongest);
-    last_ = now;
-    TrialCue cue = sight.trial->cue(*aim_, 0.0);
-    for (; left > 0.0 && !cue.arrived; left -= kPiece) {
-      *aim_ += std::min(left, kPiece) * kSpeed * cue.along;
-      cue = sight.trial->cue(*aim_, 0.0);
-    }
-    lead(sight, *aim_, events);
-    if (cue.arrived || sight.trial->reached()) press_key(kSpace, events);
+    constexpr double kNear = 0.003;  // [m]
+    if (!ready(0.3) || glm::distance(sight.cursor, sight.trial->start()) > kNear) return;
+    constexpr double kLong = 1.0, kShort = 0.4;  // [s]
+    act({{0.0, "keydown space"}, {std::exchange(hold_long_, false) ? kLong : kShort, "keyup space"}});
   }
-  /// A 4 for each question, a control a frame; what was chosen is called otherwise then.
-  void fill_in(std::vector<InputEvent>& events) {
+  /// Along what is drawn from the cursor on, and the bar where the goal is met, or where there is no more to follow.
+  void trace(const ParticipantSight& sight) {
+    constexpr double kSpeed = 0.06, kPiece = 0.02, kFarthest = 0.14;  // [m/s], [s], [m]
+    if (!traced_ && x_->idle()) {
+      traced_ = true;
+      Strokes strokes;
+      if (std::exchange(off_in_trial_, false)) strokes.push_back({0.0, "key F12"});
+      int turned = 0;
+      Vec3 aim = sight.cursor;
+      for (double far = 0.0; far < kFarthest; far += kPiece * kSpeed) {
+        const TrialCue cue = sight.trial->cue(aim, 0.0);
+        if (cue.arrived) break;
+        aim += kPiece * kSpeed * cue.along;
+        lead(sight, aim, kPiece, turned, strokes);
+      }
+      act(strokes);
+    }
+    constexpr double kPatience = 1.5;  // [s]
+    if (!traced_ || !((sight.trial->reached() && !said_) || ready(kPatience))) return;
+    said_ = true;
+    x_->stop();
+    press("space");
+  }
+  /// A 4 for each question, a control at a time; what was chosen is called otherwise then.
+  void fill_in() {
     if (std::exchange(pressed_, false)) {
-      events.push_back({.kind = InputKind::kRelease});
+      act({{0.0, "mouseup 1"}});
       return;
     }
     for (const char* label : {" 4 ", "Done"}) {
       for (const DrawnControl& control : drawn_controls()) {
         if (control.label != label) continue;
-        events.push_back({.kind = InputKind::kMove,
-                          .x = control.left + 0.5 * control.width,
-                          .y = control.top + 0.5 * control.height});
-        events.push_back({.kind = InputKind::kPress});
+        act({{0.0, "mousemove " + std::to_string(std::lround(control.left + 0.5 * control.width)) + " " +
+                       std::to_string(std::lround(control.top + 0.5 * control.height))},
+             {0.05, "mousedown 1"}});
         pressed_ = true;
         return;
       }
@@ -169,14 +252,16 @@ class Hands {
   }
 
   double slow_;
-  bool faults_, off_in_trial_ = false, down_ = false, pressed_ = false;
+  bool faults_, off_in_trial_ = false, hold_long_ = true, pressed_ = false;
+  bool at_start_ = false, traced_ = false, said_ = false;  ///< what is done of a trial
   ParticipantScreen screen_ = ParticipantScreen::kThanks;
   std::size_t left_ = 0;
-  std::optional<Vec3> aim_;
-  Clock::time_point last_, since_;
+  std::shared_ptr<MouseAndKeys> x_;  ///< made in the process of the session
+  int frames_ = 0;                   ///< since the last stroke
+  Clock::time_point rested_;         ///< likewise
 };
 
-/// A picture of each task, what is said before it, and the form, for the guide.
+/// A picture of each task with guidance, where nothing is wrong with the force, what is said before it, and the form.
 class Photographs {
  public:
   explicit Photographs(fs::path folder) : folder_(std::move(folder)) {}
@@ -185,6 +270,7 @@ class Photographs {
     screen_ = sight.screen;
     const bool trial = screen_ == ParticipantScreen::kTrial;
     if (!trial && screen_ != ParticipantScreen::kTask && screen_ != ParticipantScreen::kForm) return {};
+    if (trial && (!sight.guided || !sight.hint.empty())) return {};
     // On the way: clear of the blue start, before the red end.
     constexpr double kOnTheWay = 0.02;  // [m]
     if (trial ? glm::distance(sight.cursor, sight.trial->start()) < kOnTheWay : frames_ != 2) return {};
@@ -222,9 +308,9 @@ inline pid_t start_session(const fs::path& folder, const StudyPlan& plan, const 
     options.stereo.mode = wish.stereo;
     std::ofstream told(wish.told);
     std::string hint;
-    options.hands = [&told, &hint, hands = wish.hands](const ParticipantSight& sight) mutable {
+    options.each_frame = [&told, &hint, hands = wish.hands](const ParticipantSight& sight) mutable {
       if (std::exchange(hint, sight.hint) != sight.hint) told << "screen: " << sight.hint << std::endl;
-      return hands(sight);
+      hands(sight);
     };
     options.tell = [&told](const std::string& line) { told << line << std::endl; };
     if (wish.pictures.empty()) {  // a small picture is drawn sooner

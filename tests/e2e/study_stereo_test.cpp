@@ -42,6 +42,7 @@ bool far_apart(const std::array<int, 3>& a, const std::array<int, 3>& b) {
 
 TEST(StudyWindow, GivesEachEyeAWholePictureAndAllOfTheText) {
   if (std::getenv("DISPLAY") == nullptr) GTEST_SKIP() << "no display: run under xvfb-run";
+  ASSERT_TRUE(MouseAndKeys::is_there()) << "xdotool is missing: scripts/packages.sh names it";
   TempFolder temporary;
   StudyPlan plan = session_plan();
   plan.tasks = {"tracing2d", "tracing3d"};

@@ -70,6 +70,11 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
         "participants that the next study needs: for a power of 90 %", "questionnaire: answers"})
     EXPECT_TRUE(kept.contains(number)) << number;
 
+  EXPECT_EQ(analysed["damaged_files"], 0);
+  EXPECT_EQ(analysed["missing_trials"], 0);
+  EXPECT_NE(page.find("not available as numbers"), std::string::npos) << "of the printed figures";
+  EXPECT_TRUE(std::filesystem::exists(folder_.path("s/analysis/position_effects.svg")));
+
   const Json replayed = json({"study", "replay", "s", "--participant", "P03"});
   EXPECT_EQ(replayed["trials"], 5);
   EXPECT_EQ(replayed["differ"], 0);
@@ -92,6 +97,32 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
   EXPECT_NE(other.err.find("other ones"), std::string::npos) << other.err;
 }
 
+TEST_F(FlowStudy, SaysWhatIsMissingOrTooFew) {
+  const ProgramResult few = run({"study", "make", "s", "--tasks", "tracing2d", "--participants", "1",
+                                 "--practice", "0", "--recorded", "2"});
+  EXPECT_EQ(few.exit_code, 0);
+  EXPECT_NE(few.err.find("--recorded 2 is too few"), std::string::npos) << few.err;
+  EXPECT_NE(few.err.find("--participants 1 is too few"), std::string::npos) << few.err;
+  (void)json({"study", "simulate", "s"});
+  const std::string beh = "s/sub-P01/beh/sub-P01_task-tracing2d_run-0";
+  std::filesystem::resize_file(folder_.path(beh + "1_recording.txt.gz"), 1000);
+  std::filesystem::remove(folder_.path(beh + "1_motion.tsv.gz"));
+  std::filesystem::remove(folder_.path(beh + "2_beh.json"));
+  const ProgramResult analysed = run({"study", "analyse", "s", "--json"});
+  EXPECT_EQ(analysed.exit_code, 0);
+  EXPECT_EQ(Json::parse(analysed.out)["damaged_files"], 2);
+  EXPECT_EQ(Json::parse(analysed.out)["missing_trials"], 1);
+  const std::string page = read_file(folder_.path("s/analysis/index.html"));
+  for (const std::string words :
+       {"1_recording.txt.gz: it is damaged or cut off", "1_motion.tsv.gz: it is not there"}) {
+    EXPECT_NE(analysed.err.find(words), std::string::npos) << analysed.err;
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(analysed.err.find("1 trial of the design"), std::string::npos) << analysed.err;
+  const std::string trials = read_file(folder_.path("s/analysis/trials.csv"));
+  EXPECT_NE(trials.find(",damaged\n"), std::string::npos) << trials;
+}
+
 TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
   const auto refused = [&](const std::vector<std::string>& arguments, int code, const std::string& word) {
     const ProgramResult result = run(arguments);
@@ -104,8 +135,8 @@ TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
   refused({"study", "make", "s", "--tasks", "juggling"}, 2, "tracing2d");
   refused({"study", "make", "s", "--recorded", "5"}, 2, "even");
   refused({"study", "make", "s", "--tasks", "tracing2d,tracing2d"}, 2, "twice");
-  refused({"study", "make", "s", "--tasks", "tracing2d", "--recorded", "82", "--practice", "0"}, 2,
-          "at most 80");
+  refused({"study", "make", "s", "--tasks", "tracing2d", "--recorded", "72", "--practice", "0"}, 2,
+          "at most 70");
   refused({"study", "analyse", "nowhere"}, 3, "study make");
   folder_.write("full/file.txt", "mine");
   refused({"study", "make", "full", "--tasks", "tracing2d", "--practice", "0", "--recorded", "2",

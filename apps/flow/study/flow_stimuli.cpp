@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -228,6 +230,52 @@ Candidate judged(std::vector<Vec3> path, const PathWish& wish,
                                    kSpreadWeight * spread - kOffWeight * std::min(off / kOff, kMostOff)};
 }
 
+/// What has been found in one field.
+struct FieldSearch {
+  std::shared_ptr<const VectorField> field;
+  std::shared_ptr<const std::vector<Line>> lines;
+  RandomStream random{{}};
+  std::vector<Candidate> good;  ///< in the order in which they were found
+  std::size_t tried = 0;
+
+  [[nodiscard]] bool is_apart(const Vec3& start) const {
+    return std::ranges::all_of(good, [&](const Candidate& other) {
+      return glm::distance(other.stimulus->path.front(), start) >= kStartsApart;
+    });
+  }
+  /// Draws `places` more and keeps those that are good, up to kMostOfField in all.
+  void look_at(std::size_t places, const PathWish& wish) {
+    std::vector<Vec3> starts(places);
+    for (Vec3& start : starts) {
+      for (int axis = 0; axis < (wish.flat ? 2 : 3); ++axis)
+        start[axis] = kStimulusSize * random.uniform(0.1, 0.9);
+    }
+    std::vector<std::vector<Vec3>> paths = paths_from(*field, starts, wish);
+    for (std::size_t i = 0; i < places && good.size() < kMostOfField; ++i) {
+      ++tried;
+      if (!is_apart(starts[i])) continue;
+      Candidate candidate = judged(std::move(paths[i]), wish, field, lines);
+      if (candidate.stimulus) good.push_back(std::move(candidate));
+    }
+  }
+};
+
+/// The best of all fields, two of each at most where `count` is no more than there are fields, one more for each time
+/// that it is.
+std::vector<Candidate> best_of(const std::vector<FieldSearch>& fields, std::size_t count) {
+  const std::size_t share = 2 + (std::max<std::size_t>(count, 1) - 1) / kFields;
+  std::vector<Candidate> all;
+  for (const FieldSearch& one : fields) {
+    std::vector<Candidate> good = one.good;
+    std::ranges::stable_sort(good, {}, &Candidate::score);
+    good.resize(std::min(good.size(), share));
+    std::ranges::move(good, std::back_inserter(all));
+  }
+  std::ranges::stable_sort(all, {}, &Candidate::score);
+  all.resize(std::min(all.size(), count));
+  return all;
+}
+
 }  // namespace
 
 std::shared_ptr<const VectorField> stimulus_field(bool flat, std::uint64_t seed, int number) {
@@ -262,59 +310,51 @@ std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, b
 }
 
 PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Progress& progress) {
-  constexpr std::size_t kGood = 80, kRounds = 1'000, kBatch = 10;
-  std::vector<std::shared_ptr<const VectorField>> fields(kFields);
-  std::vector<std::shared_ptr<const std::vector<Line>>> lines(kFields);
-  std::vector<RandomStream> random;
+  constexpr std::size_t kGood = 70, kRounds = 1'000, kBatch = 10;
+  std::vector<FieldSearch> fields(kFields);
   for (std::uint64_t f = 0; f < kFields; ++f)
-    random.emplace_back(
-        RandomStream({seed, 23, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal), f}));
+    fields[f].random =
+        RandomStream({seed, 23, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal), f});
   if (as_size(count) > kGood)
     throw usage_error("--practice and --recorded are " + std::to_string(count) +
                       " paths of a task; at most " + std::to_string(kGood) + " can be chosen");
   progress.begin("choosing paths", kGood);
   PathChoice choice;
-  std::vector<Candidate> good;
-  for (std::size_t round = 0; round < kRounds && good.size() < kGood; ++round) {
-    std::vector<std::vector<Candidate>> found(kFields);
+  std::size_t good = 0;
+  for (std::size_t round = 0; round < kRounds && good < kGood; ++round) {
     parallel_for(kFields, 0, [&](std::size_t first, std::size_t last) {
       for (std::size_t f = first; f < last; ++f) {
         progress.check();
-        if (!fields[f]) {
-          fields[f] = stimulus_field(wish.flat, seed, static_cast<int>(f));
-          lines[f] = global_view(*fields[f], wish.flat);
+        FieldSearch& one = fields[f];
+        if (one.good.size() == kMostOfField) continue;
+        if (!one.field) {
+          one.field = stimulus_field(wish.flat, seed, static_cast<int>(f));
+          one.lines = global_view(*one.field, wish.flat);
         }
-        std::vector<Vec3> starts(kBatch);
-        for (Vec3& start : starts) {
-          for (int axis = 0; axis < (wish.flat ? 2 : 3); ++axis)
-            start[axis] = kStimulusSize * random[f].uniform(0.1, 0.9);
-        }
-        for (std::vector<Vec3>& path : paths_from(*fields[f], starts, wish))
-          found[f].push_back(judged(std::move(path), wish, fields[f], lines[f]));
+        one.look_at(kBatch, wish);
       }
     });
-    // In turn from each field, so that none has more than its share.
-    for (std::size_t i = 0; i < kBatch * kFields && good.size() < kGood; ++i) {
-      Candidate& candidate = found[i % kFields][i / kFields];
-      ++choice.tried;
-      if (!candidate.stimulus) continue;
-      good.push_back(std::move(candidate));
-      progress.advance();
-    }
+    std::size_t found = 0;
+    for (const FieldSearch& one : fields) found += one.good.size();
+    for (; good < std::min(found, kGood); ++good) progress.advance();
+    good = found;
   }
-  choice.good = good.size();
-  if (good.size() < as_size(count)) {
-    throw work_error("only " + std::to_string(good.size()) + " of " + std::to_string(count) +
+  std::vector<Candidate> kept = best_of(fields, as_size(count));
+  choice.good = good;
+  for (const FieldSearch& one : fields) choice.tried += one.tried;
+  if (kept.size() < as_size(count)) {
+    throw work_error("only " + std::to_string(good) + " of " + std::to_string(count) +
                      " paths are good among " + std::to_string(choice.tried) +
                      " places; try another --seed, or fewer trials");
   }
-  std::ranges::stable_sort(good, {}, &Candidate::score);
-  good.resize(as_size(count));
   RandomStream shuffle({seed, 24, wish.flat ? 1U : 0U, static_cast<std::uint64_t>(wish.goal)});
   for (const int i : shuffle.order(count)) {  // practice and recorded ones are equally good
-    choice.stimuli.push_back(good[as_size(i)].stimulus);
-    choice.scores.push_back(good[as_size(i)].score);
+    choice.stimuli.push_back(kept[as_size(i)].stimulus);
+    choice.scores.push_back(kept[as_size(i)].score);
   }
+  std::set<const VectorField*> used;
+  for (const auto& stimulus : choice.stimuli) used.insert(stimulus->field.get());
+  choice.fields = used.size();
   return choice;
 }
 

@@ -21,13 +21,16 @@ struct PathWish {
 /// Candidates that were good, and out of how many.
 struct PathChoice {
   std::vector<std::shared_ptr<const PathStimulus>> stimuli;  ///< the best ones
-  std::vector<double> scores;  ///< of them, the best first before they are shuffled
+  std::vector<double> scores;                                ///< of each of them
   std::size_t good = 0, tried = 0;
+  std::size_t fields = 0;  ///< that the kept ones are of
 };
 
 inline constexpr double kStimulusSize = 0.25;  ///< [m] side of the square or cube, as in the reference
 inline constexpr int kFields = 30;             ///< data sets of a kind
-inline constexpr double kMostSpread = 3.0;     ///< see choose_paths()
+inline constexpr double kMostSpread = 3.0;     ///< see choose_paths(), as the next two
+inline constexpr std::size_t kMostOfField = 3;
+inline constexpr double kStartsApart = 0.015;  ///< [m]
 
 /// A field of a kind: 19 random vectors by biharmonic splines on 128 x 128 points, or 13 by inverse distance on
 /// 32^3. @param number from 0.
@@ -36,10 +39,13 @@ inline constexpr double kMostSpread = 3.0;     ///< see choose_paths()
 /// The streamlines from 6 x 6 or 5 x 5 x 5 seeds, both ways.
 [[nodiscard]] std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, bool flat);
 
-/// Places in these fields are drawn until 80 are good; the `count` best are kept. Good is a path that
+/// Places in these fields are drawn, as many in each that has not given kMostOfField good ones, until 70 or a few more
+/// are good, or 10 000 were drawn in each of the others. The `count` best are kept, of up to as many as there are fields
+/// two of each field at most. Good is a path that
 ///   - has the length wished for, within the field and a margin of it;
 ///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
 ///   - meets its circle or plane for the first time at its end; all of the circle lies in the field;
+///   - begins kStartsApart from those that were found before it in its field;
 ///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
 ///   - forgives, where it is not shown: lines that begin 2 mm beside it, at its start and at each quarter, meet the goal no
 ///     farther than kMostSpread times that from its end: where the flow parts nobody finds the end who was off by little;
@@ -47,7 +53,7 @@ inline constexpr double kMostSpread = 3.0;     ///< see choose_paths()
 ///     behind displayed lines.
 /// The score is least for paths off displayed lines (8 mm and more count alike), of middling curvature, of little depth
 /// and occlusion, that forgive most.
-/// @throws Error (usage) for a `count` above 80; (work failed) where too few are good; Cancelled.
+/// @throws Error (usage) for a `count` above 70; (work failed) where too few are good; Cancelled.
 [[nodiscard]] PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count,
                                       Progress& progress);
 

@@ -11,7 +11,8 @@ namespace palpate {
 std::string FlowPathTask::prepare(std::uint64_t seed, int count, Progress& progress) {
   choice_ = choose_paths(wish_, seed, count, progress);
   return info_.title + ": the " + std::to_string(count) + " best of " + std::to_string(choice_.good) +
-         " good paths, from " + std::to_string(choice_.tried) + " places";
+         " good paths, from " + std::to_string(choice_.tried) + " places; of " +
+         std::to_string(choice_.fields) + " of the " + std::to_string(kFields) + " fields";
 }
 
 std::unique_ptr<StudyTrial> FlowPathTask::open(int stimulus) const {

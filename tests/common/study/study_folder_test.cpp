@@ -17,6 +17,7 @@
 #include "common/study/packed_text.h"
 #include "common/study/participant_model.h"
 #include "common/study/path_trial.h"
+#include "common/study/study_damage.h"
 #include "common/study/trial_run.h"
 #include "tests/support/temp_folder.h"
 
@@ -103,6 +104,30 @@ struct KeptTrial {
   TrialRecord record;
   std::vector<HandStep> steps;
 };
+
+TEST(StudyDamage, IsOfFilesThatAreGoneOrCutOff) {
+  KeptTrial kept;
+  kept.made.write(kept.record, "steps\nend 2\n", kept.steps);
+  Progress progress;
+  const auto damaged = [&] { return damaged_files(kept.made, kept.made.trials(), progress, 1); };
+  EXPECT_TRUE(damaged().empty());
+  const std::string stem = kept.file().substr(0, kept.file().size() - std::string("beh.json").size());
+  const std::filesystem::path recording = kept.temporary.path(stem + kRecordingFile),
+                              motion = kept.temporary.path(stem + kMotionFile);
+  std::filesystem::resize_file(recording, std::filesystem::file_size(recording) - 9);
+  ASSERT_EQ(damaged().size(), 1U);
+  EXPECT_EQ(damaged()[0].file, stem.substr(2) + kRecordingFile);
+  EXPECT_EQ(damaged()[0].why, "it is damaged or cut off");
+  std::filesystem::remove(motion);
+  ASSERT_EQ(damaged().size(), 2U);
+  EXPECT_EQ(damaged()[1].why, "it is not there");
+  EXPECT_EQ(damaged()[1].run, kept.record.run);
+  // Packed anew without its end.
+  kept.temporary.write(stem + kRecordingFile, packed("steps\n"));
+  EXPECT_EQ(damaged().size(), 2U);
+  kept.temporary.write(stem + kRecordingFile, "");
+  EXPECT_EQ(damaged().size(), 2U);
+}
 
 TEST(StudyFolder, KeepsNoTrialWithoutStepsTimeOrError) {
   KeptTrial kept;
