@@ -29,8 +29,7 @@
 #include "common/render/stereo/stereo_pass.h"
 #include "common/render/surface/surface_pass.h"
 #include "common/render/tensor/tensor_pass.h"
-#include "common/render/tract/tract_pass.h"
-#include "common/render/tract/tract_progress.h"
+#include "common/render/tract/growing_tracts.h"
 #include "common/render/volume/estimate/picture_estimates.h"
 #include "common/render/volume/tile_pass.h"
 #include "common/render/volume/volume_pass.h"
@@ -45,9 +44,6 @@ double line_tolerance(const ViewTransform& view, bool perspective, double pixel)
   const double enlarged = perspective ? std::clamp(view.near_depth / view.distance, kNearest, 1.0) : 1.0;
   return power_of_two(binary_exponent(kPartOfPixel * pixel * enlarged));
 }
-
-// Tracts lie side by side in their thousands, and may be moved further: by half a pixel at most.
-constexpr double kTractTolerance = 2.0;
 
 }  // namespace
 
@@ -70,7 +66,7 @@ struct SceneRenderer::State {
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<VolumeSlicePass> slice;
   std::unique_ptr<TensorPass> tensors;
-  std::unique_ptr<TractPass> tracts;
+  GrowingTracts tracts;
   std::unique_ptr<LabelPass> labels;
   std::unique_ptr<Overlay> overlay;
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
@@ -88,11 +84,9 @@ struct SceneRenderer::State {
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
-  std::size_t still_path = 0;  // the path is drawn there up to this point
-  TractProgress progress;
+  bool made_still = false;                  // by the last picture
+  std::size_t still_path = 0;               // the path is drawn there up to this point
   std::function<bool()> stop_tracts, stop;  // of the call of draw()
-  double tract_ms = 0.0;                    // of the last picture
-  double unseen_tract_ms = 0.0;             // of tracts that the volume has not been drawn over
   double volume_ms = 0.0;                   // over tracts, the last time
 
   void update_geometry(const SceneView& view) {
@@ -178,35 +172,6 @@ struct SceneRenderer::State {
     surfaces->draw(colors);
   }
 
-  // Tracts of another view begin anew. @return whether there are any.
-  bool begin_tracts(const SceneView& view, double milliseconds) {
-    tract_ms = unseen_tract_ms = 0.0;
-    if (!view.tracts) {
-      tracts.reset();
-      progress = {};
-      return false;
-    }
-    if (!tracts) tracts = std::make_unique<TractPass>();
-    tracts->update(view.tracts->bundle, frame);
-    progress.begin(tracts->pieces(), std::clamp(view.tracts->opacity, 0.0, 1.0),
-                   tracts->pieces_in(milliseconds));
-    return true;
-  }
-
-  // From where the picture has got to, into the framebuffer that is bound.
-  void draw_tracts(const SceneView& view, const LineDraw& base, float unit, double milliseconds) {
-    tract_ms = 0.0;
-    if (progress.next() == progress.goal()) return;
-    const Stopwatch watch;
-    const TractDraw how{.width = static_cast<float>(view.tracts->width) * unit,
-                        .fading = view.tracts->depth_cue ? 1.0F : 0.0F,
-                        .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
-                        .opacity = static_cast<float>(progress.opacity()),
-                        .tolerance = kTractTolerance * base.tolerance};
-    progress.drawn(tracts->draw(how, progress.next(), progress.goal(), milliseconds, stop_tracts));
-    tract_ms = 1e3 * watch.seconds();
-  }
-
   void update_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
     volume->update(*view.volume, frame, block);
@@ -282,14 +247,15 @@ struct SceneRenderer::State {
     const bool other_path = view.probe && update_probe(view);
     const bool lacks = volume && draws_volume && !volume->bricks().complete();
     const bool other = other_path || lacks || !still || !same_still_part(*still, view);
-    const bool has_tracts = other ? begin_tracts(view, tract_milliseconds) : view.tracts.has_value();
+    const bool has_tracts = other ? tracts.begin(view, frame, tract_milliseconds) : view.tracts.has_value();
     // What shines lies over the tracts, and transparent ones are shown when there are enough of them: these
     // grow unseen.
     const bool unseen = has_tracts && (shows_volume(view) || view.tracts->opacity < 1.0);
     target.bind_still();
     if (unseen) target.bind_growing();
-    if ((has_tracts && progress.begins_anew()) || other) draw_still_part(view, base, unit, transform);
-    if (has_tracts) draw_tracts(view, base, unit, tract_milliseconds);
+    if ((has_tracts && tracts.begins_anew()) || other) draw_still_part(view, base, unit, transform);
+    if (has_tracts) tracts.draw(view, base, unit, tract_milliseconds, stop_tracts);
+    made_still = other;
     if (other) {
       still = view;
       still_path = 0;
@@ -315,19 +281,15 @@ struct SceneRenderer::State {
   // @return whether it has.
   bool show_growing(bool first) {
     target.bind_still();
-    unseen_tract_ms += tract_ms;
-    const bool due = progress.worth_showing() && unseen_tract_ms > 0.0 &&
-                     (unseen_tract_ms >= volume_ms || progress.complete());
-    if (!first && !due) return false;
+    if (!tracts.show(first, volume_ms)) return false;
     target.copy_growing_to_still();
     still_path = 0;
-    unseen_tract_ms = 0.0;
     return true;
   }
 
   // As draw_volume(), over tracts that have come to stay.
   void time_volume(const SceneView& view, const LineDraw& base, float unit) {
-    if (volume) volume->forget_picture();
+    if (volume) volume->forget(PictureCache::kVolume);
     glFinish();
     const Stopwatch watch;
     draw_volume(view, base, unit);
@@ -367,9 +329,11 @@ struct SceneRenderer::State {
       draw_over_still_part(view, base, unit, transform, tract_milliseconds);
     } else {
       still.reset();
+      made_still = false;
       target.bind_scene();
       draw_still_part(view, base, unit, transform);
-      if (begin_tracts(view, tract_milliseconds)) draw_tracts(view, base, unit, tract_milliseconds);
+      if (tracts.begin(view, frame, tract_milliseconds))
+        tracts.draw(view, base, unit, tract_milliseconds, stop_tracts);
       if (shows_volume(view)) draw_volume(view, base, unit);
     }
     if (!draws_volume && layered) {
@@ -440,28 +404,17 @@ bool SceneRenderer::draw(const SceneView& view, int width, int height, double re
   return true;
 }
 
-bool SceneRenderer::complete() const noexcept {
-  return (!state_->tracts || state_->progress.complete()) && bricks().complete();
-}
+bool SceneRenderer::complete() const noexcept { return state_->tracts.complete() && bricks().complete(); }
 
 BrickShare SceneRenderer::bricks() const noexcept {
   return state_->draws_volume && state_->volume ? state_->volume->bricks() : BrickShare{};
 }
 
-TractShare SceneRenderer::tract_share() const noexcept {
-  const State& s = *state_;
-  if (!s.tracts) return {};
-  const std::size_t pieces = s.progress.shown();
-  return {.drawn = pieces > 0 ? s.shown_tracts->pieces[pieces - 1].second : 0,
-          .all = s.shown_tracts->order.size(),
-          .milliseconds = s.tract_ms};
-}
+TractShare SceneRenderer::tract_share() const noexcept { return state_->tracts.share(); }
 
 std::optional<Index3> SceneRenderer::coarser_voxels() const noexcept {
   return state_->volume ? state_->volume->coarser_voxels() : std::nullopt;
 }
-
-bool SceneRenderer::made_slabs() const noexcept { return state_->volume && state_->volume->made_slabs(); }
 
 bool SceneRenderer::prepare_slabs(std::size_t cut) {
   State& s = *state_;
@@ -508,16 +461,15 @@ std::string SceneRenderer::tables_by() const {
   return state_->draws_volume && state_->volume ? state_->volume->cost().tables_by : std::string();
 }
 
-bool SceneRenderer::cached_volume() const noexcept {
-  return state_->draws_volume && state_->volume && state_->volume->cached_picture();
+bool SceneRenderer::made(PictureCache cache) const noexcept {
+  const State& s = *state_;
+  if (cache == PictureCache::kStillPart) return s.made_still;
+  return s.draws_volume && s.volume && s.volume->made(cache);
 }
 
-void SceneRenderer::forget_volume() {
-  if (state_->volume) state_->volume->forget_picture();
-}
-
-void SceneRenderer::forget_slabs() {
-  if (state_->volume) state_->volume->forget_slabs();
+void SceneRenderer::forget(PictureCache cache) noexcept {
+  if (cache == PictureCache::kStillPart) state_->still.reset();
+  if (state_->volume) state_->volume->forget(cache);
 }
 
 double SceneRenderer::finish() { return state_->timer.finish(); }

@@ -10,16 +10,12 @@
 #include <string>
 
 #include "common/render/budget/quality_errors.h"
+#include "common/render/picture_cache.h"
 #include "common/render/scene_view.h"
+#include "common/render/tract/tract_progress.h"
 #include "common/render/volume/estimate/image_error.h"
 
 namespace palpate {
-
-/// How many tracts a picture shows.
-struct TractShare {
-  std::size_t drawn = 0, all = 0;  ///< lines
-  double milliseconds = 0.0;       ///< that it took to draw those that were added
-};
 
 /// Keeps what it has uploaded while the view's lines, bounds and colouring stay the same, and with a probe
 /// in the view also the picture, with its depths, of all that does not move with it: while camera, lines and
@@ -58,12 +54,11 @@ class SceneRenderer {
   /// As VolumePass, of the last picture.
   [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
   [[nodiscard]] BrickShare bricks() const noexcept;
-  [[nodiscard]] bool made_slabs() const noexcept;
   bool prepare_slabs(std::size_t cut);
-  void forget_slabs();
-  /// As VolumePass::cached_picture() and forget_picture().
-  [[nodiscard]] bool cached_volume() const noexcept;
-  void forget_volume();
+  /// Whether the last picture made what that cache holds, which takes longer than the pictures that follow.
+  [[nodiscard]] bool made(PictureCache cache) const noexcept;
+  /// Gives back what that cache holds; the next picture may make it anew.
+  void forget(PictureCache cache) noexcept;
   /// From now on pictures keep what estimate_error() and estimate_savings() compare, where they show a
   /// volume: copies of them before and behind it; of two eyes that of the one drawn last.
   void keep_for_error(bool on);

@@ -77,11 +77,11 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     }
     figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;
     // A picture that keeps slabs for the next ones says nothing of their time.
-    if (moving && !renderer_.made_slabs()) budget_.drawn(renderer_.gpu_milliseconds());
+    if (moving && !renderer_.made(PictureCache::kSlabs)) budget_.drawn(renderer_.gpu_milliseconds());
     if (!moving && finer_ == 0) budget_.rested(renderer_.gpu_milliseconds());
     if (volume && view.volume->cache_picture &&
-        local_.drawn(figures_.milliseconds, renderer_.cached_volume())) {
-      renderer_.forget_volume();
+        local_.drawn(figures_.milliseconds, renderer_.made(PictureCache::kVolume))) {
+      renderer_.forget(PictureCache::kVolume);
       refined_ = passing_ = error_known_ = false;
       finer_ = 0;
     }
@@ -101,7 +101,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     estimating_ = saving_ = false;
   } else {
     rest(moment, volume);
-    if (!preparing_ && rest_time > kSlabRest) renderer_.forget_slabs();
+    if (!preparing_ && rest_time > kSlabRest) renderer_.forget(PictureCache::kSlabs);
   }
 }
 

@@ -17,6 +17,12 @@ namespace palpate {
 /// (1). @pre opacity in (0, 1], share in (0, 1].
 [[nodiscard]] double opacity_of_part(double opacity, double share) noexcept;
 
+/// How many tracts a picture shows.
+struct TractShare {
+  std::size_t drawn = 0, all = 0;  ///< lines
+  double milliseconds = 0.0;       ///< that it took to draw those that were added
+};
+
 class TractProgress {
  public:
   /// A picture without tracts.

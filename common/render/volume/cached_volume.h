@@ -17,12 +17,12 @@
 #include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
 #include "common/render/gl/target.h"
+#include "common/render/volume/volume_cache.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
 
-/// Needs the context current in which it was made.
-class CachedVolume {
+class CachedVolume : public VolumeCache {
  public:
   /// Whether (1) holds for such a view. Not where the context of lenses is a smaller picture: its pixels are
   /// told apart by opaque things beside them, moved ones too.
@@ -36,14 +36,14 @@ class CachedVolume {
   CachedVolume(const VolumeView& view, const FrameBlock& block, std::uint32_t opaque_depth, const Draw& draw)
       : CachedVolume(view, block, opaque_depth) {
     const FramebufferGuard before;
-    begin();
+    bind(picture_);
     draw();
   }
 
   /// Whether what is kept is the picture of `view` from there.
-  [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block) const;
-  /// z_0, for shaders/volume/ray.glsl.
-  [[nodiscard]] std::uint32_t depth() const noexcept { return depth_.name(); }
+  [[nodiscard]] bool fits(const VolumeView& view, const FrameBlock& block) const {
+    return same(view, block, true);
+  }
   /// Draws one more tile of K anew, from the middle outward, as it is to be seen from now on.
   /// @param fineness > 0; another one than before begins with the first tile again.
   /// @param draw as for the whole picture; over depths z_0. Framebuffer and viewport are kept.
@@ -64,25 +64,20 @@ class CachedVolume {
 
   /// Draws K over the framebuffer that is bound, where z = z_0.
   void show(std::uint32_t opaque_depth);
-  [[nodiscard]] std::uint64_t bytes() const noexcept;
+  [[nodiscard]] std::uint64_t bytes() const noexcept { return VolumeCache::bytes(1); }
 
  private:
   CachedVolume(const VolumeView& view, const FrameBlock& block, std::uint32_t opaque_depth);
-  void begin() const;
   void begin_tile() const;
   void end_tile();
 
   struct Tile {
     int left = 0, bottom = 0;
   };
-  VolumeView view_;
-  FrameBlock block_;
-  int width_ = 0, height_ = 0;
   std::vector<Tile> tiles_;
   int fineness_ = 0;
   std::size_t next_ = 0;  ///< tile to be refined
-  GlTexture picture_, depth_;
-  GlFramebuffer framebuffer_;
+  GlTexture picture_;
   GlVertexArray no_vertices_;
   GlProgram program_;
 };

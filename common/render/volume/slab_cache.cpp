@@ -1,7 +1,6 @@
 #include "common/render/volume/slab_cache.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <epoxy/gl.h>
@@ -15,7 +14,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::uint64_t kPixelBytes = 8;
 constexpr std::uint64_t kMostBytes = 512ULL << 20U;  // of all P_k; fewer, thicker slabs in larger pictures
 constexpr int kMostSlabs = 96, kFewestSlabs = 6;
 constexpr int kSlabsAtOnce = 48;        // while somebody waits, thin ones are made several at once
@@ -48,16 +46,12 @@ bool same_camera(const FrameBlock& a, const FrameBlock& b) {
 }
 
 SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& block,
-                     const SceneFrame& frame)
-    : view_(view), uncut_(view), cut_(cut), block_(block), frame_(frame) {
+                     const SceneFrame& frame, std::uint32_t opaque_depth)
+    : VolumeCache(view, block, opaque_depth, "cached slab"), uncut_(view), cut_(cut), frame_(frame) {
   PALPATE_CHECK(view.image != nullptr && cut < view.cuts.size());
   uncut_.cuts[cut].on = false;
-  width_ = static_cast<int>(block.size.x);
-  height_ = static_cast<int>(block.size.y);
-  const std::uint64_t each =
-      kPixelBytes * static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-  const int slabs =
-      std::clamp(static_cast<int>(kMostBytes / std::max<std::uint64_t>(each, 1)), kFewestSlabs, kMostSlabs);
+  const std::uint64_t each = std::max<std::uint64_t>(VolumeCache::bytes(1), 1);
+  const int slabs = std::clamp(static_cast<int>(kMostBytes / each), kFewestSlabs, kMostSlabs);
 
   const Vec3 n = view.cuts[cut].kept.outward;
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
@@ -70,63 +64,44 @@ SlabCache::SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& 
   for (int k = 0; k <= slabs; ++k) borders_.push_back(lowest + (highest - lowest) * k / slabs);
   step_ = as_size((slabs + kSlabsAtOnce - 1) / kSlabsAtOnce);
   kept_.resize(borders_.size());
-  kept_.front() = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
-  framebuffer_ = make_framebuffer();
-  glClearTexImage(kept_.front().name(), 0, GL_RGBA, GL_FLOAT, nullptr);
+  kept_.front() = make_picture();
 }
 
 bool SlabCache::fits(const VolumeView& view, const FrameBlock& block, bool opaque) const {
-  if (opaque != static_cast<bool>(depth_) || view.cuts.size() != view_.cuts.size()) return false;
-  if (!(block == block_)) return false;
+  if (cut_ >= view.cuts.size()) return false;
   VolumeView moved = view;
-  moved.cuts[cut_].kept.offset = view_.cuts[cut_].kept.offset;
-  return same_picture(moved, view_);
+  moved.cuts[cut_].kept.offset = this->view().cuts[cut_].kept.offset;
+  return same(moved, block, opaque);
 }
 
-SlabCache::Slab SlabCache::begin(std::uint32_t opaque_depth) {
-  if (opaque_depth != 0 && !depth_) copy_depth(opaque_depth);
-  return {.normal = glm::vec3(view_.cuts[cut_].kept.outward), .depth = depth_.name()};
-}
-
-void SlabCache::copy_depth(std::uint32_t opaque_depth) {
-  depth_ = make_picture_texture(GL_DEPTH_COMPONENT32F, width_, height_, "depths of kept slabs");
-  glCopyImageSubData(opaque_depth, GL_TEXTURE_2D, 0, 0, 0, 0, depth_.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                     width_, height_, 1);
+// What lies from b_k on. Below b_0 there is nothing, and rounding leaves nothing out.
+SlabCache::Slab SlabCache::slab_from(std::size_t k, float upper) const {
+  return {.normal = glm::vec3(view().cuts[cut_].kept.outward),
+          .lower = k == 0 ? -kFar : static_cast<float>(borders_[k]),
+          .upper = upper,
+          .kept = kept_[k].name()};
 }
 
 // P_to from P_from.
-void SlabCache::make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw) {
-  GlTexture made = make_picture_texture(GL_RGBA16, width_, height_, "kept slab");
-  glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, made.name(), 0);
-  constexpr std::array<float, 4> kNothing{};
-  glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, kNothing.data());
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
-  glViewport(0, 0, width_, height_);
-  slab.lower = lower_border(from);
-  slab.upper = static_cast<float>(borders_[to]);
-  slab.kept = kept_[from].name();
-  draw(slab);
+void SlabCache::make(std::size_t from, std::size_t to, const DrawSlab& draw) {
+  GlTexture made = make_picture();
+  bind(made);
+  draw(slab_from(from, static_cast<float>(borders_[to])));
   kept_[to] = std::move(made);
   ++drawn_;
-}
-
-// Below b_0 there is nothing, and rounding leaves nothing out.
-float SlabCache::lower_border(std::size_t k) const {
-  return k == 0 ? -kFar : static_cast<float>(borders_[k]);
 }
 
 // k of (2).
 std::size_t SlabCache::index_below(double offset) const {
   // As make_volume_block() has it, in single precision, so that the plane and a border are told apart alike.
   const double d =
-      (offset - glm::dot(view_.cuts[cut_].kept.outward, frame_.center)) * power_of_two(-frame_.exponent);
+      (offset - glm::dot(view().cuts[cut_].kept.outward, frame_.center)) * power_of_two(-frame_.exponent);
   const auto above = std::upper_bound(borders_.begin(), borders_.end(), d - margin_);
   return as_size(std::max<std::ptrdiff_t>(0, above - borders_.begin() - 1));
 }
 
-bool SlabCache::prepare(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
+bool SlabCache::prepare(double offset, const DrawSlab& draw) {
   const FramebufferGuard before;
-  const Slab slab = begin(opaque_depth);
   const std::size_t k = index_below(offset);
   // About the cut; then wherever it may go. Each from the one below it, the first in one go.
   bool made = false;
@@ -137,15 +112,14 @@ bool SlabCache::prepare(double offset, std::uint32_t opaque_depth, const DrawSla
       if (made) return true;
       std::size_t from = to - 1;
       while (!kept_[from]) --from;
-      make(slab, from, to, draw);
+      make(from, to, draw);
       made = true;
     }
   }
   return false;
 }
 
-SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw) {
-  Slab slab = begin(opaque_depth);
+SlabCache::Slab SlabCache::slab_below(double offset, const DrawSlab& draw) {
   const std::size_t k = index_below(offset);
   std::size_t have = k;
   while (!kept_[have]) --have;
@@ -155,22 +129,17 @@ SlabCache::Slab SlabCache::slab_below(double offset, std::uint32_t opaque_depth,
     // it may come back.
     const std::size_t below = kStepsBelow * step_;
     if (k - have > below) {
-      make(slab, have, k - below, draw);
+      make(have, k - below, draw);
       have = k - below;
     }
-    for (; k - have >= step_; have += step_) make(slab, have, have + step_, draw);
+    for (; k - have >= step_; have += step_) make(have, have + step_, draw);
   }
-  slab.lower = lower_border(have);
-  slab.upper = kFar;
-  slab.kept = kept_[have].name();
-  return slab;
+  return slab_from(have, kFar);
 }
 
 std::uint64_t SlabCache::bytes() const noexcept {
   const auto pictures = std::count_if(kept_.begin(), kept_.end(), [](const GlTexture& t) { return bool(t); });
-  constexpr std::uint64_t kDepthBytes = 4;
-  return (kPixelBytes * static_cast<std::uint64_t>(pictures) + (depth_ ? kDepthBytes : 0)) *
-         static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+  return VolumeCache::bytes(static_cast<std::uint64_t>(pictures));
 }
 
 }  // namespace palpate

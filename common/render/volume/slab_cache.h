@@ -26,6 +26,7 @@
 #include "common/render/camera.h"
 #include "common/render/frame_block.h"
 #include "common/render/gl/object.h"
+#include "common/render/volume/volume_cache.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -35,10 +36,11 @@ namespace palpate {
 /// Whether both blocks show the scene from the same place, be it in other pixels.
 [[nodiscard]] bool same_camera(const FrameBlock& a, const FrameBlock& b);
 
-class SlabCache {
+class SlabCache : public VolumeCache {
  public:
-  /// @param cut of `view` that moves. @pre view.image is not null.
-  SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& block, const SceneFrame& frame);
+  /// @param cut of `view` that moves. @param opaque_depth as of VolumePass::draw(). @pre view.image is not null.
+  SlabCache(const VolumeView& view, std::size_t cut, const FrameBlock& block, const SceneFrame& frame,
+            std::uint32_t opaque_depth);
 
   /// Whether `view` is the one that this was made for, but for where its cut is, in the same pixels.
   /// @param opaque there are opaque things.
@@ -49,19 +51,18 @@ class SlabCache {
     glm::vec3 normal{0.0F};            ///< n
     float lower = 0.0F, upper = 0.0F;  ///< s
     std::uint32_t kept = 0;            ///< texture with what lies below `lower`
-    std::uint32_t depth = 0;           ///< that of opaque things when it was made; 0: there were none
   };
   /// Draws the slab without the cut, over a framebuffer that is bound and clear, without blending.
   using DrawSlab = std::function<void(const Slab&)>;
   /// What (2) is left to draw, after P_k has been made where it lacks.
-  /// @param offset d of the cut [data units]. @param opaque_depth as for VolumePass::draw().
-  /// Keeps framebuffer and viewport.
-  [[nodiscard]] Slab slab_below(double offset, std::uint32_t opaque_depth, const DrawSlab& draw);
+  /// @param offset d of the cut [data units]. Keeps framebuffer and viewport.
+  [[nodiscard]] Slab slab_below(double offset, const DrawSlab& draw);
 
   /// Makes one P_k that lacks, those next to the cut first. Parameters as of slab_below().
   /// @return whether others lack still.
-  bool prepare(double offset, std::uint32_t opaque_depth, const DrawSlab& draw);
+  bool prepare(double offset, const DrawSlab& draw);
 
+  [[nodiscard]] std::size_t cut() const noexcept { return cut_; }  ///< that moves
   /// The view of all P_k.
   [[nodiscard]] const VolumeView& uncut() const noexcept { return uncut_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept;
@@ -69,22 +70,16 @@ class SlabCache {
 
  private:
   [[nodiscard]] std::size_t index_below(double offset) const;
-  [[nodiscard]] Slab begin(std::uint32_t opaque_depth);
-  void copy_depth(std::uint32_t opaque_depth);
-  void make(Slab slab, std::size_t from, std::size_t to, const DrawSlab& draw);
-  [[nodiscard]] float lower_border(std::size_t k) const;
+  [[nodiscard]] Slab slab_from(std::size_t k, float upper) const;
+  void make(std::size_t from, std::size_t to, const DrawSlab& draw);
 
-  VolumeView view_, uncut_;
+  VolumeView uncut_;
   std::size_t cut_ = 0;
-  FrameBlock block_;
   SceneFrame frame_;
-  int width_ = 0, height_ = 0;
   std::vector<double> borders_;  ///< b
   double margin_ = 0.0;          ///< h
   std::size_t step_ = 1;         ///< slabs that are made at once while somebody waits
-  std::vector<GlTexture> kept_;  ///< P_k; P_0 is one pixel of nothing, those not made have no name
-  GlTexture depth_;
-  GlFramebuffer framebuffer_;
+  std::vector<GlTexture> kept_;  ///< P_k; those not made have no name
   int drawn_ = 0;
 };
 

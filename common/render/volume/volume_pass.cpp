@@ -110,11 +110,9 @@ struct VolumePass::State {
   FrameBlock drawn_block;
   std::uint32_t drawn_depth = 0;  // of opaque things, as draw() was given it
   std::unique_ptr<SlabCache> slabs;
-  std::size_t moving_cut = 0;  // of `slabs`
-  bool made_slabs = false;
   std::unique_ptr<CachedVolume> cached;
-  bool cached_picture = false;  // by the last draw()
-  std::function<bool()> stop;   // of the draw() that goes on
+  bool made_slabs = false, made_cached = false;  // by the last draw()
+  std::function<bool()> stop;                    // of the draw() that goes on
 
   const GlProgram& program_of(Reach reach) {
     GlProgram& program = programs[as_size(reach)][as_size(variant)];
@@ -127,20 +125,19 @@ struct VolumePass::State {
   }
 
   [[nodiscard]] bool caches_slabs() const {
-    return shown.cache_slabs && layers == nullptr && !has_regions(shown) && !samples_less_far(shown) &&
-           !is_colored(variant);
+    return shown.cache_slabs && !context && layers == nullptr && !has_regions(shown) &&
+           !samples_less_far(shown) && !is_colored(variant);
   }
 
   // Whether this picture can use what is kept, or begins to keep it.
-  bool uses_slabs(const FrameBlock& block, bool opaque) {
-    if (slabs && slabs->fits(shown, block, opaque)) return true;
+  bool uses_slabs(const FrameBlock& block, std::uint32_t opaque_depth) {
+    if (slabs && !context && slabs->fits(shown, block, opaque_depth != 0)) return true;
     slabs.reset();
     if (!caches_slabs()) return false;
     if (!drawn_view || !same_camera(drawn_block, block)) return false;
     const auto cut = moved_cut(*drawn_view, shown);
     if (!cut) return false;
-    slabs = std::make_unique<SlabCache>(shown, *cut, block, frame);
-    moving_cut = *cut;
+    slabs = std::make_unique<SlabCache>(shown, *cut, block, frame, opaque_depth);
     return true;
   }
 
@@ -225,11 +222,11 @@ struct VolumePass::State {
     glDisable(GL_SCISSOR_TEST);
   }
 
-  static void set_slab(const SlabCache::Slab& slab) {
+  void set_slab(const SlabCache::Slab& slab) const {
     glUniform3f(volume_shader::kSlabNormal, slab.normal.x, slab.normal.y, slab.normal.z);
     glUniform2f(volume_shader::kSlabBorders, slab.lower, slab.upper);
     glBindTextureUnit(volume_shader::kCachedPicture, slab.kept);
-    glBindTextureUnit(volume_shader::kCachedDepth, slab.depth);
+    glBindTextureUnit(volume_shader::kCachedDepth, slabs->depth());
   }
 
   // Drivers compile at the first draw into a framebuffer: here with no pixel of it.
@@ -255,7 +252,7 @@ struct VolumePass::State {
     auto uncut = std::make_shared<const Blocks>(
         Blocks{volume_shader::make_block_buffer(make_volume(slabs->uncut())), make_shapes(slabs->uncut())});
     return [this, uncut](const SlabCache::Slab& slab) {
-      bind(program_of(Reach::kSlab), uncut->volume, uncut->shapes, slab.depth);
+      bind(program_of(Reach::kSlab), uncut->volume, uncut->shapes, slabs->depth());
       set_slab(slab);
       glDisable(GL_BLEND);
       cast_rays();
@@ -266,10 +263,8 @@ struct VolumePass::State {
   void begin_slab(std::uint32_t opaque_depth) {
     const GlProgram& program = program_of(Reach::kSlab);
     const int before = slabs->drawn();
-    const SlabCache::Slab slab =
-        slabs->slab_below(shown.cuts[moving_cut].kept.offset, opaque_depth, caster());
+    const SlabCache::Slab slab = slabs->slab_below(shown.cuts[slabs->cut()].kept.offset, caster());
     made_slabs = slabs->drawn() > before;
-    cost.slab_bytes = slabs->bytes();
     bind(program, volume_block, shape_block, opaque_depth);
     set_slab(slab);
   }
@@ -307,9 +302,8 @@ struct VolumePass::State {
 
   // As VolumePass::draw().
   void draw_picture(std::uint32_t opaque_depth, const FrameBlock& block, bool has_bricks) {
-    made_slabs = cached_picture = false;
-    cost.slab_bytes = 0;
-    const bool with_slabs = !context && uses_slabs(block, opaque_depth != 0);
+    made_slabs = made_cached = false;
+    const bool with_slabs = uses_slabs(block, opaque_depth);
     const bool stands = drawn_view && drawn_block == block && same_picture(*drawn_view, shown);
     const bool keeps =
         CachedVolume::possible(shown) || (cached && cached->refined() && cached->fits(shown, block));
@@ -317,19 +311,18 @@ struct VolumePass::State {
       if (!cached || !cached->fits(shown, block)) {
         cached = std::make_unique<CachedVolume>(
             shown, block, opaque_depth, [&] { draw_volume(with_slabs, opaque_depth, block, nullptr); });
-        cached_picture = true;
+        made_cached = true;
       }
       cached->show(opaque_depth);
-      if (!cached_picture && context) {
+      if (!made_cached && context) {
         cast_again(sampled_view(shown, 1.0, 1.0), opaque_depth, 1.0F, cached.get());
-      } else if (!cached_picture) {
+      } else if (!made_cached) {
         draw_volume(with_slabs, opaque_depth, block, cached.get());
       }
     } else {
       cached.reset();
       draw_volume(with_slabs, opaque_depth, block, nullptr);
     }
-    cost.cached_bytes = cached ? cached->bytes() : 0;
     drawn_view = shown;
     drawn_block = block;
     drawn_depth = opaque_depth;
@@ -455,18 +448,14 @@ bool VolumePass::refine(int doublings) {
 
 bool VolumePass::prepare_slabs(std::size_t cut) {
   State& s = *state_;
-  if (!s.drawn_view || s.context || !s.caches_slabs() || cut >= s.shown.cuts.size() || !s.shown.cuts[cut].on)
-    return false;
-  if (s.slabs && (s.moving_cut != cut || !s.slabs->fits(s.shown, s.drawn_block, s.drawn_depth != 0)))
+  if (!s.drawn_view || !s.caches_slabs() || cut >= s.shown.cuts.size() || !s.shown.cuts[cut].on) return false;
+  if (s.slabs && (s.slabs->cut() != cut || !s.slabs->fits(s.shown, s.drawn_block, s.drawn_depth != 0)))
     s.slabs.reset();
   if (!s.slabs) {
-    s.slabs = std::make_unique<SlabCache>(s.shown, cut, s.drawn_block, s.frame);
-    s.moving_cut = cut;
+    s.slabs = std::make_unique<SlabCache>(s.shown, cut, s.drawn_block, s.frame, s.drawn_depth);
     s.compile_slab_draw();
   }
-  const bool more = s.slabs->prepare(s.shown.cuts[cut].kept.offset, s.drawn_depth, s.caster());
-  s.cost.slab_bytes = s.slabs->bytes();
-  return more;
+  return s.slabs->prepare(s.shown.cuts[cut].kept.offset, s.caster());
 }
 
 void VolumePass::draw_planes(const FrameBlock& block) {
@@ -485,21 +474,22 @@ std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
 
 BrickShare VolumePass::bricks() const noexcept { return state_->textures.bricks_held(); }
 
-bool VolumePass::made_slabs() const noexcept { return state_->made_slabs; }
+bool VolumePass::made(PictureCache cache) const noexcept {
+  return (cache == PictureCache::kVolume && state_->made_cached) ||
+         (cache == PictureCache::kSlabs && state_->made_slabs);
+}
 
-bool VolumePass::cached_picture() const noexcept { return state_->cached_picture; }
-
-void VolumePass::forget_picture() { state_->cached.reset(); }
-
-void VolumePass::forget_slabs() {
-  state_->slabs.reset();
-  state_->cost.slab_bytes = 0;
+void VolumePass::forget(PictureCache cache) noexcept {
+  if (cache == PictureCache::kVolume) state_->cached.reset();
+  if (cache == PictureCache::kSlabs) state_->slabs.reset();
 }
 
 VolumePass::Cost VolumePass::cost() const {
   Cost cost = state_->cost;
   const VolumeTextures::Cost& textures = state_->textures.cost();
   cost.programs += state_->textures.tiles().compiled() ? 1 : 0;
+  cost.slab_bytes = state_->slabs ? state_->slabs->bytes() : 0;
+  cost.cached_bytes = state_->cached ? state_->cached->bytes() : 0;
   cost.voxel_bytes = textures.voxel_bytes + textures.field_bytes;
   cost.table_bytes = textures.table_bytes;
   cost.brick_bytes = textures.brick_bytes;

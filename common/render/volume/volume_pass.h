@@ -19,6 +19,7 @@
 
 #include "common/render/camera.h"
 #include "common/render/frame_block.h"
+#include "common/render/picture_cache.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -99,15 +100,12 @@ class VolumePass {
   /// @return whether more are worth keeping; never where no slabs are kept of such a view, or nothing was
   /// drawn.
   bool prepare_slabs(std::size_t cut);
-  /// Whether the last draw() made pictures of slabs, which takes longer than the pictures that follow.
-  [[nodiscard]] bool made_slabs() const noexcept;
-  /// Gives back what is kept of a plane that moved: it rests.
-  void forget_slabs();
-  /// Whether the last draw() kept the picture that it made, so that the next ones of the same volume take
-  /// less.
-  [[nodiscard]] bool cached_picture() const noexcept;
-  /// Has the next draw() make it anew: opaque things have come to stay.
-  void forget_picture();
+  /// Whether the last draw() made what that cache holds, which takes longer than the pictures that follow: its
+  /// picture of the volume, or pictures of slabs. Never of kStillPart.
+  [[nodiscard]] bool made(PictureCache cache) const noexcept;
+  /// Gives back what that cache holds, which the next draw() may make anew: opaque things have come to stay, or
+  /// a plane that moved rests.
+  void forget(PictureCache cache) noexcept;
 
   /// Voxels an axis of the coarser volume that is drawn in place of the view's, which does not fit its
   /// storage; nothing where the view's own is drawn.

@@ -76,7 +76,7 @@ void run(const std::string& what, SceneView view, const Motion& motion, int pixe
     kept += l;
   }
   // Kept once more, all shaders being there.
-  local.forget_volume();
+  local.forget(PictureCache::kVolume);
   first = timed(local, view, pixels);
   std::printf(
       "  %-22s full %6.1f (%6.1f) first %6.1f (%6.1f) local %6.1f (%6.1f) x%5.2f; moved %4.1f %%; worst "

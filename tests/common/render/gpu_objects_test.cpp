@@ -225,8 +225,8 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   view.far_sampling = 1.0;
 
   view.cache_picture = true;
-  expect("a kept picture", made_for(view), {"volume/cached.frag"},
-         {"kept volume", "depths of the kept volume"});
+  expect("a cached picture", made_for(view), {"volume/cached.frag"},
+         {"cached volume", "depths of the cached volume"});
   view.cache_picture = false;
 
   // Transparent lines in the volume, and without it.
@@ -247,8 +247,8 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   view.cuts[0].kept.offset = 0.31;
   renderer.draw(scene_of(view), kWidth, kHeight);
   expect("that moves", sorted(gpu_objects()), {"volume/volume.frag SLABS"},
-         {"kept slab", "depths of kept slabs"});
-  renderer.forget_slabs();
+         {"cached slab", "depths of the cached slab"});
+  renderer.forget(PictureCache::kSlabs);
   expect("and rests", sorted(gpu_objects()), {"volume/volume.frag SLABS"}, {});
 }
 

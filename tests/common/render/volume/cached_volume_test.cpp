@@ -76,7 +76,7 @@ void expect_full_redraw(const SceneView& scene, const std::string& what) {
   int number = 0;
   for (const SceneView& view : course(scene)) {
     kept.draw(view, kWidth, kHeight);
-    EXPECT_EQ(kept.cached_volume(), number == 0) << what << " " << number;
+    EXPECT_EQ(kept.made(PictureCache::kVolume), number == 0) << what << " " << number;
     SceneView in_full = view;
     in_full.volume->cache_picture = false;
     SceneRenderer fresh;
@@ -122,12 +122,12 @@ TEST(CachedVolume, IsOfTheVolumeAndTheViewThatAreShown) {
   SceneView view = scene_of(Projection::kPerspective);
   const auto draws_anew = [&](const char* what) {
     kept.draw(view, kWidth, kHeight);
-    EXPECT_TRUE(kept.cached_volume()) << what;
+    EXPECT_TRUE(kept.made(PictureCache::kVolume)) << what;
     SceneRenderer fresh;
     fresh.draw(view, kWidth, kHeight);
     EXPECT_LE(worst_difference(kept.read(), fresh.read()), 1) << what;
     kept.draw(view, kWidth, kHeight);
-    EXPECT_FALSE(kept.cached_volume()) << what;
+    EXPECT_FALSE(kept.made(PictureCache::kVolume)) << what;
   };
   draws_anew("first");
   turn(view.camera, 0.2, 0.1);
@@ -136,13 +136,13 @@ TEST(CachedVolume, IsOfTheVolumeAndTheViewThatAreShown) {
   draws_anew("coarser");
   view.volume->cuts = {{.kept = {{1.0, 0.0, 0.0}, 0.3}}};
   draws_anew("cut");
-  kept.forget_volume();
+  kept.forget(PictureCache::kVolume);
   draws_anew("forgotten");
   // A smaller picture around lenses is told apart by what is opaque about it: it is drawn every time.
   view.volume->lenses = {Lens{make_sphere(Vec3(0.0), 0.4)}};
   view.volume->context.viewport = 0.5;
   kept.draw(view, kWidth, kHeight);
-  EXPECT_FALSE(kept.cached_volume());
+  EXPECT_FALSE(kept.made(PictureCache::kVolume));
 }
 
 /// A white fog that begins at y = 0 and hides all behind it, seen along +y, with a ball at `y`.

@@ -332,7 +332,7 @@ TEST_F(LayeredLines, StandAmongOpaqueThingsAndInKeptPictures) {
   SceneRenderer kept;
   const auto expect_full = [&](const char* what, bool anew) {
     kept.draw(view, kPixels, kPixels);
-    EXPECT_EQ(kept.cached_volume(), anew) << what;
+    EXPECT_EQ(kept.made(PictureCache::kVolume), anew) << what;
     SceneView in_full = view;
     in_full.volume->cache_picture = false;
     SceneRenderer fresh;
