@@ -13,6 +13,7 @@
 #include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/cli/simulated_option.h"
+#include "common/kinematics/workbench_writer.h"
 #include "common/servo/servo_loop.h"
 #include "common/servo/tuning_run.h"
 #include "common/servo/wall_loop.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -13,6 +15,26 @@ std::string line_of(const toml::node& node) { return "line " + std::to_string(no
 void refuse(const std::filesystem::path& path, const std::string& place, const std::string& found,
             const std::string& expected) {
   throw input_error({path.string(), place, found, expected, ""});
+}
+
+toml::table parsed_workbench(const std::string& text, const std::filesystem::path& path) {
+  try {
+    return toml::parse(text, path.string());
+  } catch (const toml::parse_error& error) {
+    refuse(path, "line " + std::to_string(error.source().begin.line), std::string(error.description()),
+           "TOML");
+  }
+}
+
+std::string workbench_text(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (in.is_open()) text << in.rdbuf();
+  if (!in.is_open() || in.bad()) {
+    throw input_error({path.string(), "", "cannot be read", "a workbench.toml",
+                       "the verb `calibrate` makes one with --out workbench.toml"});
+  }
+  return text.str();
 }
 
 WorkbenchSection::WorkbenchSection(const toml::table& table, std::string name,

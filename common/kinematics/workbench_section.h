@@ -21,6 +21,11 @@ namespace palpate {
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& place,
                          const std::string& found, const std::string& expected);
 
+/// What the file holds. @throws Error (bad input) where it cannot be read.
+[[nodiscard]] std::string workbench_text(const std::filesystem::path& path);
+/// @param path for the message. @throws Error (bad input) where the text is not TOML.
+[[nodiscard]] toml::table parsed_workbench(const std::string& text, const std::filesystem::path& path);
+
 class WorkbenchSection {
  public:
   /// @param table and `path` outlive this. @param known keys; none given: any key may stand in it.

@@ -1,10 +1,7 @@
 #include "common/window/explorer_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,8 +12,7 @@
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
-#include "common/window/event_text.h"
-#include "common/window/keys.h"
+#include "common/window/injected_events.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -25,16 +21,6 @@ namespace {
 // Rest between two looks at the world while something moves [s], and while only a job runs: without a
 // graphics card each picture of its progress takes processors from it.
 constexpr double kBusyRest = 1.0 / 60.0, kJobRest = 0.1;
-
-/// Where the mouse is to be in the window [pixels]; none where no such control was drawn.
-std::optional<Vec2> place_of_control(const ScriptedEvent& scripted) {
-  int before = 0;
-  for (const DrawnControl& control : drawn_controls()) {
-    if (control.label != scripted.control || before++ < scripted.which) continue;
-    return Vec2{control.left + scripted.across * control.width, control.top + scripted.down * control.height};
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -49,6 +35,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
       start_page_(options.program, options.kind),
       touch_(options.touch, [] { glfwPostEmptyEvent(); }),
       controls_(touch_, options.region),
+      edits_({model_, state_, view_, scene_, needs_camera_, touch_, controls_, cuts_}),
       files_(options.picture_folder, options.program, touch_, state_) {
   GLFWwindow* const window = glfw_.get();
   glfwSwapInterval(scripted() ? 0 : 1);
@@ -56,7 +43,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   glfwGetWindowContentScale(window, &scale, nullptr);
   constexpr float kTextHeight = 14.0F;
   gui_ = std::make_unique<Gui>(window, std::round(kTextHeight * std::max(1.0F, scale)));
-  live_ = std::make_unique<LivePicture>(options_.frame_budget);
+  picture_ = std::make_unique<WindowPicture>(options_.frame_budget);
   thumbnails_ = std::make_unique<Thumbnails>(options_.thumbnails, options_.program, options_.draw_example);
   if (options_.workbench) {
     workbench_ = std::make_unique<WorkbenchDisplay>(*options_.workbench);
@@ -82,13 +69,20 @@ WindowResult ExplorerWindow::run() {
     if (options_.stop_requested && options_.stop_requested()) break;
     take_outcome();
     const bool counted = (scene_ || on_start_page()) && !(options_.frames_wait && jobs_.running());
-    if (counted) inject(frame_);
-    if (touch_.servo().replaying()) inject_replayed();
+    if (counted) {
+      const std::vector<std::string> missing = inject_script(options_.script, frame_, glfw_.events());
+      missing_.insert(missing_.end(), missing.begin(), missing.end());
+    }
+    if (touch_.servo().replaying()) inject_replayed(touch_, glfw_.events(), state_);
     const double seconds = frame_clock.seconds();
     frame_clock.restart();
     draw_frame(seconds);
     if (counted && ++frame_ == options_.frames) {
-      if (!options_.screenshot.empty()) save_screenshot();
+      if (!options_.screenshot.empty()) {
+        int width = 0, height = 0;
+        glfwGetFramebufferSize(glfw_.get(), &width, &height);
+        write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
+      }
       break;
     }
     glfwSwapBuffers(glfw_.get());
@@ -112,9 +106,9 @@ WindowResult ExplorerWindow::run() {
   if (screens_) result.screens = screens_->read();
   if (workbench_) result.latency = workbench_->latency();
   std::tie(result.width, result.height) = glfw_.size();
-  result.median_frame_ms = live_->median_milliseconds();
-  result.quality = live_->figures().quality;
-  result.tables_by = live_->tables_by();
+  result.median_frame_ms = picture_->live().median_milliseconds();
+  result.quality = picture_->live().figures().quality;
+  result.tables_by = picture_->live().tables_by();
   result.gpu = gpu_objects();
   enter_gpu_objects(result.gpu, result.tables_by);
   return result;
@@ -126,7 +120,7 @@ void ExplorerWindow::wait_for_events() {
     return;
   }
   // Panels answer to an event one frame later at times: a few frames follow each event at full rate.
-  if (live_->complete() && glfw_.events().empty()) {
+  if (picture_->live().complete() && glfw_.events().empty()) {
     glfwWaitEventsTimeout(lively() ? kBusyRest : jobs_.running() ? kJobRest : kIdleRest);
   } else {
     glfwPollEvents();  // there is work to do meanwhile: more tracts, or events that the last frame has left
@@ -145,46 +139,6 @@ bool ExplorerWindow::closes() {
   controls_.touch().let_go();
   glfwSetWindowShouldClose(glfw_.get(), GLFW_FALSE);
   return false;
-}
-
-void ExplorerWindow::inject(int frame) {
-  for (const ScriptedEvent& scripted : options_.script) {
-    if (scripted.frame != frame) continue;
-    if (!scripted.control.empty()) {
-      const auto place = place_of_control(scripted);
-      if (!place) {
-        missing_.push_back(scripted.control);
-        continue;
-      }
-      glfw_.events().push_back({.kind = InputKind::kMove, .x = place->x, .y = place->y});
-      if (scripted.event.kind == InputKind::kMove) continue;
-    }
-    glfw_.events().push_back(scripted.event);
-  }
-}
-
-void ExplorerWindow::inject_replayed() {
-  for (const std::string& text : touch_.servo().due_events()) {
-    const auto event = event_from_text(text);
-    if (!event) continue;
-    const auto command = command_of(*event);
-    constexpr std::array kOfTheWindow{Command::kExportPicture, Command::kQuit,      Command::kFullScreen,
-                                      Command::kSavePicture,   Command::kSaveLines, Command::kOpen,
-                                      Command::kSaveSession,   Command::kClose,     Command::kSaveSessionAs,
-                                      Command::kStartPage};
-    if (command && std::ranges::find(kOfTheWindow, *command) != kOfTheWindow.end()) continue;
-    glfw_.events().push_back(*event);
-  }
-  if (const std::string verdict = touch_.servo().replay_verdict(); verdict != state_.replay_verdict) {
-    state_.replay_verdict = verdict;
-    state_.say("replay " + verdict);
-  }
-}
-
-void ExplorerWindow::save_screenshot() {
-  int width = 0, height = 0;
-  glfwGetFramebufferSize(glfw_.get(), &width, &height);
-  write_png(options_.screenshot, read_framebuffer(0, width, height), picture_texts());
 }
 
 }  // namespace palpate

@@ -1,26 +1,34 @@
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <GLFW/glfw3.h>
-#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include "common/hand/probe_picture.h"
-#include "common/window/controls/plane_control.h"
 #include "common/window/explorer_window.h"
 
 namespace palpate {
 namespace {
 
-/// What the volume's own pane shows, which changes with nothing of the others.
-SceneView without_panes(SceneView view) {
-  if (!view.volume) return view;
-  view.volume->panes = {};
-  if (!shows_planes(*view.volume)) view.volume->planes.window.reset();
-  return view;
+/// The events of this frame; others stay in `waiting` for the next one.
+std::vector<InputEvent> take_events(std::vector<InputEvent>& waiting) {
+  const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(events_of_frame(waiting));
+  std::vector<InputEvent> taken(std::make_move_iterator(waiting.begin()), std::make_move_iterator(end));
+  waiting.erase(waiting.begin(), end);
+  return taken;
+}
+
+/// A pointer is seen by both eyes where it is in both halves, at the same place.
+void draw_second_pointer(const std::optional<Vec2>& there, float text_height) {
+  if (!there || ImGui::GetIO().WantCaptureMouse) return;
+  const ImVec2 at{static_cast<float>(there->x), static_cast<float>(there->y)};
+  const float size = 0.8F * text_height;
+  ImGui::GetForegroundDrawList()->AddTriangleFilled(
+      at, {at.x, at.y + size}, {at.x + 0.7F * size, at.y + 0.7F * size}, IM_COL32(255, 255, 255, 230));
 }
 
 }  // namespace
@@ -34,10 +42,10 @@ void ExplorerWindow::draw_frame(double seconds) {
     return;
   }
   const WindowLayout parts = layout(width, height, gui_->text_height(), state_.show_panel);
-  panes_ = parts.picture;
-  place_picture();
+  // Screens of a workbench show the scene itself.
+  picture_->place(parts.picture, view_, workbench_ != nullptr);
   gui_->set_background(view_.background);
-  const std::vector<InputEvent> events = take_events();
+  const std::vector<InputEvent> events = take_events(glfw_.events());
   gui_->begin_frame(events, width, height, seconds);
   const Document before = state_.document;
   look();
@@ -49,17 +57,17 @@ void ExplorerWindow::draw_frame(double seconds) {
   update_panels();
   obey(on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts));
   answer_questions();
-  follow_export();
+  if (files_.follow_export()) glfwMakeContextCurrent(glfw_.get());
   follow_hand();
   news_.follow(touch_, state_);
-  play();
+  time_.follow(state_, scene_, jobs_.running());
   follow_layer();
-  follow_edits();
+  edits_.follow();
   if (!same_scene(state_.document, before)) jobs_.give_way();
-  if (controls_.take_lens_moved()) live_->moved(glfwGetTime());
+  if (controls_.take_lens_moved()) picture_->live().moved(glfwGetTime());
   const SceneView picture = with_focus();
   draw_picture(picture, width, height);
-  draw_second_pointer();
+  draw_second_pointer(controls_.second_pointer(), gui_->text_height());
   gui_->end_frame();
   if (screens_) screens_->draw(without_panes(picture), *workbench_, state_.picture.quality);
 }
@@ -67,8 +75,8 @@ void ExplorerWindow::draw_frame(double seconds) {
 ControlledScene ExplorerWindow::controlled() {
   return {.scene = scene_ ? &*scene_ : nullptr,
           .view = view_,
-          .picture = picture_,
-          .panes = panes_,
+          .picture = picture_->scene(),
+          .panes = picture_->area(),
           .workbench = workbench_.get(),
           .beside_screens = screens_ != nullptr,
           .time = glfwGetTime()};
@@ -89,28 +97,13 @@ void ExplorerWindow::update_panels() {
 void ExplorerWindow::follow_hand() {
   if (workbench_) touch_.hand().place_workbench(place_of(view_.camera, workbench_->screen()));
   if (view_.probe) touch_.update(glfwGetTime(), view_.camera, view_.style, *view_.probe);
-  cut_volume();
+  if (cuts_.follow(touch_, view_)) picture_->live().moved(glfwGetTime());
   controls_.lead_by_grid(controlled());
   // Surfaces are solid: they would hide what is in a lens.
   const bool lenses =
       view_.volume && view_.volume->shown && (!view_.volume->lenses.empty() || is_cut(*view_.volume));
   view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_.data().surfaces().meshes);
   if (scene_) view_.surfaces.insert(view_.surfaces.end(), scene_->surfaces.begin(), scene_->surfaces.end());
-}
-
-void ExplorerWindow::cut_volume() {
-  if (!touch_.planes() || !view_.volume) return;
-  if (touch_.choice().settings.plane_widget.poses.count == 0) {
-    const PlanePoses planes = planes_of(*view_.volume, view_.bounds.center());
-    if (planes.count > 0) {
-      touch_.put_planes(planes);
-      return;
-    }
-  }
-  const PlanePoses& poses = touch_.planes()->poses;
-  if (!(poses == cut_planes_)) live_->moved(glfwGetTime());
-  cut_by_planes(*view_.volume, poses, cut_planes_.count);
-  cut_planes_ = poses;
 }
 
 void ExplorerWindow::look() {
@@ -121,8 +114,8 @@ void ExplorerWindow::look() {
   if (screens_) return;
   const auto [left, top] = glfw_.position();
   const double scale = glfw_.pixels_per_coordinate();
-  workbench_->cover(scale * left + picture_.left, scale * top + picture_.top, picture_.width, picture_.height,
-                    view_.camera);
+  workbench_->cover(scale * left + picture_->scene().left, scale * top + picture_->scene().top,
+                    picture_->scene().width, picture_->scene().height, view_.camera);
 }
 
 void ExplorerWindow::reset_camera() {
@@ -136,15 +129,6 @@ void ExplorerWindow::reset_camera() {
   view_.camera.focal_point = std::exchange(focal_point_, {}).value_or(view_.camera.focal_point);
 }
 
-void ExplorerWindow::draw_second_pointer() const {
-  const auto there = controls_.second_pointer();
-  if (!there || ImGui::GetIO().WantCaptureMouse) return;
-  const ImVec2 at{static_cast<float>(there->x), static_cast<float>(there->y)};
-  const float size = 0.8F * gui_->text_height();
-  ImGui::GetForegroundDrawList()->AddTriangleFilled(
-      at, {at.x, at.y + size}, {at.x + 0.7F * size, at.y + 0.7F * size}, IM_COL32(255, 255, 255, 230));
-}
-
 SceneView ExplorerWindow::with_focus() {
   SceneView picture = view_;
   const bool hand = touch_.readout().held || !touch_.trail().drawn_lines().entries().empty();
@@ -155,26 +139,10 @@ SceneView ExplorerWindow::with_focus() {
   return picture;
 }
 
-std::vector<Pane> ExplorerWindow::panes() const {
-  // Screens of a workbench show the scene itself.
-  const SlicePanes alone;
-  return panes_of(view_.volume && !workbench_ ? view_.volume->panes : alone, static_cast<int>(panes_.width),
-                  static_cast<int>(panes_.height));
-}
-
-void ExplorerWindow::place_picture() {
-  for (const Pane& pane : panes()) {
-    if (pane.plane) continue;
-    picture_ = {panes_.left + pane.left, panes_.top + pane.top, static_cast<double>(pane.width),
-                static_cast<double>(pane.height)};
-  }
-  view_.aspect = eye_aspect(view_.stereo.mode, picture_.width, picture_.height);
-}
-
 void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
-  place_picture();  // the panel may have divided it otherwise
-  const auto w = static_cast<int>(picture_.width), h = static_cast<int>(picture_.height);
-  if (glfw_.take_damage()) live_->damage();
+  // The panel may have divided it otherwise.
+  picture_->place(picture_->area(), view_, workbench_ != nullptr);
+  if (glfw_.take_damage()) picture_->live().damage();
   PictureMoment moment{
       .seconds = glfwGetTime(),
       .moving = controls_.moves_view() || state_.playing || (workbench_ && workbench_->moved()),
@@ -195,29 +163,12 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
   if (workbench_ && !screens_) workbench_->show(picture);
   if (picture.stereo.mode == StereoMode::kRows || picture.stereo.mode == StereoMode::kColumns) {
     const auto [column, row] = pixel_on_monitor(glfw_.get());
-    picture.stereo.first = {column + static_cast<int>(picture_.left), row + static_cast<int>(picture_.top)};
+    picture.stereo.first = {column + static_cast<int>(picture_->scene().left),
+                            row + static_cast<int>(picture_->scene().top)};
   }
-  const std::vector<Pane> parts = panes();
-  if (parts.size() < 2) {
-    slices_.reset();
-  } else {
-    if (!slices_) slices_ = std::make_unique<PanePictures>();
-    const bool over_panel = ImGui::GetIO().WantCaptureMouse;
-    slices_->draw(picture, parts,
-                  over_panel ? std::string() : controls_.panes().words_under_mouse(panes_, parts, view_),
-                  over_panel ? nullptr : controls_.panes().pane_under_mouse(panes_, parts),
-                  controls_.panes().dragging() || (moment.editing && picture.volume->panes.slab > 0.0));
-  }
-  picture = without_panes(std::move(picture));
-  live_->draw(std::move(picture), w, h, moment);
-  state_.picture = live_->figures();
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, width, height);
-  // What a hint or a banner has left between the pictures.
-  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
-  glClear(GL_COLOR_BUFFER_BIT);
-  live_->show(static_cast<int>(picture_.left), height - static_cast<int>(picture_.top) - h);
-  if (slices_) slices_->show(static_cast<int>(panes_.left), static_cast<int>(panes_.top), height);
+  picture_->draw(std::move(picture), view_, controls_.panes(), ImGui::GetIO().WantCaptureMouse, moment, width,
+                 height);
+  state_.picture = picture_->live().figures();
 }
 
 }  // namespace palpate

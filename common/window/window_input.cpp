@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,9 +12,6 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
-#include "common/compose/line_view.h"
-#include "common/compose/slice_panes_text.h"
-#include "common/compose/slice_plane.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/scene_parts.h"
 #include "common/window/event_text.h"
@@ -44,24 +40,18 @@ std::optional<std::string> unknown_key(const InputEvent& event) {
   return std::string(1, static_cast<char>(event.key)) + " does nothing; H lists the keys";
 }
 
-/// Panes as they are set, seen from where `from` is: where one looks is no edit.
-PanesOptions looked_at(PanesOptions panes, const PanesOptions& from) {
-  panes.cross = from.cross;
-  panes.turn = from.turn;
-  panes.center = from.center;
-  panes.zoom = from.zoom;
-  return panes;
+/// Shows the volume or hides it. @return what to tell the user. @param scene null: nothing is open.
+std::string toggle_volume(SceneView& view, const SceneState* scene) {
+  if (view.volume) {
+    view.volume->shown = !view.volume->shown;
+    return view.volume->shown ? "the volume is shown" : "the volume is hidden; V shows it again";
+  }
+  if (scene == nullptr) return kNothingOpen;
+  return scene->info->volumes.empty() ? "there is no volume here"
+                                      : "no volume is drawn: choose one in the panel (volume of)";
 }
 
 }  // namespace
-
-std::vector<InputEvent> ExplorerWindow::take_events() {
-  std::vector<InputEvent>& waiting = glfw_.events();
-  const auto end = waiting.begin() + static_cast<std::ptrdiff_t>(events_of_frame(waiting));
-  std::vector<InputEvent> taken(std::make_move_iterator(waiting.begin()), std::make_move_iterator(end));
-  waiting.erase(waiting.begin(), end);
-  return taken;
-}
 
 void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -76,7 +66,7 @@ void ExplorerWindow::handle_events(const std::vector<InputEvent>& events) {
     if (command == Command::kForceOff) run_command(*command);
     controls_.follow_pointer(event, controlled());
     // Notch by notch the wheel moves what is looked at.
-    if (event.kind == InputKind::kWheel && !io.WantCaptureMouse) live_->moved(glfwGetTime());
+    if (event.kind == InputKind::kWheel && !io.WantCaptureMouse) picture_->live().moved(glfwGetTime());
     if (files_.handle(event) || state_.search.handle(event)) continue;
     if (on_start_page()) {
       handle_on_start_page(event);
@@ -158,7 +148,7 @@ void ExplorerWindow::go_on(const Leaving& leaving) {
 void ExplorerWindow::answer_questions() {
   if (const auto leaving = files_.answer()) go_on(*leaving);
   if (scene_) say(state_.search.draw(state_.document, options_.kind));
-  if (const auto name = take_reset()) reset_setting(*name);
+  if (const auto name = take_reset(); name && scene_) state_.say(edits_.reset(*name));
   const auto chosen = files_.chosen();
   if (!chosen) return;
   switch (chosen->what) {
@@ -166,50 +156,16 @@ void ExplorerWindow::answer_questions() {
       open(chosen->files);
       break;
     case WindowFiles::Chosen::What::kSession:
-      keep_document();
+      edits_.keep();
       files_.save_session(model_, state_.document, chosen->files.front());
       break;
     case WindowFiles::Chosen::What::kPicture:
-      export_picture(chosen->files.front());
-  }
-}
-
-void ExplorerWindow::reset_setting(const std::string& name) {
-  if (!scene_) return;
-  keep_document();
-  const FieldKind kind = state_.document.input.kind;
-  const Setting* const row = find_setting(name, kind) != nullptr ? find_setting(name, kind) : &setting(name);
-  Document with = state_.document;
-  set_value(*row, with, default_text(*row));
-  apply_appearance(with, view_);
-  if (view_.volume) view_.volume->panes = slice_panes_of(with.panes, view_.volume->image->bounds());
-  if (view_.volume && (name == "window" || name == "level")) view_.volume->planes.window.reset();
-  if (touch_.available()) touch_.restore(with.touch);
-  put_region(with.slice.box);
-  state_.document = with;
-  state_.seeds = seed_choice(with.tracing.seeds);
-  state_.say(row->label() +
-             " is as in the beginning: " + (default_text(*row).empty() ? "as found" : default_text(*row)));
-}
-
-void ExplorerWindow::export_picture(const std::filesystem::path& file) {
-  files_.picture().ask(with_focus(), file, picture_texts());
-  state_.say("drawing " + file.string() + " …");
-}
-
-void ExplorerWindow::follow_export() {
-  const auto outcome = files_.picture().take();
-  if (!outcome) return;
-  glfwMakeContextCurrent(glfw_.get());
-  if (outcome->done) {
-    state_.say("saved " + outcome->words);
-  } else {
-    state_.fail(outcome->words);
+      files_.export_picture(with_focus(), chosen->files.front(), picture_texts());
   }
 }
 
 void ExplorerWindow::save_session(bool asks) {
-  keep_document();
+  edits_.keep();
   if (!scene_) {
     state_.say(kNothingOpen);
   } else if (asks || files_.session().empty()) {
@@ -224,7 +180,7 @@ void ExplorerWindow::obey(const PanelActions& actions) {
   if (actions.cancel) jobs_.cancel();
   if (actions.reset_camera) needs_camera_ = true;
   if (actions.look) run_command(*actions.look);
-  if (actions.time && has_times())
+  if (actions.time && has_times(scene_))
     set_time_step(state_.document, scene_->info->times, nearest_step(scene_->info->times, *actions.time));
   if (actions.open) leave({Leaving::Way::kOpen, *actions.open});
   if (actions.ask_to_open) run_command(Command::kOpen);
@@ -270,7 +226,7 @@ void ExplorerWindow::run_command(Command command) {
       // Along layers there are no lines to keep.
       if (controls_.touch().grabbed() && (touch_.data().has_flow() || touch_.data().has_tensors())) {
         say(controls_.run(Command::kKeepLine, controlled()));
-      } else if (has_times()) {
+      } else if (has_times(scene_)) {
         state_.playing = !state_.playing;
       } else {
         state_.say(scene_ ? kOneTime : kNothingOpen);
@@ -279,8 +235,8 @@ void ExplorerWindow::run_command(Command command) {
     case Command::kStepBack:
     case Command::kStepOn:
       state_.playing = false;
-      step_in_time(command == Command::kStepOn);
-      if (!has_times()) state_.say(scene_ ? kOneTime : kNothingOpen);
+      step_in_time(state_.document, scene_, command == Command::kStepOn);
+      if (!has_times(scene_)) state_.say(scene_ ? kOneTime : kNothingOpen);
       break;
     case Command::kLetGo:
       let_go();
@@ -289,17 +245,17 @@ void ExplorerWindow::run_command(Command command) {
       glfwSetWindowShouldClose(glfw_.get(), GLFW_TRUE);
       break;
     case Command::kUndo:
-      state_.say(undo());
+      state_.say(edits_.undo());
       break;
     case Command::kRedo:
-      state_.say(redo());
+      state_.say(edits_.redo());
       break;
     case Command::kMenu:
       controls_.toggle_menu(controlled());
       if (!scene_) state_.say(kNothingOpen);
       break;
     case Command::kVolume:
-      toggle_volume();
+      state_.say(toggle_volume(view_, scene_ ? &*scene_ : nullptr));
       break;
     case Command::kLayout:
       if (!scene_ || !view_.volume || !scene_->is_volume_alone()) {
@@ -325,7 +281,7 @@ void ExplorerWindow::run_command(Command command) {
       state_.show_rates = !state_.show_rates;
       break;
     case Command::kSavePicture:
-      files_.save_picture(whole_picture(), picture_texts());
+      files_.save_picture(picture_->read(view_.background), picture_texts());
       break;
     case Command::kSaveSession:
     case Command::kSaveSessionAs:
@@ -337,7 +293,8 @@ void ExplorerWindow::run_command(Command command) {
         break;
       }
       controls_.touch().let_go();
-      files_.ask_for_picture(static_cast<int>(panes_.width), static_cast<int>(panes_.height));
+      files_.ask_for_picture(static_cast<int>(picture_->area().width),
+                             static_cast<int>(picture_->area().height));
       break;
     case Command::kOpen:
       controls_.touch().let_go();
@@ -362,18 +319,6 @@ void ExplorerWindow::run_command(Command command) {
   }
 }
 
-void ExplorerWindow::toggle_volume() {
-  if (view_.volume) {
-    view_.volume->shown = !view_.volume->shown;
-    state_.say(view_.volume->shown ? "the volume is shown" : "the volume is hidden; V shows it again");
-  } else if (!scene_) {
-    state_.say(kNothingOpen);
-  } else {
-    state_.say(scene_->info->volumes.empty() ? "there is no volume here"
-                                             : "no volume is drawn: choose one in the panel (volume of)");
-  }
-}
-
 void ExplorerWindow::let_go() {
   controls_.let_go();
   state_.show_help = state_.log.shown = state_.playing = false;
@@ -385,102 +330,6 @@ void ExplorerWindow::work_in_space() {
   say(controls_.work_in_space(controlled()));
   if (!controls_.menu().shown()) return;
   for (const Command command : controls_.menu().act(*scene_, state_.document, view_)) run_command(command);
-}
-
-void ExplorerWindow::keep_document() {
-  if (!scene_ || needs_camera_) return;
-  Document& document = state_.document;
-  if (!same_picture(view_, kept_) || view_.aspect != kept_.aspect) {
-    model_.keep(view_, document);
-    kept_ = view_;
-  }
-  const auto& box = controls_.region().box();
-  document.slice.box = box && controlled().has_region() ? box_text(*box) : std::string();
-  document.series.plot = state_.plotted;
-  document.view.play_rate = state_.play_rate;
-  touch_.keep(document.touch);
-}
-
-bool ExplorerWindow::dragging() const {
-  const auto& planes = touch_.planes();
-  const bool plane = planes && planes->state != WidgetState::kFree && touch_.readout().acts;
-  // Time that plays, and layers that the hand goes through, are one edit each.
-  const bool layers = scene_ && scene_->info->layers && touch_.readout().held;
-  return state_.playing || plane || layers || !controls_.resting() || ImGui::IsAnyItemActive();
-}
-
-ExplorerWindow::Edited ExplorerWindow::edited() const {
-  Edited now{.document = state_.document, .made = touch_.trail().made(), .view = edits_of(view_)};
-  now.document.view.camera.clear();
-  now.document.view.focal.clear();
-  now.document.panes = looked_at(now.document.panes, {});
-  return now;
-}
-
-void ExplorerWindow::follow_edits() {
-  if (!scene_ || needs_camera_) return;
-  keep_document();
-  if (!history_) {
-    history_.emplace(edited());
-  } else if (history_->now().document.touch.planes.planes.empty() &&
-             !state_.document.touch.planes.planes.empty()) {
-    history_->settle(edited());  // planes that a mode begins with are no edit
-  } else if (!dragging()) {
-    history_->push(edited());
-  }
-}
-
-std::string ExplorerWindow::undo() {
-  // A point of what is being marked is in no document yet.
-  if (controls_.touch().marking() && touch_.notes().take_back()) return "undone";
-  keep_document();
-  if (history_) history_->push(edited());
-  if (!history_ || !history_->can_undo()) return "nothing to undo";
-  restore(history_->undo());
-  return "undone";
-}
-
-std::string ExplorerWindow::redo() {
-  keep_document();
-  if (history_) history_->push(edited());
-  if (!history_ || !history_->can_redo()) return "nothing to restore";
-  restore(history_->redo());
-  return "restored";
-}
-
-void ExplorerWindow::restore(const Edited& to) {
-  const ViewOptions seen = state_.document.view;
-  const PanesOptions seen_panes = state_.document.panes;
-  state_.document = to.document;
-  state_.document.view.camera = seen.camera;
-  state_.document.view.focal = seen.focal;
-  state_.document.panes = looked_at(to.document.panes, seen_panes);
-  state_.seeds = seed_choice(to.document.tracing.seeds);
-  state_.plotted = to.document.series.plot;
-  state_.play_rate = to.document.view.play_rate;
-  apply_appearance(to.document, view_);
-  put_edits(to.view, *scene_, view_);
-  if (view_.volume)
-    view_.volume->panes = slice_panes_of(state_.document.panes, view_.volume->image->bounds());
-  put_region(to.document.slice.box);
-  touch_.restore(to.document.touch);
-  // The first cuts stand for as many planes of the hand as there were then.
-  if (touch_.planes()) cut_planes_.count = touch_.choice().settings.plane_widget.poses.count;
-  touch_.trail().put(to.made);
-  // What the document says in other words now is no edit.
-  keep_document();
-  history_->settle(edited());
-}
-
-Image ExplorerWindow::whole_picture() {
-  Image own = live_->read();
-  if (!slices_) return own;
-  std::vector<PaneImage> parts = slices_->read();
-  for (const Pane& pane : panes()) {
-    if (!pane.plane && pane.width == own.width && pane.height == own.height)
-      parts.push_back({pane, std::move(own)});
-  }
-  return join_panes(parts, view_.background, static_cast<int>(panes_.width), static_cast<int>(panes_.height));
 }
 
 std::vector<PngText> ExplorerWindow::picture_texts() const {

@@ -10,7 +10,6 @@
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
-#include "common/compose/slice_plane.h"
 #include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/probe_picture.h"
 #include "common/window/explorer_window.h"
@@ -33,13 +32,13 @@ void ExplorerWindow::take_outcome() {
     } else {
       fail(outcome->error);
     }
-    live_->damage();
+    picture_->live().damage();
   }
   jobs_.start_next(scene_ ? state_.document : jobs_.requested());
 }
 
 void ExplorerWindow::adopt(SceneState scene) {
-  const bool settled = history_ && edited() == history_->now();
+  const bool settled = edits_.settled();
   if (!scene.joined && jobs_.kind() == SceneJobs::Kind::kOpen) keep_thumbnail();
   if (scene_) keep_colors(scene_->document, scene, state_.picture.automatic_range, view_.style);
   scene_ = std::move(scene);
@@ -66,7 +65,7 @@ void ExplorerWindow::adopt(SceneState scene) {
     // Edits made while the input was being read belonged to the old one.
     state_.document = scene_->document;
     needs_camera_ = true;
-    history_.reset();  // begins with the first picture
+    edits_.forget();
     remember(state_.recent, scene_->info->files);
     glfwSetWindowTitle(glfw_.get(), (scene_->info->name + " - " + options_.program).c_str());
   } else if (scene_->joined) {
@@ -79,9 +78,9 @@ void ExplorerWindow::adopt(SceneState scene) {
   state_.seeds = seed_choice(state_.document.tracing.seeds);
   adopt_field();
   if (new_input && jobs_.kind() == Kind::kOpen && !scene_->document.common.session.empty()) restore_session();
-  keep_document();
+  edits_.keep();
   // Defaults that are known now are no edit.
-  if (settled && history_ && !scene_->joined) history_->settle(edited());
+  if (settled && !scene_->joined) edits_.settle();
   if (new_input) state_.lines_file = touch_.data().has_tensors() ? "tracts.tck" : PanelState{}.lines_file;
   if (new_input || state_.message == kCancelled) state_.say({});
   if (new_input || state_.error_of_job) state_.error.clear();
@@ -92,11 +91,7 @@ void ExplorerWindow::forget_input() {
   controls_.touch().mark(false);
   touch_.forget();
   files_.note_opened({});
-  cut_planes_ = {};
-}
-
-void ExplorerWindow::put_region(const std::string& box) {
-  controls_.region().put(box.empty() ? std::nullopt : std::optional(parse_box(box, "--box")));
+  cuts_.forget();
 }
 
 void ExplorerWindow::restore_session() {
@@ -108,7 +103,7 @@ void ExplorerWindow::restore_session() {
     apply_appearance(document, view_);
     angles_ = camera_angles(document.view.camera);
     focal_point_ = focal_point_of(document.view);
-    put_region(document.slice.box);
+    edits_.put_region(document.slice.box);
     if (!touch_.available()) return;
     touch_.restore(document.touch);
     if (document.touch.drawn_lines.empty()) return;
@@ -123,7 +118,7 @@ void ExplorerWindow::restore_session() {
 
 void ExplorerWindow::keep_thumbnail() {
   if (scene_ && !scene_->info->files.files.empty() && frame_ > 0)
-    thumbnails_->keep(scene_->info->files, whole_picture());
+    thumbnails_->keep(scene_->info->files, picture_->read(view_.background));
 }
 
 void ExplorerWindow::close_data() {
@@ -136,17 +131,16 @@ void ExplorerWindow::close_data() {
   touch_.close_field();
   forget_input();
   plot_.forget();
-  history_.reset();
+  edits_.forget();
   scene_.reset();
   SceneView empty = options_.view;
   empty.background = view_.background;
   empty.stereo = view_.stereo;
   view_ = std::move(empty);
-  kept_ = {};
   needs_camera_ = true;
   state_.say({});
   state_.error.clear();
-  live_->damage();
+  picture_->live().damage();
   glfwSetWindowTitle(glfw_.get(), options_.program.c_str());
 }
 
@@ -180,9 +174,7 @@ void ExplorerWindow::fail(const std::exception_ptr& error) {
     if (overtaken) return;
     // What was open stays; so does the document that made it.
     state_.document = scene_->document;
-    model_.keep(view_, state_.document);
-    keep_document();
-    if (history_) history_->fail(edited());
+    edits_.fail();
     state_.seeds = seed_choice(state_.document.tracing.seeds);
     state_.playing = false;
   }
@@ -193,19 +185,6 @@ void ExplorerWindow::fail(const std::exception_ptr& error) {
   } catch (const std::exception& e) {
     state_.fail(e.what(), true);
   }
-}
-
-void ExplorerWindow::play() {
-  if (!state_.playing || !scene_ || jobs_.running()) return;
-  if (since_step_.seconds() * state_.play_rate < 1.0) return;
-  since_step_.restart();
-  step_in_time(true);
-}
-
-void ExplorerWindow::step_in_time(bool on) {
-  if (has_times())
-    set_time_step(state_.document, scene_->info->times,
-                  step_beside(scene_->info->times, time_step_of(state_.document, scene_->info->times), on));
 }
 
 void ExplorerWindow::follow_layer() {

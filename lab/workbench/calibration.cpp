@@ -12,6 +12,7 @@
 #include "common/calibration/synthetic.h"
 #include "common/calibration/tracker_fit.h"
 #include "common/kinematics/workbench_file.h"
+#include "common/kinematics/workbench_writer.h"
 #include "common/math/quaternion.h"
 
 namespace palpate {

@@ -11,6 +11,7 @@
 #include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/kinematics/workbench_file.h"
+#include "common/kinematics/workbench_writer.h"
 #include "common/math/quaternion.h"
 #include "lab/hand/wall/stability_sweep.h"
 #include "lab/hand/wall/wall_extremes.h"

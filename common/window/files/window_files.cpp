@@ -11,6 +11,23 @@
 
 namespace palpate {
 
+void WindowFiles::export_picture(SceneView view, const std::filesystem::path& file,
+                                 std::vector<PngText> texts) {
+  picture_.ask(std::move(view), file, std::move(texts));
+  state_.say("drawing " + file.string() + " …");
+}
+
+bool WindowFiles::follow_export() {
+  const auto outcome = picture_.take();
+  if (!outcome) return false;
+  if (outcome->done) {
+    state_.say("saved " + outcome->words);
+  } else {
+    state_.fail(outcome->words);
+  }
+  return true;
+}
+
 bool WindowFiles::attempt(const std::function<std::string()>& save) {
   try {
     state_.say("saved " + save());

@@ -43,7 +43,10 @@ class WindowFiles {
   void ask_for_session(const Document& document);
   /// Asks for the size, the background and the name of a picture. @param width, height of the one that is seen.
   void ask_for_picture(int width, int height);
-  [[nodiscard]] PictureExport& picture() noexcept { return picture_; }
+  /// Has `view` drawn into `file`, as was chosen in that dialog.
+  void export_picture(SceneView view, const std::filesystem::path& file, std::vector<PngText> texts);
+  /// Once a frame: says what became of it. @return whether it was drawn, after which no OpenGL context is current.
+  bool follow_export();
   /// The session that is saved again without asking; empty: none is yet.
   [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
   /// What was chosen in a dialog.

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/kinematics/workbench_writer.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 

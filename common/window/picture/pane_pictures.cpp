@@ -1,4 +1,4 @@
-#include "common/window/pane_pictures.h"
+#include "common/window/picture/pane_pictures.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 // The window's pictures of a volume: they refine by themselves while the view stands still.
-#include "common/window/live_picture.h"
+#include "common/window/picture/live_picture.h"
 
 #include <algorithm>
 #include <cstdlib>

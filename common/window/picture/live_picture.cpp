@@ -1,4 +1,4 @@
-#include "common/window/live_picture.h"
+#include "common/window/picture/live_picture.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,0 +1,63 @@
+#include "common/window/picture/window_picture.h"
+
+#include <utility>
+
+#include <epoxy/gl.h>
+
+#include "common/render/render_panes.h"
+#include "common/render/stereo/stereo_view.h"
+
+namespace palpate {
+
+SceneView without_panes(SceneView view) {
+  if (!view.volume) return view;
+  view.volume->panes = {};
+  if (!shows_planes(*view.volume)) view.volume->planes.window.reset();
+  return view;
+}
+
+void WindowPicture::place(const PictureArea& area, SceneView& view, bool alone) {
+  area_ = area;
+  parts_ = panes_of(view.volume && !alone ? view.volume->panes : SlicePanes(), static_cast<int>(area.width),
+                    static_cast<int>(area.height));
+  for (const Pane& pane : parts_) {
+    if (pane.plane) continue;
+    scene_ = {area.left + pane.left, area.top + pane.top, static_cast<double>(pane.width),
+              static_cast<double>(pane.height)};
+  }
+  view.aspect = eye_aspect(view.stereo.mode, scene_.width, scene_.height);
+}
+
+void WindowPicture::draw(SceneView picture, const SceneView& view, const PaneControl& panes, bool over_panel,
+                         const PictureMoment& moment, int width, int height) {
+  if (parts_.size() < 2) {
+    slices_.reset();
+  } else {
+    if (!slices_) slices_ = std::make_unique<PanePictures>();
+    slices_->draw(picture, parts_, over_panel ? std::string() : panes.words_under_mouse(area_, parts_, view),
+                  over_panel ? nullptr : panes.pane_under_mouse(area_, parts_),
+                  panes.dragging() || (moment.editing && picture.volume->panes.slab > 0.0));
+  }
+  const auto w = static_cast<int>(scene_.width), h = static_cast<int>(scene_.height);
+  live_.draw(without_panes(std::move(picture)), w, h, moment);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+  // What a hint or a banner has left between the pictures.
+  glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+  glClear(GL_COLOR_BUFFER_BIT);
+  live_.show(static_cast<int>(scene_.left), height - static_cast<int>(scene_.top) - h);
+  if (slices_) slices_->show(static_cast<int>(area_.left), static_cast<int>(area_.top), height);
+}
+
+Image WindowPicture::read(const Background& background) {
+  Image own = live_.read();
+  if (!slices_) return own;
+  std::vector<PaneImage> images = slices_->read();
+  for (const Pane& pane : parts_) {
+    if (!pane.plane && pane.width == own.width && pane.height == own.height)
+      images.push_back({pane, std::move(own)});
+  }
+  return join_panes(images, background, static_cast<int>(area_.width), static_cast<int>(area_.height));
+}
+
+}  // namespace palpate
