@@ -1,7 +1,5 @@
 #include "apps/flow/flow_model.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <vector>
 
 #include "common/base/text.h"
@@ -22,13 +20,9 @@ namespace {
 
 std::string grid_fact(const VectorField& field) {
   if (const TetMesh* mesh = field.tet_mesh()) {
-    std::vector<bool> used(mesh->points().size());
-    for (const TetMesh::Tet& tet : mesh->cells()) {
-      for (const std::uint32_t point : tet) used[point] = true;
-    }
-    const auto points = static_cast<std::uint64_t>(std::ranges::count(used, true));
+    const std::size_t points = mesh->used_point_count(), all = mesh->points().size();
     std::string fact = counted(points, "point") + ", " + counted(mesh->cells().size(), "tetrahedron");
-    if (points < used.size()) fact += "; " + counted(used.size() - points, "point") + " in no cell";
+    if (points < all) fact += "; " + counted(all - points, "point") + " in no cell";
     return fact;
   }
   if (const BoxGrid* grid = field.box_grid()) {

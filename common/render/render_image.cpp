@@ -30,7 +30,7 @@ void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view,
     const FrameQuality quality = budget.quality();
     renderer.draw(with_quality(view, quality), width, height, quality.resolution);
     renderer.finish();
-    budget.drawn(renderer.gpu_milliseconds());
+    if (!renderer.compiled()) budget.drawn(renderer.gpu_milliseconds());
     still = budget.quality() == quality ? still + 1 : 0;
   }
 }

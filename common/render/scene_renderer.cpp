@@ -71,6 +71,7 @@ struct SceneRenderer::State {
   std::unique_ptr<Overlay> overlay;
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
   FrameTimer timer;
+  int compiled_before = 0;  // programs, the last picture
 
   // What the uploaded buffers were made from.
   bool filled = false;
@@ -371,6 +372,7 @@ bool SceneRenderer::draw(const SceneView& view, int width, int height, double re
   s.stop_tracts = stop_tracts;
   s.stop = {};
   s.estimates.forget();
+  s.compiled_before = compiled_programs();
   s.timer.begin();
   if (!has_two_eyes(view)) {
     s.stereo.reset();
@@ -466,6 +468,8 @@ bool SceneRenderer::made(PictureCache cache) const noexcept {
   if (cache == PictureCache::kStillPart) return s.made_still;
   return s.draws_volume && s.volume && s.volume->made(cache);
 }
+
+bool SceneRenderer::compiled() const noexcept { return compiled_programs() > state_->compiled_before; }
 
 void SceneRenderer::forget(PictureCache cache) noexcept {
   if (cache == PictureCache::kStillPart) state_->still.reset();

@@ -57,6 +57,9 @@ class SceneRenderer {
   bool prepare_slabs(std::size_t cut);
   /// Whether the last picture made what that cache holds, which takes longer than the pictures that follow.
   [[nodiscard]] bool made(PictureCache cache) const noexcept;
+  /// Whether shaders were compiled since the last call of draw() began: that picture took longer than the ones that
+  /// follow.
+  [[nodiscard]] bool compiled() const noexcept;
   /// Gives back what that cache holds; the next picture may make it anew.
   void forget(PictureCache cache) noexcept;
   /// From now on pictures keep what estimate_error() and estimate_savings() compare, where they show a

@@ -51,6 +51,7 @@ TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threa
   if (cells.size() > as_size(std::numeric_limits<CellIndex>::max()) - 1) {
     refuse(std::to_string(cells.size()) + " tetrahedra", "at most 2^31 - 2");
   }
+  std::vector<std::uint8_t> used(points_.size(), 0);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     for (const std::uint32_t v : cells[c]) {
       if (v >= points_.size()) {
@@ -61,6 +62,8 @@ TetMesh::TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threa
         refuse("vertex " + std::to_string(v) + " is not finite", "finite coordinates");
       }
       bounds_.include(points_[v]);
+      used_point_count_ += used[v] == 0 ? 1 : 0;
+      used[v] = 1;
     }
   }
   for (int axis = 0; axis < 3; ++axis) {

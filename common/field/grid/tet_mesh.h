@@ -41,6 +41,8 @@ class TetMesh {
   TetMesh(std::vector<Vec3> points, std::span<const Tet> cells, int threads = 0);
 
   [[nodiscard]] std::span<const Vec3> points() const noexcept { return points_; }
+  /// Points that are corners of some cell.
+  [[nodiscard]] std::size_t used_point_count() const noexcept { return used_point_count_; }
   [[nodiscard]] std::span<const Tet> cells() const noexcept { return cells_; }
   [[nodiscard]] std::span<const Neighbors> neighbors() const noexcept { return neighbors_; }
   [[nodiscard]] bool zero_volume(CellIndex cell) const noexcept { return zero_volume_[as_size(cell)] != 0; }
@@ -105,6 +107,7 @@ class TetMesh {
   LargeVector<Step<double>> double_steps_;  ///< filled otherwise
   std::vector<std::uint8_t> zero_volume_;
   std::vector<std::uint32_t> cell_order_;
+  std::size_t used_point_count_ = 0;
   std::size_t zero_volume_count_ = 0;
   std::size_t inverted_count_ = 0;
   std::size_t overlapping_face_count_ = 0;

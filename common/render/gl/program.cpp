@@ -85,6 +85,8 @@ GlShader compile(GLenum stage, std::string_view path, std::span<const ShaderFile
 }
 
 // @param problem what the message of an error begins with. @param label of the program.
+thread_local int compiled_so_far = 0;
+
 GlProgram link(std::initializer_list<GLuint> shaders, const std::string& problem, std::string_view label) {
   GlProgram program(glCreateProgram());
   for (const GLuint shader : shaders) glAttachShader(program.name(), shader);
@@ -99,6 +101,7 @@ GlProgram link(std::initializer_list<GLuint> shaders, const std::string& problem
     throw work_error(problem + log.substr(0, log.find('\n')));
   }
   label_object(GpuObject::Kind::kProgram, program.name(), label);
+  ++compiled_so_far;
   return program;
 }
 
@@ -125,6 +128,8 @@ GlProgram compile_program(std::string_view vertex, std::string_view fragment,
       {vertex_shader.name(), fragment_shader.name()},
       "shaders " + std::string(vertex) + " and " + std::string(fragment) + " do not link: ", fragment);
 }
+
+int compiled_programs() noexcept { return compiled_so_far; }
 
 std::string ShaderVariant::label() const {
   std::string label(fragment);

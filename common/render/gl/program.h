@@ -46,6 +46,9 @@ struct ShaderSource {
                                         std::span<const ShaderFile> files = shader_files(),
                                         std::span<const std::string> defines = {});
 
+/// How many programs this thread has compiled so far.
+[[nodiscard]] int compiled_programs() noexcept;
+
 /// One of the ways in which a fragment shader is compiled.
 struct ShaderVariant {
   std::string_view fragment;         ///< path below shaders/

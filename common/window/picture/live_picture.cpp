@@ -76,8 +76,9 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
       edited_ += 1e-3 * figures_.milliseconds;
     }
     figures_.expected_error = moving && volume ? budget_.expected_error() : std::nullopt;
-    // A picture that keeps slabs for the next ones says nothing of their time.
-    if (moving && !renderer_.made(PictureCache::kSlabs)) budget_.drawn(renderer_.gpu_milliseconds());
+    // A picture that keeps slabs for the next ones, or compiles shaders, says nothing of their time.
+    if (moving && !renderer_.made(PictureCache::kSlabs) && !renderer_.compiled())
+      budget_.drawn(renderer_.gpu_milliseconds());
     if (!moving && finer_ == 0) budget_.rested(renderer_.gpu_milliseconds());
     if (volume && view.volume->cache_picture &&
         local_.drawn(figures_.milliseconds, renderer_.made(PictureCache::kVolume))) {

@@ -252,6 +252,20 @@ TEST(GpuObjects, OfWhatIsAskedForBesideThePicture) {
   expect("and rests", sorted(gpu_objects()), {"volume/volume.frag SLABS"}, {});
 }
 
+// By which a frame budget leaves out times that no later picture takes.
+TEST(GpuObjects, ARendererSaysWhichPicturesCompileShaders) {
+  VolumeView view = byte_view();
+  const OffscreenContext context;
+  SceneRenderer renderer;
+  std::vector<bool> compiled;
+  for (int i = 0; i < 4; ++i) {
+    if (i == 2) view.lenses = {{.shape = make_sphere(Vec3(0.0), 0.4)}};
+    renderer.draw(scene_of(view), kWidth, kHeight);
+    compiled.push_back(renderer.compiled());
+  }
+  EXPECT_EQ(compiled, (std::vector{true, false, true, false}));
+}
+
 // Of a sparse volume only bricks that show something stand on the GPU; a long list of cuts takes a buffer, no
 // texture.
 TEST(GpuObjects, OfASparseVolumeAreItsBricks) {

@@ -230,6 +230,12 @@ TEST(TetMesh, InvertedCellsAreTurnedAndCounted) {
   }
 }
 
+TEST(TetMesh, PointsInNoCellAreNotCountedAsUsed) {
+  const std::vector<Vec3> points{{0, 0, 0}, {9, 9, 9}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}, {8, 8, 8}};
+  const TetMesh mesh(points, std::vector<TetMesh::Tet>{{0, 2, 3, 4}, {2, 3, 4, 5}});
+  EXPECT_EQ(mesh.used_point_count(), 5U);
+}
+
 TEST(TetMesh, MeshesThatAreNoneAreRefused) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_THROW(TetMesh(points, {}), Error);
