@@ -73,20 +73,23 @@ void LinkedDevice::work(const std::stop_token& stop) {
       if (const PoseAtoms* const poses = link_->poses()) poses_.write(*poses);
       bell_.ring(monotonic_ns());
     }
-    if (!showed_.exchange(false)) end_.rested();
+    const bool showed = showed_.exchange(false);
+    if (!showed) end_.rested();
     const double now = now_seconds();
-    // Words are for people: when something has changed, and now and then.
+    // For people: when something has changed, and now and then. Whoever looks at it is not waited for.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
     if (status.phase == told && now - reported_at < kPause) continue;
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock) continue;
     told = status.phase;
     reported_at = now;
+    status_ = status;
+    // Words allocate. While there is force the device is well, and what was said before holds.
+    if (showed) continue;
     // What is there needs a moment to be found.
     const bool had_its_chance = status.phase != LinkPhase::kAbsent || now - begun > kChance;
-    std::string advice = had_its_chance ? link_->advice() : std::string();
-    const std::lock_guard lock(mutex_);
-    status_ = status;
-    advice_ = std::move(advice);
+    advice_ = had_its_chance ? link_->advice() : std::string();
   }
 }
 
