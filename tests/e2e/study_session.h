@@ -218,16 +218,27 @@ class Hands {
       Strokes strokes;
       if (std::exchange(off_in_trial_, false)) strokes.push_back({0.0, "key F12"});
       int turned = 0;
-      Vec3 aim = sight.cursor;
+      corrections_ = 0;
+      Vec3& aim = aim_ = sight.cursor;
       for (double far = 0.0; far < kFarthest; far += kPiece * kSpeed) {
         const TrialCue cue = sight.trial->cue(aim, 0.0);
         if (cue.arrived) break;
         aim += kPiece * kSpeed * cue.along;
         lead(sight, aim, kPiece, turned, strokes);
       }
+      goal_ = aim;
       act(strokes);
     }
-    constexpr double kPatience = 1.5;  // [s]
+    constexpr double kRest = 0.15, kPatience = 1.5;  // [s]
+    constexpr int kMostCorrections = 20;
+    if (traced_ && !said_ && !sight.trial->reached() && ready(kRest) && corrections_++ < kMostCorrections) {
+      // The drag keeps the crosshair short of the mouse: on by as much as it lacks.
+      aim_ += goal_ - sight.cursor;
+      int turned = 0;
+      Strokes strokes;
+      lead(sight, aim_, 0.0, turned, strokes);
+      act(strokes);
+    }
     if (!traced_ || !((sight.trial->reached() && !said_) || ready(kPatience))) return;
     said_ = true;
     x_->stop();
@@ -254,6 +265,8 @@ class Hands {
   double slow_;
   bool faults_, off_in_trial_ = false, hold_long_ = true, pressed_ = false;
   bool at_start_ = false, traced_ = false, said_ = false;  ///< what is done of a trial
+  Vec3 aim_{0.0}, goal_{0.0};                              ///< [m] of the mouse, and of the crosshair at last
+  int corrections_ = 0;
   ParticipantScreen screen_ = ParticipantScreen::kThanks;
   std::size_t left_ = 0;
   std::shared_ptr<MouseAndKeys> x_;  ///< made in the process of the session
@@ -287,6 +300,7 @@ class Photographs {
 };
 
 struct SessionWish {
+  const StudyTasks& tasks;  ///< prepared
   Hands hands;
   fs::path told;      ///< a file for what is told; empty: none
   fs::path pictures;  ///< a folder; empty: none
@@ -294,7 +308,7 @@ struct SessionWish {
 };
 
 /// The session of P01 in a process of its own. @return its number.
-inline pid_t start_session(const fs::path& folder, const StudyPlan& plan, const SessionWish& wish) {
+inline pid_t start_session(const fs::path& folder, const SessionWish& wish) {
   const pid_t child = ::fork();
   if (child != 0) return child;
   int status = 0;
@@ -320,7 +334,7 @@ inline pid_t start_session(const fs::path& folder, const StudyPlan& plan, const 
       options.photograph = Photographs(wish.pictures);
     }
     if (wish.stereo != StereoMode::kNone) options.height = 576;
-    run_participant_window(opened, prepared_tasks(plan), who, {}, options);
+    run_participant_window(opened, wish.tasks, who, {}, options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     status = 1;

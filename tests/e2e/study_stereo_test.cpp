@@ -49,9 +49,11 @@ TEST(StudyWindow, GivesEachEyeAWholePictureAndAllOfTheText) {
   plan.design.tasks = 2;
   const StudyFolder folder = StudyFolder::make(temporary.path("s"), plan, {}, false);
   fs::create_directory(temporary.path("pictures"));
-  SessionGuard session(start_session(
-      folder.path(), plan,
-      {.hands = Hands(), .pictures = temporary.path("pictures"), .stereo = StereoMode::kSideBySide}));
+  const StudyTasks tasks = prepared_tasks(plan);
+  SessionGuard session(start_session(folder.path(), {.tasks = tasks,
+                                                     .hands = Hands(),
+                                                     .pictures = temporary.path("pictures"),
+                                                     .stereo = StereoMode::kSideBySide}));
   const std::optional<int> status = outcome_of(session);
   ASSERT_TRUE(status && WIFEXITED(*status));
   EXPECT_EQ(WEXITSTATUS(*status), 0) << "the form was filled in, in a half of the window";

@@ -28,12 +28,13 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
   const StudyPlan plan = session_plan();
   const StudyParticipant who{"P01", 0, false, {}};
   StudyFolder folder = StudyFolder::make(path, plan, {}, false);
+  const StudyTasks tasks = prepared_tasks(plan);
   ASSERT_EQ(folder.left_for(who).size(), 8U);
   // PALPATE_WRITE_PAGES makes the pictures of docs/guide/study.md.
   const fs::path pictures =
       std::getenv("PALPATE_WRITE_PAGES") != nullptr ? source_folder() / "docs" / "guide" : fs::path();
 
-  const pid_t first = start_session(path, plan, {.hands = Hands(), .pictures = pictures});
+  const pid_t first = start_session(path, {.tasks = tasks, .hands = Hands(), .pictures = pictures});
   const fs::path at_work = path / "sub-P01" / "trial_at_work.txt";
   SessionGuard first_guard(first);
   ASSERT_GT(first, 0);
@@ -57,7 +58,7 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
 
   // The second part under a window that is slow: nothing depends on how many pictures there are.
   constexpr double kSlow = 0.12;  // [s]
-  SessionGuard second(start_session(path, plan, {.hands = Hands(kSlow), .pictures = pictures}));
+  SessionGuard second(start_session(path, {.tasks = tasks, .hands = Hands(kSlow), .pictures = pictures}));
   status = outcome_of(second);
   ASSERT_TRUE(status && WIFEXITED(*status));
   EXPECT_EQ(WEXITSTATUS(*status), 0);
@@ -73,7 +74,6 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
   }
 
   // What was lived is what is played back: the servo's thread and its clock change nothing.
-  const StudyTasks tasks = prepared_tasks(plan);
   std::map<std::string, int> good;
   for (const TrialRecord& record : trials) {
     EXPECT_FALSE(record.simulated);
@@ -106,8 +106,9 @@ TEST(StudyWindow, SaysThatThereIsNoForceAndRepeatsTheTrial) {
   plan.tasks = {"tracing2d"};
   plan.design.tasks = 1;
   const StudyFolder folder = StudyFolder::make(temporary.path("s"), plan, {}, false);
-  SessionGuard session(
-      start_session(folder.path(), plan, {.hands = Hands(0.0, true), .told = temporary.path("told.txt")}));
+  const StudyTasks tasks = prepared_tasks(plan);
+  SessionGuard session(start_session(
+      folder.path(), {.tasks = tasks, .hands = Hands(0.0, true), .told = temporary.path("told.txt")}));
   const std::optional<int> status = outcome_of(session);
   ASSERT_TRUE(status && WIFEXITED(*status));
   ASSERT_EQ(WEXITSTATUS(*status), 0);
