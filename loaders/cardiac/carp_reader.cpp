@@ -20,7 +20,6 @@
 #include "common/load/volume_block.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/carp_binary.h"
-#include "loaders/cardiac/carp_elements.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
 
