@@ -14,13 +14,13 @@
 #include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/seed_choice.h"
 #include "common/window/controls/view_control.h"
-#include "common/window/picture/live_picture.h"
 #include "common/window/panels/message_log.h"
 #include "common/window/panels/series_panel.h"
 #include "common/window/panels/setting_search.h"
 #include "common/window/panels/touch_panel.h"
 #include "common/window/panels/volume/region_panel.h"
 #include "common/window/panels/volume/transfer_panel.h"
+#include "common/window/picture/live_picture.h"
 
 namespace palpate {
 
