@@ -53,6 +53,16 @@ DataSet uniform_data(int n, const Box& bounds, const VectorFormula& velocity) {
   return data;
 }
 
+DataSet rectilinear_data(const std::vector<double>& x, const std::vector<double>& y,
+                         const std::vector<double>& z, const VectorFormula& velocity) {
+  DataSet data;
+  data.topology = RectilinearTopology{{x, y, z}};
+  std::vector<Vec3> values;
+  for (std::size_t p = 0; p < data.point_count(); ++p) values.push_back(velocity(point_position(data, p)));
+  data.arrays.push_back(vectors("velocity", values));
+  return data;
+}
+
 DataSet tetrahedral_data(const std::vector<double>& x, const std::vector<double>& y,
                          const std::vector<double>& z, const VectorFormula& velocity) {
   std::vector<Vec3> points;

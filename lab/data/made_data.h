@@ -14,6 +14,10 @@ using VectorFormula = std::function<Vec3(const Vec3&)>;
 /// n x n x n points over `bounds` with the point array "velocity" in doubles. @pre n >= 2.
 [[nodiscard]] DataSet uniform_data(int n, const Box& bounds, const VectorFormula& velocity);
 
+/// Points between the given coordinates, with "velocity" in doubles.
+[[nodiscard]] DataSet rectilinear_data(const std::vector<double>& x, const std::vector<double>& y,
+                                       const std::vector<double>& z, const VectorFormula& velocity);
+
 /// Six tetrahedra a box (Kuhn 1960) between the given coordinates, with "velocity" in doubles.
 [[nodiscard]] DataSet tetrahedral_data(const std::vector<double>& x, const std::vector<double>& y,
                                        const std::vector<double>& z, const VectorFormula& velocity);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -12,104 +11,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kMadeLimit = 1e-9;  // of the diagonal: what cell-exact lines promise on linear fields
 constexpr int kScalingExponent = 60;
 constexpr double kExtreme = 1e30;
 
 using FieldPtr = std::shared_ptr<const VectorField>;
-
-FieldPtr made_field(DataSet data) {
-  const VectorChoice choice{.arrays = {"velocity"}, .label = "velocity"};
-  std::vector<DataSet> blocks;
-  blocks.push_back(std::move(data));
-  return make_vector_field(blocks, choice, "made data");
-}
-
-// Linear fields v = R L R^T x with L = diag(l) and a fixed rotation R: x(t) = R exp(L t) R^T x_0.
-
-/// Axes that are aligned with no edge of the mesh.
-Mat3 oblique_axes() {
-  const Vec3 a = glm::normalize(Vec3{2.0, 1.0, -1.5});
-  const Vec3 b = glm::normalize(glm::cross(a, Vec3{0.3, -1.0, 0.7}));
-  return {a, b, glm::cross(a, b)};
-}
-
-Vec3 linear_velocity(const Vec3& eigenvalues, const Vec3& x) {
-  const Mat3 r = oblique_axes();
-  return r * (eigenvalues * (glm::transpose(r) * x));
-}
-
-Vec3 linear_solution(const Vec3& eigenvalues, const Vec3& x0, double t) {
-  const Mat3 r = oblique_axes();
-  return r * (glm::exp(eigenvalues * t) * (glm::transpose(r) * x0));
-}
-
-std::vector<Vec3> seeds_within(double half_size) {
-  std::vector<Vec3> seeds;
-  for (int i = 0; i < 27; ++i) {
-    const Index3 place{i % 3, i / 3 % 3, i / 9};
-    const Vec3 u = Vec3(place) - 1.0;
-    seeds.push_back(half_size * (u + Vec3{0.11, -0.07, 0.05}));
-  }
-  return seeds;
-}
-
-/// Largest distance of any point from where the closed form is at that point's time.
-double distance_from_solution(const std::vector<Line>& lines, const std::vector<Vec3>& seeds,
-                              const Vec3& eigenvalues) {
-  double worst = 0.0;
-  for (const Line& line : lines) {
-    for (const LinePoint& p : line.points) {
-      worst =
-          std::max(worst, glm::distance(p.position, linear_solution(eigenvalues, seeds[line.seed], p.time)));
-    }
-  }
-  return worst;
-}
-
-StabilityCase linear_case(const std::string& name, const std::string& meaning, const Vec3& eigenvalues,
-                          const std::vector<double>& z) {
-  const auto even = even_coordinates(5);
-  const FieldPtr field = made_field(
-      tetrahedral_data(even, even, z, [&](const Vec3& x) { return linear_velocity(eigenvalues, x); }));
-  const auto seeds = seeds_within(0.4);
-  const TraceResult result = trace_lines(*field, seeds, {.threads = 1});
-  const double error = result.lines.size() == seeds.size()
-                           ? distance_from_solution(result.lines, seeds, eigenvalues) / field->diagonal()
-                           : HUGE_VAL;
-  return make_case(name, error, kMadeLimit, "of the diagonal", meaning);
-}
-
-StabilityCase sink_case() {
-  const Vec3 fixed_point{0.123, -0.234, 0.345};
-  const auto even = even_coordinates(5);
-  const FieldPtr field =
-      made_field(tetrahedral_data(even, even, even, [&](const Vec3& x) { return fixed_point - x; }));
-  const TraceResult result = trace_lines(*field, seeds_within(0.8), {.threads = 1});
-  double worst = result.lines.empty() ? HUGE_VAL : 0.0;
-  for (const Line& line : result.lines) {
-    const double distance = glm::distance(line.points.back().position, fixed_point);
-    worst = std::max(worst, line.end == End::kStagnation ? distance : HUGE_VAL);
-  }
-  return make_case("stagnation", worst / field->diagonal(), 1e-6, "of the diagonal",
-                   "every line of a sink ends as stagnation, this close to the fixed point");
-}
-
-StabilityCase orbit_case() {
-  const Box box{Vec3{-1.0}, Vec3{1.0}};
-  const FieldPtr field = made_field(uniform_data(9, box, [](const Vec3& x) { return Vec3{-x.y, x.x, 0.0}; }));
-  constexpr double kRadius = 0.6;
-  const std::vector<Vec3> seeds{{kRadius, 0.0, 0.1}};
-  TraceOptions options{.max_length = 2.0 * std::numbers::pi * kRadius, .threads = 1};
-  const TraceResult turn = trace_lines(*field, seeds, options);
-  options.max_length = 0.0;
-  const TraceResult endless = trace_lines(*field, seeds, options);
-  const bool closes = !turn.lines.empty() && !endless.lines.empty() && endless.lines[0].end == End::kLoop;
-  const double gap = closes ? glm::distance(turn.lines[0].points.back().position, seeds[0]) : HUGE_VAL;
-  const double diagonals = 2.0 * std::numbers::pi * kRadius / field->diagonal();
-  return make_case("closed orbit", gap / field->diagonal(), options.tolerance * diagonals, "of the diagonal",
-                   "one turn of a rotation returns to its seed, and the line that goes on ends as a loop");
-}
 
 // Cases on the data at hand.
 
@@ -291,15 +196,6 @@ class DataCases {
 std::vector<StabilityCase> run_stability(const StabilityRequest& request, Progress* progress) {
   if (progress) progress->begin("stability", 0);
   std::vector<StabilityCase> cases;
-  const auto even = even_coordinates(5);
-  cases.push_back(linear_case(
-      "stiff saddle", "eigenvalues -10000, 1 and -0.5, oblique to the mesh; distance from the closed form",
-      Vec3{-1e4, 1.0, -0.5}, even));
-  cases.push_back(sink_case());
-  cases.push_back(linear_case("slivers",
-                              "layers of tetrahedra a million times wider than thick; the same measure",
-                              Vec3{1.0, -0.7, 0.4}, {-1.0, -1e-6, 0.0, 1e-6, 1.0}));
-  cases.push_back(orbit_case());
   if (!request.blocks.empty()) DataCases(request, progress).add_to(cases);
   return cases;
 }

@@ -1,7 +1,5 @@
-/// The first stability table: extreme cases, what was measured and what is promised.
-///
-/// Four cases are made up, so that the true answer is known; the others alter the data at hand. The scene's
-/// own data is traced with the method that lines of this scene use by default.
+/// The data at hand put to the extremes: what was measured and what is promised. Made cases, whose true answer is known, stand
+/// in the catalogue (lab/extremes). The scene's own data is traced with the method that lines of this scene use by default.
 #pragma once
 
 #include <string>
@@ -15,7 +13,7 @@
 namespace palpate {
 
 struct StabilityRequest {
-  std::vector<DataSet> blocks;  ///< the data at hand, arrays of the field alone; empty: only the made cases
+  std::vector<DataSet> blocks;  ///< the data at hand, arrays of the field alone; empty: no case
   VectorChoice choice;
   std::string file;
   std::vector<Vec3> seeds;

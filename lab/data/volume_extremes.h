@@ -1,7 +1,5 @@
-/// Extreme volumes: what their pictures are by closed form or by symmetry, and how far off they are drawn.
-///
-/// Made ones are seen along an axis through a block of one value, whose opacity along a way d is 1 - (1 - alpha)^(d / l) (Ikits
-/// 2006, eq. 2.1; color_transfer.h). Others alter the data at hand so that the picture must stay as it is, or be empty.
+/// The volume at hand put to the extremes: its picture must stay as it is, or be empty. Made ones stand in the catalogue
+/// (lab/extremes).
 #pragma once
 
 #include <vector>

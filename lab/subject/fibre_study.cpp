@@ -8,6 +8,7 @@
 #include "common/scene/seeds.h"
 #include "common/scene/wall/heart_layer.h"
 #include "lab/data/heart_errors.h"
+#include "lab/extremes/extreme.h"
 #include "lab/hand/constraint/fibre_feel.h"
 #include "lab/study.h"
 
@@ -62,6 +63,7 @@ ReportAnswer study_fibres(const Study& study) {
                      fibre_feel_section(input.title(), feel, friction)};
   append(heart_error_cases(meshes, known), report.stability);
   append(fibre_feel_cases(feel, friction), report.stability);
+  append(run_extremes({ExtremeKind::kMesh, ExtremeKind::kDevice}, progress), report.stability);
   report.seconds = watch.seconds();
   return study.finish(report, {}, work_precision_rows(report));
 }

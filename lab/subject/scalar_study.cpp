@@ -8,6 +8,7 @@
 #include "common/haptics/workspace.h"
 #include "lab/data/volume_extremes.h"
 #include "lab/data/volume_quality.h"
+#include "lab/extremes/extreme.h"
 #include "lab/hand/plane_placing.h"
 #include "lab/page/html.h"
 #include "lab/study.h"
@@ -55,6 +56,8 @@ ReportAnswer study_scalars(const Study& study) {
   const std::vector<PlacingRow> placed = run_plane_placing(placing, study.progress());
   report.sections.push_back(plane_placing_section(placed, placing));
   report.stability = run_volume_extremes(*scene.volume, study.progress());
+  append(run_extremes({ExtremeKind::kVolume, ExtremeKind::kLens, ExtremeKind::kCamera}, study.progress()),
+         report.stability);
   append(plane_placing_cases(placed), report.stability);
   report.seconds = watch.seconds();
   return study.finish(report, figures_text(quality), quality.rows.size());

@@ -5,6 +5,7 @@
 #include "common/base/text.h"
 #include "lab/data/fit_errors.h"
 #include "lab/data/tract_errors.h"
+#include "lab/extremes/extreme.h"
 #include "lab/study.h"
 
 namespace palpate {
@@ -34,6 +35,7 @@ ReportAnswer study_tensors(const Study& study) {
   const std::vector<TractErrors> tracts = run_tract_errors(effort, study.progress());
   report.sections.push_back(tract_errors_section(tracts));
   append(tract_error_cases(tracts), report.stability);
+  append(run_extremes({ExtremeKind::kTensor}, study.progress()), report.stability);
   report.seconds = watch.seconds();
   return study.finish(report, {}, work_precision_rows(report));
 }

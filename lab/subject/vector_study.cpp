@@ -13,6 +13,7 @@
 #include "common/field/scalar_choice.h"
 #include "common/scene/seeds.h"
 #include "lab/data/resampling.h"
+#include "lab/extremes/extreme.h"
 #include "lab/hand/chain/chain_rivals.h"
 #include "lab/hand/chain/chain_work.h"
 #include "lab/hand/constraint/constraint_budget.h"
@@ -156,6 +157,8 @@ ReportAnswer study_vectors(const Study& study) {
     stability.blocks = input.read(stability.choice.arrays, progress);
   }
   report.stability = run_stability(stability, progress);
+  append(run_extremes({ExtremeKind::kField, ExtremeKind::kMesh, ExtremeKind::kDevice}, progress),
+         report.stability);
   append(run_haptic_stability(field, report.constraint, stability, progress), report.stability);
   report.sections.push_back(resampling(input, field, study.threads(), effort, progress));
   add_constraint_studies(report, effort, progress);

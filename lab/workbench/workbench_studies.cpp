@@ -13,8 +13,8 @@
 #include "common/kinematics/workbench_file.h"
 #include "common/kinematics/workbench_writer.h"
 #include "common/math/quaternion.h"
+#include "lab/extremes/extreme.h"
 #include "lab/hand/wall/stability_sweep.h"
-#include "lab/hand/wall/wall_extremes.h"
 #include "lab/workbench/calibration.h"
 #include "lab/workbench/described_device.h"
 #include "lab/workbench/fit_text.h"
@@ -60,12 +60,6 @@ std::vector<ReportSection> sections_of(const Study& study, const Calibrated& don
   }
   sections.push_back(distortion_section(std::move(drawn), trouble));
   return sections;
-}
-
-std::vector<StabilityCase> extreme_walls() {
-  std::vector<StabilityCase> cases;
-  for (WallExtreme& row : wall_extremes()) cases.push_back(std::move(row.held));
-  return cases;
 }
 
 std::string column(const std::string& text) {
@@ -139,7 +133,8 @@ ReportAnswer study_made_calibrations(const Study& study) {
   // Larger errors than a calibrated tracker's, so that they are seen in the picture.
   sections.push_back(
       head_error_section(head_error_setup({.position_error = "60,60", .orientation_error = 8.0})));
-  const std::vector<StabilityCase> cases = extreme_walls();
+  const std::vector<StabilityCase> cases =
+      run_extremes({ExtremeKind::kWall, ExtremeKind::kDevice}, study.progress());
   text += cases_text(cases);
   const auto failed = std::ranges::count_if(cases, [](const StabilityCase& c) { return !c.row.holds; });
   write_sections(study, folder, "made calibrations", std::move(sections), cases, watch.seconds());
@@ -190,7 +185,7 @@ ReportAnswer study_walls(const Study& study) {
   check_report_folder(folder, study.document().common.force);
   const auto device = described_device(study.document().trial.model);
   WallStability wall = run_wall_stability(study.threads(), study.progress(), device->profile);
-  append(extreme_walls(), wall.cases);
+  append(run_extremes({ExtremeKind::kWall, ExtremeKind::kDevice}, study.progress()), wall.cases);
   write_sections(study, folder, "stability", wall_sections(wall), wall.cases, watch.seconds());
   std::string text = "stability of walls on " + std::string(wall.swept.title) + " -> " +
                      (folder / "index.html").string() + "\n" + cases_text(wall.cases);

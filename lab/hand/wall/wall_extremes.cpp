@@ -30,31 +30,30 @@ void coarse_encoder(WallCase& wall) {
 
 WallExtreme controlled(const Setting& setting, double times_bound) {
   constexpr double kMillimetres = 1e3, kLimit = 0.75;
-  WallCase wall = pushed(setting, times_bound);
-  const auto travel = [&](bool with) {
-    wall.controlled = with;
-    const WallRun run = run_wall(wall);
-    return kMillimetres * std::max(run.deepest, run.farthest);
-  };
-  const double held = travel(true), loose = travel(false);
-  return {
-      .held = make_case(
-          "wall: " + setting.name + ", " + short_number(times_bound) + " times the bound", held, kLimit, "mm",
-          "largest motion with the passivity controller; without it " + short_number(loose) + " mm"),
-      .unguarded = loose};
+  return {.name = setting.name + ", " + short_number(times_bound) + " times the bound",
+          .builder = "an arm pushed against a wall stiffer than passive",
+          .claim = "largest motion with the passivity controller",
+          .guard = "the passivity controller",
+          .limit = kLimit,
+          .measure = [setting, times_bound](bool guarded) {
+            WallCase wall = pushed(setting, times_bound);
+            wall.controlled = guarded;
+            const WallRun run = run_wall(wall);
+            return kMillimetres * std::max(run.deepest, run.farthest);
+          }};
 }
 
 WallExtreme bounded(const Setting& setting) {
   constexpr double kWithin = 0.95, kBeyond = 100.0, kMillimetres = 1e3;
-  const auto swing = [&](double times_bound) {
-    const Oscillation found = run_wall(pushed(setting, times_bound)).swing;
-    return found.sustained ? kMillimetres * found.amplitude : 0.0;
-  };
-  const double held = swing(kWithin), loose = swing(kBeyond);
-  return {.held = make_case("wall: " + setting.name + ", within the bound", held, 0.0, "mm",
-                            "how wide the arm goes on swinging at 0.95 of the bound; at a hundred times " +
-                                short_number(loose) + " mm"),
-          .unguarded = loose};
+  return {.name = setting.name + ", within the bound",
+          .builder = "an arm pushed against a wall of 0.95 of the bound",
+          .claim = "how wide it goes on swinging",
+          .guard = "the bound of stiffness",
+          .limit = 0.0,
+          .measure = [setting](bool guarded) {
+            const Oscillation found = run_wall(pushed(setting, guarded ? kWithin : kBeyond)).swing;
+            return found.sustained ? kMillimetres * found.amplitude : 0.0;
+          }};
 }
 
 }  // namespace

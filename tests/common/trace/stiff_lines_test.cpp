@@ -11,6 +11,7 @@
 #include "common/base/index.h"
 #include "common/field/analytic/examples.h"
 #include "common/trace/trace.h"
+#include "lab/extremes/stiff_layer.h"
 #include "tests/common/trace/linear_fields.h"
 #include "tests/support/sampled.h"
 
@@ -18,44 +19,6 @@ namespace palpate::test {
 namespace {
 
 using Field = std::shared_ptr<const VectorField>;
-
-/// Drawn onto z = g(x, y) = a x + b y + c x y at the rate Lambda: of degree one in each coordinate, so that
-/// trilinear data is the formula, and with c = 0 linear data on tetrahedra too. The lines:
-///
-///   x = x0 + t,  y = y0 + t / 4,  z - g = (z0 - g0) exp(-Lambda t)
-class Layer final : public AnalyticField {
- public:
-  Layer(double rate, double c) : rate_(rate), c_(c) {}
-  [[nodiscard]] Vec3 velocity(const Vec3& x) const noexcept override {
-    return {1.0, kAside, kA + c_ * x.y + kAside * (kB + c_ * x.x) - rate_ * (x.z - height(x))};
-  }
-  [[nodiscard]] Mat3 jacobian(const Vec3& x) const noexcept override {
-    return rows(0, 0, 0, 0, 0, 0, kAside * c_ + rate_ * (kA + c_ * x.y), c_ + rate_ * (kB + c_ * x.x),
-                -rate_);
-  }
-  [[nodiscard]] Box bounds() const noexcept override { return {{0.0, 0.0, -0.5}, {2.0, 1.0, 0.5}}; }
-  [[nodiscard]] std::string name() const override { return "layer"; }
-  [[nodiscard]] std::string description() const override { return "layer"; }
-
-  [[nodiscard]] Vec3 line(const Vec3& seed, double t) const {
-    Vec3 x{seed.x + t, seed.y + kAside * t, 0.0};
-    x.z = height(x) + (seed.z - height(seed)) * std::exp(-rate_ * t);
-    return x;
-  }
-  /// Distance of `x` from the line, to leading order: where it has the same x, or the same height above g.
-  [[nodiscard]] double distance(const Vec3& seed, const Vec3& x) const {
-    const double part = (x.z - height(x)) / (seed.z - height(seed));
-    double nearest = glm::distance(x, line(seed, x.x - seed.x));
-    if (part > 0.0)
-      nearest = std::min(nearest, glm::distance(x, line(seed, std::max(0.0, -std::log(part) / rate_))));
-    return nearest;
-  }
-
- private:
-  [[nodiscard]] double height(const Vec3& x) const { return kA * x.x + kB * x.y + c_ * x.x * x.y; }
-  static constexpr double kA = 0.1, kB = -0.05, kAside = 0.25;
-  double rate_, c_;
-};
 
 constexpr double kRates[] = {1.0, 30.0, 1e3, 3e4, 1e6};
 
@@ -91,7 +54,7 @@ std::size_t count_of(const TraceResult& result, End end) { return result.ends[as
 TEST(StiffLines, FollowTheLayerToTheBorderAtEveryRateOnEveryGrid) {
   for (const double rate : kRates) {
     for (const double c : {0.0, 0.2}) {
-      const auto layer = std::make_shared<Layer>(rate, c);
+      const auto layer = std::make_shared<StiffLayer>(rate, c);
       for (const Grid& grid : grids(layer, c == 0.0)) {
         const auto seeds = seeds_in(layer->bounds(), 12);
         for (const Integrator integrator : {Integrator::kDp54, Integrator::kRodas4}) {
@@ -191,7 +154,8 @@ TEST(StiffLines, GoOverToTheStiffMethodWhereItPaysAndBack) {
   EXPECT_LT(both[as_size(Integrator::kRodas4)],
             steps(Integrator::kRodas4, *field)[as_size(Integrator::kRodas4)]);
   // Flows that are not stiff never leave dp54.
-  const StepCounts plain = steps(Integrator::kDp54, *make_vector_field(std::make_shared<Layer>(1.0, 0.2)));
+  const StepCounts plain =
+      steps(Integrator::kDp54, *make_vector_field(std::make_shared<StiffLayer>(1.0, 0.2)));
   EXPECT_EQ(plain[as_size(Integrator::kRodas4)], 0);
   EXPECT_GT(plain[as_size(Integrator::kDp54)], 0);
 }

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/trace/trace.h"
-#include "tests/common/trace/exact/affine_cases.h"
+#include "lab/extremes/affine_field.h"
 
 namespace palpate::test {
 namespace {

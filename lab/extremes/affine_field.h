@@ -11,12 +11,13 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
 
-namespace palpate::test {
+namespace palpate {
 
 using Long = long double;
 using Long3 = std::array<Long, 3>;
@@ -54,10 +55,16 @@ struct AffineMesh {
   [[nodiscard]] bool on_border(const Vec3& x, double tolerance) const;
 };
 
-/// One of the fields, of rates up to 2^exponent, drawn at random.
-[[nodiscard]] AffineField draw_field(std::mt19937_64& random, int exponent);
+/// The kinds of fields that are drawn.
+inline constexpr std::array<const char*, 10> kAffineKinds{
+    "one fast rate",   "three rates",    "slow pair", "fast pair",     "defective",
+    "defective chain", "near defective", "singular",  "singular pair", "sheared fast rate"};
+
+/// One of the fields, of rates up to 2^exponent, drawn at random. @param kind one of kAffineKinds; empty: any.
+[[nodiscard]] AffineField draw_field(std::mt19937_64& random, int exponent, std::string_view kind = {});
 /// One of the families of meshes: planes at equal distances, dyadic ones, slivers; split in five or in six; moved or not.
-[[nodiscard]] AffineMesh draw_mesh(std::mt19937_64& random);
+/// @param name of the mesh that is wanted, "slivers, five, jittered, sheared"; empty: any.
+[[nodiscard]] AffineMesh draw_mesh(std::mt19937_64& random, std::string_view name = {});
 /// A point within a cell, or on a face, an edge or a vertex.
 [[nodiscard]] Vec3 draw_seed(std::mt19937_64& random, const AffineMesh& mesh);
 
@@ -81,4 +88,4 @@ struct LineVerdict {
 [[nodiscard]] LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& mesh,
                                 const Vec3& seed, double diagonal);
 
-}  // namespace palpate::test
+}  // namespace palpate

@@ -1,11 +1,11 @@
-#include "tests/common/trace/exact/affine_cases.h"
+#include "lab/extremes/affine_field.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/field/data_set.h"
 
-namespace palpate::test {
+namespace palpate {
 namespace {
 
 Long3 times(const Long33& m, const Long3& x) {
@@ -138,7 +138,7 @@ bool AffineMesh::on_border(const Vec3& x, double tolerance) const {
   return std::max({std::abs(u), std::abs(x.y), std::abs(x.z)}) >= 1.0 - tolerance;
 }
 
-AffineField draw_field(std::mt19937_64& random, int exponent) {
+AffineField draw_field(std::mt19937_64& random, int exponent, std::string_view kind) {
   const Long fast = std::ldexp(Long(1), exponent);
   const auto slow = [&] { return pick<Long>(random, {-2, -1, -0.5, -0.25, 0.25, 0.5, 1, 2}); };
   const auto coordinate = [&] {
@@ -204,6 +204,7 @@ AffineField draw_field(std::mt19937_64& random, int exponent) {
         f = {.rate = sign * fast, .a = slow(), .b = 0, .c = 0, .d = slow()};
         break;
     }
+    if (!kind.empty() && field.name != kind) continue;
     field.frame = draw_frame(random);
     field.a = times(times(field.frame, f.matrix()), inverse(field.frame));
     if (triangular) {
@@ -222,7 +223,7 @@ AffineField draw_field(std::mt19937_64& random, int exponent) {
   }
 }
 
-AffineMesh draw_mesh(std::mt19937_64& random) {
+AffineMesh draw_mesh(std::mt19937_64& random, std::string_view name) {
   AffineMesh mesh;
   constexpr double kGrain = 0x1p-10;
   std::array<std::vector<double>, 3> planes;
@@ -248,6 +249,7 @@ AffineMesh draw_mesh(std::mt19937_64& random) {
   constexpr std::array kFamilies{"equal", "dyadic", "generic", "slivers"};
   mesh.name = std::string(kFamilies[family]) + (five ? ", five" : ", six") + (jittered ? ", jittered" : "") +
               (mesh.shear != 0.0 ? ", sheared" : "");
+  if (!name.empty() && mesh.name != name) return draw_mesh(random, name);
   const auto count = static_cast<int>(planes[0].size());
   for (int k = 0; k < count; ++k) {
     for (int j = 0; j < count; ++j) {
@@ -400,4 +402,4 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
   return verdict;
 }
 
-}  // namespace palpate::test
+}  // namespace palpate

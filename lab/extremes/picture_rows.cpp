@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/field/data_set.h"
+#include "common/render/lens/lens.h"
+#include "lab/extremes/extreme.h"
+#include "lab/extremes/picture_bench.h"
+
+// Made volumes are seen along an axis through a block of one value, whose opacity along a way d is 1 - (1 - alpha)^(d / l)
+// (Ikits 2006, eq. 2.1; color_transfer.h).
+
+namespace palpate {
+namespace {
+
+constexpr double kOpacity = 0.3;  // alpha
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStep = PictureBench::kStep;
+const char* const kUnit = "of full scale";
+
+/// A block of numbers; its longest side is 1 wide about the origin, unless `stretch` and `away` say otherwise.
+struct Block {
+  Index3 points{16};
+  std::function<double(const Index3&)> value = [](const Index3&) { return 1.0; };
+  Vec3 stretch{1.0};
+  Vec3 away{0.0};
+  double unit = 1.0;  ///< the value that is drawn
+};
+
+std::shared_ptr<const VolumeImage> image_of(const Block& block) {
+  std::vector<double> numbers;
+  Index3 at;
+  for (at.z = 0; at.z < block.points.z; ++at.z) {
+    for (at.y = 0; at.y < block.points.y; ++at.y) {
+      for (at.x = 0; at.x < block.points.x; ++at.x) numbers.push_back(block.value(at));
+    }
+  }
+  UniformTopology grid;
+  grid.points = block.points;
+  const double longest =
+      std::max(1.0, static_cast<double>(std::max({block.points.x, block.points.y, block.points.z})) - 1.0);
+  grid.axes = Mat3(Vec3(block.stretch.x / longest, 0, 0), Vec3(0, block.stretch.y / longest, 0),
+                   Vec3(0, 0, block.stretch.z / longest));
+  grid.origin = block.away;
+  DataSet data;
+  data.topology = grid;
+  data.arrays.push_back(make_array("values", Association::kPoint, 1, std::span<const double>(numbers)));
+  return make_volume_image(data, "values", "made data");
+}
+
+/// Matter from three quarters of the unit on, of one opacity along `length`.
+VolumeView view_of(const Block& block, double length) {
+  VolumeView view;
+  view.image = image_of(block);
+  const double unit = block.unit;
+  view.transfer = ColorTransfer({{0.0, Vec3f(1.0F), 0.0},
+                                 {0.75 * unit, Vec3f(1.0F), 0.0},
+                                 {0.75 * unit, Vec3f(1.0F), kOpacity},
+                                 {2.0 * unit, Vec3f(1.0F), kOpacity}});
+  view.opacity_length = length;
+  view.shading = false;
+  return view;
+}
+
+/// Along the z axis, without perspective.
+Camera along_z(const VolumeView& view) {
+  return make_camera(view.image->bounds(), {.azimuth = 0.0, .elevation = 90.0}, 1.0,
+                     Projection::kOrthographic);
+}
+
+double middle_opacity(const FloatImage& image) {
+  return image.at(PictureBench::kPixels / 2, PictureBench::kPixels / 2)[3];
+}
+
+using Bench = std::shared_ptr<PictureBench>;
+
+/// A block seen along z, against the closed form; the view may be altered, the picture may not.
+double depth_error(PictureBench& bench, const Block& block,
+                   const std::function<void(VolumeView&)>& alter = {}) {
+  const double depth = image_of(block)->bounds().size().z, length = 0.5 * depth;
+  VolumeView view = view_of(block, length);
+  const Camera camera = along_z(view);
+  if (alter) alter(view);
+  const double expected = 1.0 - std::pow(1.0 - kOpacity, depth / length);
+  return std::abs(middle_opacity(bench.draw(view, camera)) - expected);
+}
+
+void add_volumes(std::vector<Extreme>& rows, const Bench& bench) {
+  const auto depth = [&](const std::string& name, const std::string& builder, const Block& block,
+                         double limit = kStep) {
+    rows.push_back({ExtremeKind::kVolume, name, builder, "opacity against the closed form", limit, kUnit,
+                    [bench, block] { return depth_error(*bench, block); }});
+  };
+  depth("one value", "16 x 16 x 16 points", {});
+  depth("two points a side", "the fewest that make cells", {.points = Index3(2)});
+  depth("one slice", "a single point along the view: a step thick", {.points = {16, 16, 1}});
+  depth("one voxel", "a single point", {.points = Index3(1)});
+  depth("voxels of 1 : 1000", "a thousandth as thick as wide", {.stretch = {1, 1, 1e-3}});
+  depth("voxels of 100 : 1", "a hundred times as thick as wide", {.stretch = {1, 1, 100}});
+  // Steps are many and thin, and the 16 bits of a table add up (docs/limits.md).
+  depth("voxels of 1000 : 1", "a thousand times as thick as wide", {.stretch = {1, 1, 1e3}}, 0.02);
+  depth("a million sides away", "coordinates about (1e6, 1e6, 1e6)", {.away = Vec3(1e6)});
+  for (const double unit : {1e30, 1e-30}) {
+    depth(unit > 1.0 ? "values of 1e30" : "values of 1e-30", "near the ends of single precision",
+          {.value = [unit](const Index3&) { return unit; }, .unit = unit});
+  }
+  depth("one value of 1e20 in a corner", "the range says nothing of the rest",
+        {.value = [](const Index3& at) { return at == Index3(0) ? 1e20 : 1.0; }});
+  depth("a corner of NaN", "its cells show nothing, the others what they hold",
+        {.value = [](const Index3& at) { return at == Index3(0) ? kNaN : 1.0; }});
+  const auto nothing = [&](const std::string& name, const std::string& builder, const Block& block,
+                           const std::function<void(VolumeView&)>& alter) {
+    rows.push_back({ExtremeKind::kVolume, name, builder, "the brightest number: nothing is to be seen", 0.0,
+                    kUnit, [bench, block, alter] {
+                      VolumeView view = view_of(block, 0.5);
+                      const Camera camera = along_z(view);
+                      if (alter) alter(view);
+                      return brightest(bench->draw(view, camera));
+                    }});
+  };
+  nothing("all NaN", "no value at all", {.value = [](const Index3&) { return kNaN; }}, {});
+  // The matter begins at 7.75 / 15.
+  nothing("beside a step", "a step of values between two voxels, cut away two voxels before it",
+          {.value = [](const Index3& at) { return at.x < 8 ? 0.0 : 1.0; }}, [](VolumeView& view) {
+            view.cuts.push_back({.kept = {Vec3(1, 0, 0), 0.4}});
+          });
+  nothing("cut before its first voxel", "a cutting plane that keeps what lies before the volume", {},
+          [](VolumeView& view) {
+            view.cuts.push_back({.kept = {Vec3(1, 0, 0), -1.0}});
+          });
+  nothing("cut twice to nothing", "two cutting planes that keep nothing in common", {}, [](VolumeView& view) {
+    view.cuts.push_back({.kept = {Vec3(1, 0, 0), 0.4}});
+    view.cuts.push_back({.kept = {Vec3(-1, 0, 0), -0.6}});
+  });
+}
+
+void add_lenses(std::vector<Extreme>& rows, const Bench& bench) {
+  // A lens that shows what is shown without it leaves the picture as it is, wherever it lies.
+  const auto lens = [&](const std::string& name, const ConvexShape& shape) {
+    rows.push_back({ExtremeKind::kLens, name, "shows what is shown without it, over 16^3 points of one value",
+                    "opacity against the closed form", kStep, kUnit, [bench, shape] {
+                      return depth_error(*bench, {}, [&](VolumeView& view) {
+                        view.lenses.push_back({.shape = shape});
+                        view.lenses.back().samples_per_voxel = view.samples_per_voxel;
+                        view.lenses.back().shading = view.shading;
+                      });
+                    }});
+  };
+  lens("on a corner", make_sphere(Vec3(0.0), 0.6));
+  lens("on an edge", make_sphere({0.5, 0.0, 0.0}, 0.6));
+  lens("on the face before", make_sphere({0.5, 0.5, 1.0}, 0.5));
+  lens("that touches the face", make_sphere({0.5, 0.5, 1.5}, 0.5));
+  lens("beside the volume", make_sphere({5.0, 5.0, 5.0}, 1.0));
+  lens("around all of it", make_sphere(Vec3(0.5), 100.0));
+  lens("of no size", make_sphere(Vec3(0.5), 0.0));
+  lens("a millionth wide", make_sphere(Vec3(0.5), 1e-6));
+  lens("a box on its faces", make_box(Vec3(0.5), Mat3(0.5)));
+  lens("a plate a millionth thick",
+       make_box(Vec3(0.5), Mat3(Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 1e-6))));
+  // One that cuts all away leaves nothing.
+  rows.push_back({ExtremeKind::kLens, "that cuts all away", "a ball around 16^3 points of one value",
+                  "the brightest number: nothing is to be seen", 0.0, kUnit, [bench] {
+                    VolumeView view = view_of({}, 0.5);
+                    view.lenses.push_back({.shape = make_sphere(Vec3(0.5), 100.0), .cut = true});
+                    return brightest(bench->draw(view, along_z(view)));
+                  }});
+}
+
+void add_cameras(std::vector<Extreme>& rows, const Bench& bench) {
+  // From within, what lies before the eye: along z from a depth on.
+  const auto sound = [&](const std::string& name, const std::string& builder,
+                         const std::function<void(Camera&)>& move) {
+    rows.push_back({ExtremeKind::kCamera, name, builder, "the brightest number, none of them NaN", 1.0 + 1e-5,
+                    kUnit, [bench, move] {
+                      const VolumeView view = view_of({}, 0.5);
+                      Camera camera = make_camera(view.image->bounds(), {}, 1.0);
+                      move(camera);
+                      return brightest(bench->draw(view, camera));
+                    }});
+  };
+  sound("within", "the eye next to the middle of the volume", [](Camera& c) { c.view_height *= 1e-3; });
+  sound("within, a millionth of it seen", "the eye in its middle", [](Camera& c) { c.view_height *= 1e-6; });
+  sound("on a corner", "the eye next to the corner of the volume", [](Camera& c) {
+    c.focal_point = Vec3(0.0);
+    c.view_height *= 1e-3;
+  });
+  sound("along a face", "the eye in the plane of a face", [](Camera& c) {
+    c = make_camera({Vec3(0.0), Vec3(1.0)}, {.azimuth = 0.0, .elevation = 0.0}, 1.0);
+    c.focal_point = Vec3(0.5, 0.5, 1.0);
+  });
+  sound("a field of view of 179 degrees", "from the middle", [](Camera& c) { c.field_of_view = 3.124; });
+  const auto empty = [&](const std::string& name, const std::string& builder,
+                         const std::function<void(Camera&)>& move) {
+    rows.push_back({ExtremeKind::kCamera, name, builder, "the brightest number: nothing is to be seen", 0.0,
+                    kUnit, [bench, move] {
+                      const VolumeView view = view_of({}, 0.5);
+                      Camera camera = along_z(view);
+                      move(camera);
+                      return brightest(bench->draw(view, camera));
+                    }});
+  };
+  empty("aside", "a view that passes the volume by", [](Camera& c) { c.focal_point.x += 100.0; });
+  empty("that looks away", "the volume behind the eye", [](Camera& c) {
+    c.projection = Projection::kPerspective;
+    c.focal_point.z += 100.0;
+    c.axes = Mat3(Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1));
+  });
+  rows.push_back(
+      {ExtremeKind::kCamera, "a thousand times too near", "without perspective, on 16^3 points of one value",
+       "opacity against the closed form", kStep, kUnit, [bench] {
+         const VolumeView view = view_of({}, 0.5);
+         Camera camera = along_z(view);
+         camera.view_height *= 1e-3;
+         return std::abs(middle_opacity(bench->draw(view, camera)) - (1.0 - std::pow(1.0 - kOpacity, 2.0)));
+       }});
+}
+
+}  // namespace
+
+void add_picture_rows(std::vector<Extreme>& rows) {
+  const auto bench = std::make_shared<PictureBench>();
+  add_volumes(rows, bench);
+  add_lenses(rows, bench);
+  add_cameras(rows, bench);
+}
+
+}  // namespace palpate
