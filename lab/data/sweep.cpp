@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -86,8 +87,10 @@ class Sweeper {
   }
 
  private:
-  TraceResult trace(Integrator integrator, double tolerance, double step) const {
+  TraceResult trace(Integrator integrator, double tolerance, double step,
+                    std::int64_t most_steps = std::numeric_limits<std::int64_t>::max()) const {
     TraceOptions options = request_.trace;
+    options.max_steps = std::min(options.max_steps, most_steps);
     options.integrator = integrator;
     options.tolerance = tolerance;
     options.step = step;
@@ -145,7 +148,6 @@ class Sweeper {
                  double step = 0.0) {
     stage(std::string(name_of(integrator)) + " " + parameter);
     SweepRow row{.method = std::string(name_of(integrator)), .parameter = parameter, .setting = setting};
-    const double spacing = step > 0.0 ? step : sweep_.spacing;
     std::vector<double> seconds;
     TraceResult result;
     // Short runs are repeated more often: one of them says little.
@@ -153,9 +155,11 @@ class Sweeper {
     while (static_cast<int>(seconds.size()) < plan_.repeats ||
            (total < kShortestTiming && seconds.size() < kMostRepeats)) {
       if (progress_) progress_->check();
-      result = trace(integrator, tolerance, spacing);
+      result = step > 0.0 ? trace(integrator, tolerance, step)
+                          : trace(integrator, tolerance, sweep_.spacing, kMostSweptSteps);
       seconds.push_back(result.seconds_trace);
       total += seconds.back();
+      if (total > plan_.seconds_setting) break;  // so long a run says enough
     }
     std::sort(seconds.begin(), seconds.end());
     row.seconds = seconds[seconds.size() / 2];

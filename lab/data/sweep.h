@@ -60,6 +60,10 @@ struct SweepRequest {
   std::size_t most_lines = 48;  ///< seeds whose lines end inside are replaced by later ones up to this many
 };
 
+/// Pieces of a line that a tolerance is swept of, unless the request has fewer. What needs more, as explicit methods do on stiff flows, is counted as
+/// not finished: a report does not wait for it.
+inline constexpr std::int64_t kMostSweptSteps = 50'000;
+
 /// The references part where they differ by more of the diagonal.
 inline constexpr double kDisputed = 1e-6;
 

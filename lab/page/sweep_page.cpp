@@ -98,7 +98,9 @@ std::string sweep_section(const Sweep& sweep) {
                    sweep.second + ".");
   out += paragraph(
       "Every method is judged on every line. A line that ends for another reason, elsewhere, that does not finish "
-      "or that is missing has failed: its error is infinite, and a setting has a point in the plots only where "
+      "within " +
+      std::to_string(kMostSweptSteps) +
+      " pieces, or that is missing has failed: its error is infinite, and a setting has a point in the plots only where "
       "95 % of its lines have one. work_precision_lines.csv has every line of every row.");
   out += sweep_table(sweep);
   out +=
