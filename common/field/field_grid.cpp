@@ -7,6 +7,7 @@
 
 #include "common/base/index.h"
 #include "common/field/cells/coincident_points.h"
+#include "common/field/cells/covered_cells.h"
 #include "common/field/cells/curved_split.h"
 #include "common/field/cells/loose_points.h"
 #include "common/field/cells/thin_walls.h"
@@ -274,17 +275,18 @@ std::shared_ptr<TetMesh> make_mesh(SplitMesh& split, double scale, const std::st
   }
 }
 
-void note_seams(const Seams& seams, FieldNotes& notes) {
+/// @param ranked what overlaps there, is between parts of which one counts (covered_cells.h).
+void note_seams(const Seams& seams, bool ranked, FieldNotes& notes) {
   if (seams.faces > 0) {
     notes.lines.push_back(
         std::to_string(seams.faces) + " of " + count_text(seams.border_faces, "border face", "border faces") +
         " have cells behind them with points of their own: lines cross there by location" +
         (seams.over_gaps > 0 ? ", " + std::to_string(seams.over_gaps) + " over a gap" : ""));
   }
-  if (seams.overlapping > 0) {
+  if (seams.overlapping > 0 && !ranked) {
     notes.lines.push_back(
         count_text(seams.overlapping, "border face lies", "border faces lie") +
-        " inside other cells: where cells overlap, a seed takes the one that the search meets "
+        " inside other cells that they are joined to: where cells overlap so, a seed takes the one that the search meets "
         "first, and a line stays with the cells it is in until they end");
   }
 }
@@ -344,19 +346,30 @@ std::vector<std::uint32_t> sources_of(const TetMesh& mesh, const SplitMesh& spli
   return out;
 }
 
-ThinWalls find_walls(const TetMesh& mesh, const SplitMesh& split, std::span<const DataSet> blocks,
-                     const CoincidentPoints& points, const GridValue& value, int threads) {
-  const std::vector<std::uint32_t> source_cell = sources_of(mesh, split);
+std::vector<std::uint32_t> first_cells(std::span<const DataSet> blocks) {
   std::vector<std::uint32_t> first_cell;
   std::uint32_t cells = 0;
   for (const DataSet& block : blocks) {
     first_cell.push_back(cells);
     cells += static_cast<std::uint32_t>(block.cell_count());
   }
+  return first_cell;
+}
+
+/// The value of a cell, counted through all blocks.
+Vec3 value_of_cell(const GridValue& value, std::span<const DataSet> blocks,
+                   std::span<const std::uint32_t> first_cell, std::uint32_t cell) {
+  const auto block = as_size(std::ranges::upper_bound(first_cell, cell) - first_cell.begin()) - 1;
+  return value.of(blocks[block], cell - first_cell[block]);
+}
+
+ThinWalls find_walls(const TetMesh& mesh, const SplitMesh& split, std::span<const DataSet> blocks,
+                     const CoincidentPoints& points, const GridValue& value, int threads) {
+  const std::vector<std::uint32_t> source_cell = sources_of(mesh, split);
+  const std::vector<std::uint32_t> first_cell = first_cells(blocks);
   const VelocityBeside velocity = [&](std::uint32_t cell, std::uint32_t point) {
-    if (value.association == Association::kPoint) return points.value_at(point);
-    const auto block = as_size(std::ranges::upper_bound(first_cell, cell) - first_cell.begin()) - 1;
-    return value.of(blocks[block], cell - first_cell[block]);
+    return value.association == Association::kPoint ? points.value_at(point)
+                                                    : value_of_cell(value, blocks, first_cell, cell);
   };
   return {{.mesh = mesh, .source_cell = source_cell, .first_cell = first_cell, .place = points.place()},
           velocity,
@@ -394,9 +407,19 @@ std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, cons
       split = split_into_tetrahedra(used, file, joins);
       mesh = make_mesh(split, scale, file, threads);
     }
-    walls.close_faces(*mesh, sources_of(*mesh, split));
-    seams = find_seams(*mesh, threads);
   }
+  std::optional<CoveredCells> covered;
+  if (used.size() > 1 || seams.overlapping > 0) {
+    ValueBeside beside;
+    if (value != nullptr) {
+      beside = [&, first_cell = first_cells(used)](std::uint32_t cell, std::uint32_t point) {
+        return of_points ? coincident.value(point) : value_of_cell(*value, used, first_cell, cell);
+      };
+    }
+    covered.emplace(mesh, split, used, beside, threads);
+  }
+  if (seams.faces > 0) walls.close_faces(*mesh, sources_of(*mesh, split));
+  if (seams.faces > 0 || (covered && covered->any())) seams = find_seams(*mesh, threads);
   grid->tets = mesh;
   if (curved) {
     note_curved(*curved, grid->notes);
@@ -405,7 +428,8 @@ std::shared_ptr<FieldGrid> make_tetrahedra(std::span<const DataSet> blocks, cons
   note_split(split, grid->tets->points().size(), cells, grid->notes);
   coincident.note(grid->notes);
   walls.note(grid->notes);
-  note_seams(seams, grid->notes);
+  if (covered) covered->note(grid->notes);
+  note_seams(seams, covered && covered->any(), grid->notes);
 
   bool same = grid->tets->points().size() == split.point_of_input.size();
   for (std::size_t p = 0; same && p < split.point_of_input.size(); ++p) same = split.point_of_input[p] == p;

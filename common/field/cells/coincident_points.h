@@ -60,6 +60,8 @@ class CoincidentPoints {
   [[nodiscard]] std::span<const std::uint32_t> place() const noexcept { return place_; }
   /// Of a point of the mesh. @pre values of points.
   [[nodiscard]] Vec3 value_at(std::uint32_t point) const { return value(input_of_[point]); }
+  /// Of a point of the data, counted through all blocks. @pre values of points.
+  [[nodiscard]] Vec3 value(std::uint32_t input) const;
 
   /// For each point of the data the one that stands for it; empty where nothing is joined that was not.
   /// @param apart for each point of the mesh whether it is not joined within its block; empty where all are.
@@ -72,7 +74,6 @@ class CoincidentPoints {
 
  private:
   [[nodiscard]] std::size_t block_of(std::uint32_t input) const;
-  [[nodiscard]] Vec3 value(std::uint32_t input) const;
   [[nodiscard]] bool told_apart() const noexcept { return static_cast<bool>(value_); }
   [[nodiscard]] double jump(std::uint32_t a, std::uint32_t b) const;
 

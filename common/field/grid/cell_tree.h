@@ -41,10 +41,10 @@ class CellTree {
   /// A cell near `x`. @rt Safe.
   [[nodiscard]] std::size_t near(const Vec3& x) const noexcept;
 
-  /// Calls `visit(first, last)` for the cells of every leaf whose box holds `x`, until it returns true.
-  /// @rt Safe.
+  /// Calls `visit(first, last)` for the cells of every leaf whose box meets the box from `lower` to `upper`, or holds
+  /// a point, where both are it, until it returns true. @rt Safe.
   template <typename Visit>
-  void visit_leaves(const Vec3& x, Visit&& visit) const noexcept;
+  void visit_leaves(const Vec3& lower, const Vec3& upper, Visit&& visit) const noexcept;
 
  private:
   void make_bins(const Vec3& size, std::span<const std::array<float, 3>> centres, int threads);
@@ -72,11 +72,12 @@ class CellTree {
     std::array<std::array<float, kWidth>, 3> lower;
     std::array<std::array<float, kWidth>, 3> upper;
 
-    [[nodiscard]] unsigned holding(const std::array<float, 3>& x) const noexcept {
+    [[nodiscard]] unsigned meeting(const std::array<float, 3>& low,
+                                   const std::array<float, 3>& high) const noexcept {
       unsigned mask = 0;
       for (unsigned i = 0; i < kWidth; ++i) {
-        const bool inside = (x[0] >= lower[0][i]) & (x[0] <= upper[0][i]) & (x[1] >= lower[1][i]) &
-                            (x[1] <= upper[1][i]) & (x[2] >= lower[2][i]) & (x[2] <= upper[2][i]);
+        const bool inside = (high[0] >= lower[0][i]) & (low[0] <= upper[0][i]) & (high[1] >= lower[1][i]) &
+                            (low[1] <= upper[1][i]) & (high[2] >= lower[2][i]) & (low[2] <= upper[2][i]);
         mask |= static_cast<unsigned>(inside) << i;
       }
       return mask;
@@ -103,7 +104,7 @@ class CellTree {
 };
 
 template <typename Visit>
-void CellTree::visit_leaves(const Vec3& x, Visit&& visit) const noexcept {
+void CellTree::visit_leaves(const Vec3& lower, const Vec3& upper, Visit&& visit) const noexcept {
   if (levels_.empty()) return;
   struct Pending {
     std::uint32_t node;
@@ -112,10 +113,10 @@ void CellTree::visit_leaves(const Vec3& x, Visit&& visit) const noexcept {
   };
   constexpr std::size_t kMaxLevels = 20;  // 4^20 leaves: more than any mesh has
   std::array<Pending, kMaxLevels> stack;
-  const std::array<float, 3> q = query(x);
+  const std::array<float, 3> low = query(lower), high = query(upper);
   std::size_t depth = 0;
   const auto push = [&](std::size_t level, std::size_t node) {
-    const unsigned mask = levels_[level][node].holding(q);
+    const unsigned mask = levels_[level][node].meeting(low, high);
     if (mask != 0) {
       stack[depth++] = {static_cast<std::uint32_t>(node), static_cast<std::uint8_t>(level),
                         static_cast<std::uint8_t>(mask)};

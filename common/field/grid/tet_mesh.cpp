@@ -260,11 +260,30 @@ bool TetMesh::locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexc
     // False for NaN.
     if (!(x[axis] >= bounds_.lower[axis] - slack_ && x[axis] <= bounds_.upper[axis] + slack_)) return false;
   }
-  if (hint >= 0 && as_size(hint) < cells_.size() && walk(x, hint, kFarHint, found)) {
-    return true;
-  }
   constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
-  return walk(x, static_cast<CellIndex>(tree_.near(x)), kAnyDistance, found) || search(x, found);
+  const bool hinted = hint >= 0 && as_size(hint) < cells_.size() && walk(x, hint, kFarHint, found);
+  if (!hinted && !walk(x, static_cast<CellIndex>(tree_.near(x)), kAnyDistance, found) && !search(x, found)) {
+    return false;
+  }
+  if (!rank_.empty() && contested_[as_size(found.cell)] != 0) take_first_rank(x, found);
+  return true;
+}
+
+void TetMesh::rank_cells(std::vector<std::uint32_t> rank, std::vector<std::uint8_t> contested) {
+  PALPATE_CHECK(rank.size() == cells_.size() && contested.size() == cells_.size());
+  rank_ = std::move(rank);
+  contested_ = std::move(contested);
+}
+
+void TetMesh::take_first_rank(const Vec3& x, TetPoint& found) const noexcept {
+  tree_.visit_leaves(x, x, [&](std::size_t first, std::size_t last) {
+    for (std::size_t c = first; c < last; ++c) {
+      if (rank_[c] >= rank_[as_size(found.cell)] || zero_volume_[c] != 0) continue;
+      const Vec4 b = barycentric(static_cast<CellIndex>(c), x);
+      if (b[least(b)] >= 0.0) found = {static_cast<CellIndex>(c), b};
+    }
+    return false;
+  });
 }
 
 bool TetMesh::walk(const Vec3& x, CellIndex start, double farthest, TetPoint& found) const noexcept {
@@ -323,7 +342,7 @@ bool TetMesh::search(const Vec3& x, TetPoint& found) const noexcept {
   double flat_edge2 = 0.0;  // longest edge of a zero-volume cell near x
   TetPoint nearest;
   double nearest_outside = std::numeric_limits<double>::infinity();
-  tree_.visit_leaves(x, [&](std::size_t first, std::size_t last) {
+  tree_.visit_leaves(x, x, [&](std::size_t first, std::size_t last) {
     for (std::size_t c = first; c < last; ++c) {
       const Tet& v = cells_[c];
       const TetShape shape(points_.data(), v);

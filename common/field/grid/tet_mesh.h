@@ -64,8 +64,17 @@ class TetMesh {
   /// walk leaves a non-convex mesh, meets a zero-volume cell or runs past its bound, every cell of the index
   /// that may hold `x` is asked. A point on a face, edge or vertex always belongs to some cell, and so do
   /// points less than rounding (2^-50 of the largest coordinate) outside. False outside and for NaN.
-  /// Never returns a zero-volume cell. @rt Safe.
+  /// Never returns a zero-volume cell. Where cells overlap: rank_cells(). @rt Safe.
   [[nodiscard]] bool locate(const Vec3& x, CellIndex hint, TetPoint& found) const noexcept;
+
+  /// Says which cell counts where several hold a point: the one of the lowest rank.
+  /// @param contested a byte for each cell, not 0 where cells of a lower rank may hold points of it.
+  void rank_cells(std::vector<std::uint32_t> rank, std::vector<std::uint8_t> contested);
+  /// Calls `visit(first, last)` for runs of cells among which are all that meet a box, until it returns true. @rt Safe.
+  template <typename Visit>
+  void visit_cells(const Box& box, Visit&& visit) const noexcept {
+    tree_.visit_leaves(box.lower, box.upper, visit);
+  }
 
   /// Barycentric coordinates of `x` in `cell`. @pre not zero_volume(cell).
   [[nodiscard]] Vec4 barycentric(CellIndex cell, const Vec3& x) const noexcept;
@@ -92,6 +101,7 @@ class TetMesh {
   template <typename T>
   void fill_steps(LargeVector<Step<T>>& steps, int threads);
   [[nodiscard]] bool search(const Vec3& x, TetPoint& found) const noexcept;
+  void take_first_rank(const Vec3& x, TetPoint& found) const noexcept;
   /// @return which cells were turned.
   [[nodiscard]] std::vector<std::uint8_t> orient_cells(int threads);
   void find_neighbors(const std::vector<std::uint8_t>& turned, int threads);
@@ -114,7 +124,9 @@ class TetMesh {
   Box bounds_;
   double slack_ = 0.0;  ///< distance that rounding moves a point [frame L]
   CellTree tree_;
-  std::vector<std::uint8_t> walls_;  ///< a bit for each face that is closed; empty where none is
+  std::vector<std::uint32_t> rank_;      ///< of each cell; empty where all count alike
+  std::vector<std::uint8_t> contested_;  ///< as rank_cells() has it
+  std::vector<std::uint8_t> walls_;      ///< a bit for each face that is closed; empty where none is
 };
 
 }  // namespace palpate

@@ -71,6 +71,13 @@ bool is_constant(const ExactMesh& mesh, CellIndex cell) {
   return true;
 }
 
+/// Whether another cell counts at x, on a face of `cell`, though it is in this one: blocks overlap there (overlaps.h).
+bool gives_way(const TetMesh& mesh, CellIndex cell, const FaceNormal& face, const Vec3& x) {
+  constexpr double kInwards = 0x1p-20;
+  TetPoint found;
+  return mesh.locate(x - (kInwards * face.size) * face.outward, cell, found) && found.cell != cell;
+}
+
 /// The nearest coordinates that a point of the cell has, nearly.
 Vec4 clamped(const Vec4& b) {
   const Vec4 kept = glm::max(b, Vec4(0.0));
@@ -98,7 +105,8 @@ SeamCrossing cross_seam(const ExactMesh& mesh, CellIndex from, int face, const V
   constexpr int kStuck = 4;
   constexpr double kNudge = 0x1p-10;
   const FaceNormal face_of = face_normal(tets, from, face);
-  const bool constant = is_constant(mesh, from) && is_constant(mesh, out.cell);
+  const bool constant =
+      is_constant(mesh, from) && is_constant(mesh, out.cell) && !gives_way(tets, from, face_of, x);
   const double towards = glm::dot(before, face_of.outward);
   if (constant && towards > 0.0 && glm::dot(out.v, face_of.outward) < 0.0) {
     out.opposed = true;

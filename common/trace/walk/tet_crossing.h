@@ -17,7 +17,8 @@ struct SeamCrossing {
   Vec3 x{0.0};               ///< in the cell
   Vec3 v{0.0};               ///< the velocity there
   /// Distance that the line may be off for it: the gap, and the jump of the velocity as an angle, over the cell
-  /// that it leaves. The jump between cells of constant velocity is the field's own, and what comes of it is exact.
+  /// that it leaves. The jump between cells of constant velocity is the field's own, and what comes of it is exact; not so
+  /// where blocks overlap.
   double error = 0.0;
   /// Cells of constant velocity: what becomes of an error e is e + jump * (lever . e): who is off reaches the face at
   /// another time.

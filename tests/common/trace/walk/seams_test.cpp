@@ -1,5 +1,5 @@
 // Lines through meshes whose cells share no points where they meet: points of their own, hanging nodes, blocks that
-// meet shifted or overlap. The reference is the closed form of u = (-y, x, 0.3).
+// meet shifted; those that overlap are in overlaps_test.cpp. The reference is the closed form of u = (-y, x, 0.3).
 
 #include <array>
 #include <cmath>
@@ -16,152 +16,12 @@
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/grid/tet_seams.h"
 #include "common/trace/trace.h"
-#include "tests/common/trace/linear_fields.h"
-#include "tests/support/sample_meshes.h"
+#include "tests/common/trace/walk/seam_meshes.h"
 
 namespace palpate {
 namespace {
 
-using Field = std::shared_ptr<const VectorField>;
-
-Vec3 helix(const Vec3& x) { return {-x.y, x.x, 0.3}; }
-Vec3 on_helix(const Vec3& x, double t) {
-  const double c = std::cos(t), s = std::sin(t);
-  return {c * x.x - s * x.y, s * x.x + c * x.y, x.z + 0.3 * t};
-}
-
-/// Cells of one block, each with points of its own.
-class OwnPoints {
- public:
-  /// @param noise by which points that coincide differ; @param jump by which the values of each cell do.
-  OwnPoints(double noise, double jump) : noise_(noise), jump_(jump) {}
-
-  void add(std::uint8_t type, const std::vector<Vec3>& corners) {
-    const Vec3 shift = jump_ * random_vector();
-    for (const Vec3& corner : corners) {
-      const Vec3 x = corner + noise_ * random_vector(), v = helix(x) + shift;
-      topology_.connectivity.push_back(static_cast<std::int64_t>(position_.size() / 3));
-      position_.insert(position_.end(), {x.x, x.y, x.z});
-      value_.insert(value_.end(), {v.x, v.y, v.z});
-    }
-    topology_.types.push_back(type);
-    topology_.offsets.push_back(static_cast<std::int64_t>(topology_.connectivity.size()));
-  }
-
-  /// A box of n cells along each axis, each a hexahedron, or made of six pyramids, two wedges or five tetrahedra.
-  void add_box(std::uint8_t type, const Vec3& lower, const Vec3& upper, const Index3& n) {
-    for (int k = 0; k < n.z; ++k) {
-      for (int j = 0; j < n.y; ++j) {
-        for (int i = 0; i < n.x; ++i) {
-          const auto at = [&](int a, int b, int c) {
-            return lower + (upper - lower) * Vec3(i + a, j + b, k + c) / Vec3(n);
-          };
-          add_cube(type,
-                   {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0), at(0, 0, 1), at(1, 0, 1), at(1, 1, 1),
-                    at(0, 1, 1)},
-                   (i + j + k) % 2 != 0);
-        }
-      }
-    }
-  }
-
-  [[nodiscard]] DataSet take() const {
-    DataSet block;
-    UnstructuredTopology topology = topology_;
-    topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position_));
-    block.topology = std::move(topology);
-    block.arrays.push_back(make_array("velocity", Association::kPoint, 3, std::span<const double>(value_)));
-    return block;
-  }
-
- private:
-  void add_cube(std::uint8_t type, const std::array<Vec3, 8>& x, bool odd) {
-    if (type == 12) add(12, {x.begin(), x.end()});
-    if (type == 13) {
-      add(13, {x[0], x[1], x[2], x[4], x[5], x[6]});
-      add(13, {x[0], x[2], x[3], x[4], x[6], x[7]});
-    }
-    if (type == 14) {
-      Vec3 middle{0.0};
-      for (const Vec3& corner : x) middle += 0.125 * corner;
-      for (const auto& f : std::array<std::array<std::size_t, 4>, 6>{
-               {{0, 1, 2, 3}, {7, 6, 5, 4}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}})
-        add(14, {x[f[0]], x[f[1]], x[f[2]], x[f[3]], middle});
-    }
-    if (type == 10) {
-      using Five = std::array<std::array<std::size_t, 4>, 5>;
-      for (const auto& t : odd ? Five{{{1, 0, 2, 5}, {3, 0, 2, 7}, {4, 0, 5, 7}, {6, 2, 5, 7}, {0, 2, 5, 7}}}
-                               : Five{{{0, 1, 3, 4}, {2, 1, 3, 6}, {5, 1, 4, 6}, {7, 3, 4, 6}, {1, 3, 4, 6}}})
-        add(10, {x[t[0]], x[t[1]], x[t[2]], x[t[3]]});
-    }
-  }
-  Vec3 random_vector() {
-    std::uniform_real_distribution<double> one(-1.0, 1.0);
-    const double x = one(random_), y = one(random_);
-    return {x, y, one(random_)};
-  }
-
-  double noise_, jump_;
-  std::mt19937_64 random_{7};
-  UnstructuredTopology topology_{.positions = {}, .types = {}, .offsets = {0}, .connectivity = {}};
-  std::vector<double> position_, value_;
-};
-
-Field field_of(const std::vector<DataSet>& blocks) {
-  const ArrayInfo info{"velocity", Association::kPoint, 3, ScalarType::kFloat64, 1};
-  return make_vector_field(blocks, choose_vector({info}, "velocity", "seams"), "seams");
-}
-
-DataSet lattice(const Index3& n, const Vec3& lower, const Vec3& upper, double turn = 0.0) {
-  std::vector<Vec3> positions;
-  for (int k = 0; k <= n.z; ++k) {
-    for (int j = 0; j <= n.y; ++j) {
-      for (int i = 0; i <= n.x; ++i) {
-        const Vec3 x = lower + (upper - lower) * Vec3(i, j, k) / Vec3(n);
-        positions.emplace_back(std::cos(turn) * x.x - std::sin(turn) * x.y,
-                               std::sin(turn) * x.x + std::cos(turn) * x.y, x.z);
-      }
-    }
-  }
-  return test::structured_block(n + 1, positions, helix);
-}
-
-std::vector<Vec3> seeds(int count) {
-  std::vector<Vec3> out = test::random_seeds(count, 0.7, 5);
-  for (Vec3& x : out) x.z = 0.05 + 0.2 * std::abs(x.z);
-  return out;
-}
-
-/// Every line follows the helix up to z = 2 or to a side of the box; within `tolerance`, and what it states.
-void expect_helices(const Field& field, double tolerance) {
-  const std::vector<Vec3> from = seeds(40);
-  for (const Integrator integrator : {Integrator::kExact, Integrator::kDp54, Integrator::kRodas4}) {
-    SCOPED_TRACE(name_of(integrator));
-    TraceOptions options;
-    options.integrator = integrator;
-    options.tolerance = 1e-9;
-    options.threads = 1;
-    const TraceResult result = trace_lines(*field, from, options);
-    ASSERT_EQ(result.lines.size(), from.size());
-    for (const Line& line : result.lines) {
-      const LinePoint& last = line.points.back();
-      EXPECT_EQ(line.end, End::kLeftDomain) << name_of(line.end) << " seed " << line.seed;
-      const double side = std::max(std::abs(last.position.x), std::abs(last.position.y));
-      EXPECT_NEAR(std::max(side, last.position.z - 1.0), 1.0, 1e-6) << "seed " << line.seed;
-      for (const LinePoint& p : line.points) {
-        const double off = glm::distance(p.position, on_helix(from[line.seed], p.time));
-        ASSERT_LE(off, tolerance) << "seed " << line.seed << " t " << p.time;
-      }
-    }
-  }
-}
-
-bool noted(const Field& field, const std::string& words) {
-  for (const std::string& line : field->notes().lines) {
-    if (line.find(words) != std::string::npos) return true;
-  }
-  return false;
-}
+using namespace test::seams;
 
 TEST(Seams, CellsWithPointsOfTheirOwnAreOneMesh) {
   for (const std::uint8_t type : {10, 12, 13, 14}) {
@@ -202,20 +62,17 @@ TEST(Seams, LinesCrossHangingNodes) {
   }
 }
 
-TEST(Seams, LinesCrossBlocksThatMeetShifted) {
-  OwnPoints cells(0.0, 0.0);
-  cells.add_box(14, {0.1, -1, 0}, {1, 1, 2}, {3, 7, 4});
-  expect_helices(field_of({lattice({5, 4, 6}, {-1, -1, 0}, {0.1, 1, 2}), cells.take()}), 1e-6);
-  expect_helices(
-      field_of({lattice({5, 4, 6}, {-1, -1, 0}, {0.1, 1, 2}), lattice({3, 7, 5}, {0.1, -1, 0}, {1, 1, 2})}),
-      1e-6);
-}
-
-TEST(Seams, LinesGoOnInTheGridThatOverlaps) {
-  const Field field = field_of({lattice({8, 8, 8}, {-1, -1, 0}, {1, 1, 2}),
-                                lattice({12, 12, 12}, {-0.4, -0.4, 0.3}, {0.4, 0.4, 1.4}, 0.3)});
-  EXPECT_TRUE(noted(field, "where cells overlap"));
-  expect_helices(field, 1e-6);
+TEST(Seams, LinesCrossBlocksOfAllKindsThatMeetShifted) {
+  for (const int kind : kBlockKinds) {
+    for (const int other : kBlockKinds) {
+      SCOPED_TRACE(kind);
+      SCOPED_TRACE(other);
+      const Field field = field_of({block_of(kind, {5, 4, 6}, {-1, -1, 0}, {0.1, 1, 2}),
+                                    block_of(other, {3, 7, 5}, {0.1, -1, 0}, {1, 1, 2})});
+      EXPECT_FALSE(noted(field, "overlap"));
+      expect_helices(field, 1e-6);
+    }
+  }
 }
 
 TEST(Seams, JumpsCountIntoTheError) {
