@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "common/base/index.h"
+#include "common/field/field_grid.h"
 #include "common/field/grid/box_grid.h"
 #include "common/trace/walk/walk_factory.h"
 
@@ -15,6 +16,8 @@ namespace {
 
 constexpr double kInside = -FlowInTime::kFace;  // barycentric
 constexpr int kMostCells = 512;                 // of a walk; beyond it the index is quicker
+// Frames round: a place on the border of one is beyond that of another. Part of a cell that it is kept inside.
+constexpr double kBorder = 1e-12;
 
 /// d/dt at times[at] of the parabola through three times, as weights of the values there.
 std::array<double, 3> parabola_slope(const std::array<double, 3>& times, std::size_t at) {
@@ -44,7 +47,13 @@ bool same_frames(const LocalFrame& a, const LocalFrame& b) {
 bool same_axes(const VectorField& a, const VectorField& b) {
   const BoxGrid &p = *a.box_grid(), &q = *b.box_grid();
   return p.points() == q.points() && p.directions() == q.directions() &&
-         a.frame().rotation == b.frame().rotation;
+         a.frame().rotation == b.frame().rotation && a.grid()->reversed == b.grid()->reversed;
+}
+
+/// Whether both are lattices of as many points along each axis, however these lie.
+bool same_lattices(const VectorField& a, const VectorField& b) {
+  const BoxGrid &p = *a.box_grid(), &q = *b.box_grid();
+  return p.uniform() && q.uniform() && p.points() == q.points();
 }
 
 /// Whether both have the same cells of the same points, whatever the order in which they lie.
@@ -77,8 +86,11 @@ void FlowInTime::compare_meshes() {
     if (own.analytic() != nullptr && other.analytic() != nullptr) continue;
     if (own.grid() == other.grid()) continue;
     if (own.box_grid() != nullptr) {
-      moving = moving && other.box_grid() != nullptr && same_axes(own, other);
-      fixed = fixed && moving && same_frames(own.frame(), other.frame()) &&
+      const bool along = other.box_grid() != nullptr && same_axes(own, other);
+      const bool turned = !along && other.box_grid() != nullptr && same_lattices(own, other);
+      boxes_turn_ = boxes_turn_ || turned;
+      moving = moving && (along || turned);
+      fixed = fixed && along && same_frames(own.frame(), other.frame()) &&
               same_boxes(*own.box_grid(), *other.box_grid());
       continue;
     }
@@ -90,6 +102,7 @@ void FlowInTime::compare_meshes() {
   if (mesh_ == Mesh::kOther) return;
   tets_ = own.tet_mesh();
   boxes_move_ = mesh_ == Mesh::kMoving && own.box_grid() != nullptr;
+  boxes_turn_ = boxes_turn_ && boxes_move_;
   if (mesh_ != Mesh::kMoving || boxes_move_) return;
   cell_of_data_.resize(tets_->cells().size());
   for (std::size_t c = 0; c < cell_of_data_.size(); ++c)
@@ -231,7 +244,52 @@ double FlowInTime::line_at(const Weights& w, int axis, int i) const noexcept {
   return sum;
 }
 
+Vec3 FlowInTime::lattice_point(std::size_t step, const Vec3& number) const noexcept {
+  const VectorField& field = *steps_[step].field;
+  const BoxGrid& grid = *field.box_grid();
+  Vec3 y{0.0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const int last = grid.points()[axis] - 1;
+    const double first = grid.coordinate(axis, 0);
+    const double i = field.grid()->reversed[as_size(axis)] ? last - number[axis] : number[axis];
+    y[axis] = first + i * ((grid.coordinate(axis, last) - first) / last);
+  }
+  return field.frame().data_from_local(grid.in_frame(y));
+}
+
+Mat3 FlowInTime::lattice_axes(std::size_t step) const noexcept {
+  const Index3& n = steps_[step].field->box_grid()->points();
+  const Vec3 origin = lattice_point(step, Vec3{0.0});
+  Mat3 out;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 last{0.0};
+    last[axis] = n[axis] - 1;
+    out[axis] = (lattice_point(step, last) - origin) / last[axis];
+  }
+  return out;
+}
+
+bool FlowInTime::locate_in_lattice(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept {
+  const VectorField& own = *steps_[first_].field;
+  Vec3 origin{0.0};
+  Mat3 axes{0.0};
+  for (std::size_t j = 0; j < steps_.size(); ++j) {
+    origin += w[j] * lattice_point(j, Vec3{0.0});
+    axes += w[j] * lattice_axes(j);
+  }
+  const double unit = power_of_two(-own.frame().length_exponent);
+  at.inverse = unit * glm::inverse(unit * axes);
+  at.number = at.inverse * (x - origin);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = own.box_grid()->points()[axis] - 1;
+    if (!(at.number[axis] >= -kFace && at.number[axis] <= last + kFace)) return false;
+    at.number[axis] = std::clamp(at.number[axis], kBorder, last - kBorder);
+  }
+  return true;
+}
+
 bool FlowInTime::locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept {
+  if (boxes_turn_) return locate_in_lattice(w, x, at);
   const VectorField& own = *steps_[first_].field;
   const BoxGrid& grid = *own.box_grid();
   const Vec3 y = own.frame().length_scale() * grid.along_axes(own.frame().local_from_data(x));
@@ -246,8 +304,6 @@ bool FlowInTime::locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) 
     at.width[axis] = line_at(w, axis, low + 1) - lower;
     const double u = (y[axis] - lower) / at.width[axis];
     if (!(u >= -kFace && u <= 1.0 + kFace)) return false;
-    // Frames that turn round: a place on the border of one is beyond that of another.
-    constexpr double kBorder = 1e-12;
     at.u[axis] =
         std::clamp(u, low == 0 ? kBorder : 0.0, low + 2 == grid.points()[axis] ? 1.0 - kBorder : 1.0);
   }
@@ -255,6 +311,7 @@ bool FlowInTime::locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) 
 }
 
 Vec3 FlowInTime::place_in_step(std::size_t step, const BoxPlace& at) const noexcept {
+  if (boxes_turn_) return lattice_point(step, at.number);
   const VectorField& field = *steps_[step].field;
   const BoxGrid& grid = *field.box_grid();
   Vec3 y{0.0};
@@ -266,6 +323,7 @@ Vec3 FlowInTime::place_in_step(std::size_t step, const BoxPlace& at) const noexc
 }
 
 Mat3 FlowInTime::motion_to_step(std::size_t step, const BoxPlace& at) const noexcept {
+  if (boxes_turn_) return lattice_axes(step) * at.inverse;
   const VectorField& field = *steps_[step].field;
   const BoxGrid& grid = *field.box_grid();
   const Mat3 along = field.frame().rotation * grid.directions();

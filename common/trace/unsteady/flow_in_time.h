@@ -13,6 +13,9 @@
 ///   v(t, x) = sum_j w_j(t) v_j(x_j),    x_j at step j where x is at t among the cells
 ///                                       between the lines sum_j w_j(t) c_ij of an axis                    (3)
 ///
+/// On an image whose axes A_j and origin o_j turn, x_j = o_j + A_j n with sum_j w_j(t) (o_j + A_j n) = x: points move
+/// straight from step to step there, as in (2).
+///
 /// Where cells change from step to step, (1) holds at the place itself.
 #pragma once
 
@@ -37,7 +40,7 @@ class FlowInTime {
   };
   enum class Mesh : std::uint8_t {
     kFixed,
-    kMoving,  ///< the same cells of points that move; of grids along axes, that move along these
+    kMoving,  ///< the same cells of points that move; of rectilinear grids, that move along their axes
     kOther    ///< other cells
   };
   /// Where a particle was found, which makes its next place quick to find. Any value is allowed.
@@ -73,6 +76,9 @@ class FlowInTime {
     Index3 cell{0};
     Vec3 u{0.0};      ///< in the cell, 0 to 1 along its axes
     Vec3 width{1.0};  ///< of the cell, along the axes, data units
+    // Of images that turn, in place of these:
+    Vec3 number{0.0};   ///< n
+    Mat3 inverse{1.0};  ///< of the axes as they stand
   };
 
   [[nodiscard]] Weights weights(double t) const noexcept;
@@ -84,6 +90,10 @@ class FlowInTime {
   [[nodiscard]] bool search(const Weights& w, const Vec3& x, Cell& at) const noexcept;
   void compare_meshes();
   [[nodiscard]] double line_at(const Weights& w, int axis, int i) const noexcept;
+  /// o_j + A_j n, and A_j.
+  [[nodiscard]] Vec3 lattice_point(std::size_t step, const Vec3& number) const noexcept;
+  [[nodiscard]] Mat3 lattice_axes(std::size_t step) const noexcept;
+  [[nodiscard]] bool locate_in_lattice(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept;
   [[nodiscard]] bool locate_in_boxes(const Weights& w, const Vec3& x, BoxPlace& at) const noexcept;
   [[nodiscard]] Vec3 place_in_step(std::size_t step, const BoxPlace& at) const noexcept;
   /// dx_j/dx of (3).
@@ -93,6 +103,7 @@ class FlowInTime {
   std::size_t first_;
   const TetMesh* tets_ = nullptr;  ///< of steps_[first_], where values are taken by (2)
   bool boxes_move_ = false;        ///< of images and rectilinear grids: values are taken by (3)
+  bool boxes_turn_ = false;        ///< images whose axes turn
   Mesh mesh_ = Mesh::kFixed;
   std::vector<CellIndex> cell_of_data_;  ///< moving: of tets_, by the number that it has in the data
   double cell_size_ = 1.0;

@@ -422,6 +422,61 @@ TEST(Pathlines, GoWithAGridThatMoves) {
   }
 }
 
+/// An image that turns about z and shifts along x, and the flow of that motion, plus a slip along z.
+struct TurningImage {
+  RigidMesh motion;
+  Vec3 spacing{0.25, 0.2, 0.25};
+
+  [[nodiscard]] std::shared_ptr<const VectorField> at(double t) const {
+    constexpr Index3 kPoints{9, 11, 9};
+    const Vec3 origin = motion.moved(Vec3{-1.0}, t);
+    UniformTopology topology{.points = kPoints, .origin = origin, .axes = Mat3{1.0}};
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 next{-1.0};
+      next[axis] += spacing[axis];
+      topology.axes[axis] = motion.moved(next, t) - origin;
+    }
+    std::vector<double> v;
+    for (int k = 0; k < kPoints.z; ++k) {
+      for (int j = 0; j < kPoints.y; ++j) {
+        for (int i = 0; i < kPoints.x; ++i) {
+          const Vec3 flow = motion.velocity(origin + topology.axes * Vec3(i, j, k), t);
+          v.insert(v.end(), {flow.x, flow.y, flow.z});
+        }
+      }
+    }
+    DataSet block;
+    block.topology = topology;
+    block.arrays = {make_array(test::kSampledName, Association::kPoint, 3, std::span<const double>(v))};
+    return test::field_of(block);
+  }
+};
+
+TEST(Pathlines, GoWithAnImageThatTurns) {
+  // By half a turn in all, so that its axes are, among others, those of the data, and these backwards.
+  constexpr double kHalfTurn = std::numbers::pi / 2.0;
+  for (const RigidMesh& motion : {RigidMesh{kHalfTurn, 0.3, 0.1}, RigidMesh{-kHalfTurn, 0.0, -0.2}}) {
+    const TurningImage image{motion};
+    const std::vector<double> times = test::steps_until(2.0, 40);
+    const auto read = [&](std::size_t step) { return image.at(times[step]); };
+    std::vector<Vec3> seeds;
+    for (const Vec3& x : kSeeds) seeds.push_back(motion.moved(x, 0.12));  // between two steps
+    const UnsteadyResult result = trace_unsteady(
+        times, read, seeds, {.order = TimeOrder::kCubic, .from = 0.12, .trace = {.max_length = 1e3}});
+    EXPECT_TRUE(result.in_time.moving_mesh);
+    EXPECT_FALSE(result.in_time.other_meshes);
+    ASSERT_EQ(result.trace.lines.size(), seeds.size());
+    for (const Line& line : result.trace.lines) {
+      EXPECT_EQ(line.end, End::kEndOfTime) << name_of(line.end);
+      for (const LinePoint& point : line.points) {
+        const Vec3 there =
+            motion.moved(kSeeds[line.seed], 0.12 + point.time) + Vec3{0.0, 0.0, motion.slip * point.time};
+        EXPECT_LT(glm::distance(point.position, there), 1e-3);
+      }
+    }
+  }
+}
+
 TEST(Pathlines, TakeOtherCellsWhereTheyLie) {
   const std::vector<double> times = test::steps_until(2.0, 40);
   const auto read = [&](std::size_t step) {
