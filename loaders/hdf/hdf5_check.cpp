@@ -1,6 +1,8 @@
 #include "loaders/hdf/hdf5_check.h"
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <hdf5.h>
@@ -73,6 +75,28 @@ void check_hdf5(const std::string& file) {
   if (!search.problem.empty())
     throw input_error({file, "data set '" + search.name + "'", search.problem, "what the file holds",
                        "the file may be damaged"});
+}
+
+// "VTK File Formats", VTKHDF: version 2 has time, tables of meshes and levels of refinement.
+void check_vtkhdf_version(const std::string& file) {
+  constexpr int kRead = 1;
+  std::array<int, 2> version{kRead, 0};
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (opened < 0) return;  // which its reader says
+  if (H5Aexists_by_name(opened, "/VTKHDF", "Version", H5P_DEFAULT) > 0) {
+    const hid_t attribute = H5Aopen_by_name(opened, "/VTKHDF", "Version", H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Aget_space(attribute);
+    if (H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(version.size()))
+      H5Aread(attribute, H5T_NATIVE_INT, version.data());
+    H5Sclose(space);
+    H5Aclose(attribute);
+  }
+  H5Fclose(opened);
+  if (version[0] == kRead) return;
+  throw input_error({file, "",
+                     "is VTKHDF of version " + std::to_string(version[0]) + "." + std::to_string(version[1]),
+                     "version 1 (an image or a mesh of one time), which VTK 9.1 reads",
+                     "open it in ParaView and save it as .vtu, or a series as .pvd"});
 }
 
 }  // namespace palpate

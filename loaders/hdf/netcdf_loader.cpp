@@ -21,30 +21,44 @@
 namespace palpate {
 namespace {
 
-/// The attribute `units` of variables, in small letters; empty where there is none.
-class Units {
+/// Attributes of variables.
+class Attributes {
  public:
-  explicit Units(const std::string& file) : opened_(nc_open(file.c_str(), NC_NOWRITE, &file_) == NC_NOERR) {}
-  ~Units() {
+  explicit Attributes(const std::string& file)
+      : opened_(nc_open(file.c_str(), NC_NOWRITE, &file_) == NC_NOERR) {}
+  ~Attributes() {
     if (opened_) nc_close(file_);
   }
-  Units(const Units&) = delete;
-  Units& operator=(const Units&) = delete;
+  Attributes(const Attributes&) = delete;
+  Attributes& operator=(const Attributes&) = delete;
 
-  [[nodiscard]] std::string of(const std::string& variable) const {
-    constexpr std::size_t kLongest = 200;
+  /// `units`, in small letters; empty where there is none.
+  [[nodiscard]] std::string units_of(const std::string& variable) const {
     int id = 0;
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (!opened_ || nc_inq_varid(file_, variable.c_str(), &id) != NC_NOERR ||
-        nc_inq_att(file_, id, "units", &type, &length) != NC_NOERR || type != NC_CHAR || length > kLongest)
-      return {};
-    std::string text(length, ' ');
-    if (nc_get_att_text(file_, id, "units", text.data()) != NC_NOERR) return {};
-    return lowered(trimmed(text));
+    return opened_ && nc_inq_varid(file_, variable.c_str(), &id) == NC_NOERR ? text_of(id, "units") : "";
+  }
+  /// Whether a variable is the topology of a mesh (UGRID conventions, "Topology dimension").
+  [[nodiscard]] bool of_mesh() const {
+    int count = 0;
+    if (!opened_ || nc_inq_nvars(file_, &count) != NC_NOERR) return false;
+    for (int id = 0; id < count; ++id) {
+      if (text_of(id, "cf_role") == "mesh_topology") return true;
+    }
+    return false;
   }
 
  private:
+  [[nodiscard]] std::string text_of(int variable, const char* name) const {
+    constexpr std::size_t kLongest = 200;
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    if (nc_inq_att(file_, variable, name, &type, &length) != NC_NOERR || type != NC_CHAR || length > kLongest)
+      return {};
+    std::string text(length, ' ');
+    if (nc_get_att_text(file_, variable, name, text.data()) != NC_NOERR) return {};
+    return lowered(trimmed(text));
+  }
+
   int file_ = 0;
   bool opened_;
 };
@@ -54,6 +68,10 @@ class NetcdfLoader : public OneReader {
   vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
     check_netcdf(file);
     check_hdf5(file);
+    if (Attributes(file).of_mesh()) {
+      throw input_error({file, "", "is a mesh by the UGRID conventions, which VTK 9.1 has no reader of",
+                         "a grid by the CF conventions", "open it in ParaView and save it as .vtu"});
+    }
     reader_ = vtkSmartPointer<vtkNetCDFCFReader>::New();
     reader_->SetFileName(file.c_str());
     reader_->SphericalCoordinatesOff();
@@ -115,12 +133,12 @@ class NetcdfLoader : public OneReader {
 
   /// @param axes "(time, z, lat, lon)"
   void warn_of_units(const std::string& file, const std::string& axes, std::vector<std::string>& notes) {
-    const Units of_file(file);
+    const Attributes of_file(file);
     std::string names = axes;
     std::ranges::replace_if(
         names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
     for (const std::string_view name : words(names)) {
-      const std::string units = of_file.of(std::string(name));
+      const std::string units = of_file.units_of(std::string(name));
       if (units.starts_with("degree")) {
         notes.push_back(
             "WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +

@@ -175,7 +175,9 @@ TEST(VtkHdf, ClaimsBeyondTheFileAreRefused) {
   newer.group("/VTKHDF");
   newer.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{2, 0});
   newer.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
-  EXPECT_NE(refusal(folder.write("newer.vtkhdf", newer.bytes())), "");
+  const std::string why = refusal(folder.write("newer.vtkhdf", newer.bytes()));
+  EXPECT_NE(why.find("is VTKHDF of version 2.0"), std::string::npos) << why;
+  EXPECT_NE(why.find("save it as .vtu"), std::string::npos) << why;
 }
 
 // --- netCDF -----------------------------------------------------------------------------------------------
@@ -287,6 +289,21 @@ TEST(Netcdf, DegreesAndDaysAreWarnedOf) {
   Source source = Source::open({{folder.write("a.nc", file.bytes())}, {}});
   EXPECT_TRUE(says(source.info().notes, "in degrees"));
   EXPECT_TRUE(says(source.info().notes, "days since"));
+}
+
+TEST(Netcdf, MeshesAreNamed) {
+  const TempFolder folder;
+  ClassicFile file = ocean("m");
+  // Its topology far behind what is looked at to tell formats apart.
+  constexpr std::size_t kFar = 100000;
+  file.variables[4].words = {{"history", std::string(kFar, 'x')}};
+  file.variables.push_back({"mesh", {0}, {{"cf_role", "mesh_topology"}}, {0.0, 0.0}});
+  for (const bool far : {true, false}) {
+    if (!far) file.variables[4].words.clear();
+    const std::string why = refusal(folder.write("mesh.nc", file.bytes()));
+    EXPECT_NE(why.find("UGRID"), std::string::npos) << why;
+    EXPECT_NE(why.find("ParaView"), std::string::npos) << why;
+  }
 }
 
 TEST(Netcdf, DamagedFilesAreRefused) {
