@@ -21,6 +21,7 @@
 #include "loaders/vtk/ensight/ensight_check.h"
 #include "loaders/vtk/ensight/ensight_times.h"
 #include "loaders/vtk/foam/foam_case.h"
+#include "loaders/vtk/foam/foam_collated.h"
 #include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
@@ -391,11 +392,15 @@ class OpenFoamReader : public Loader {
     const auto make_case = [] { return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam); };
     const std::string file = request.files.front().string();
     std::vector<std::string> notes;
-    auto processors = foam_processors(foam_folder(file), file, notes);
-    if (processors.empty() || request.files.size() > 1) {
+    FoamProcessors processors = foam_processors(foam_folder(file), notes);
+    if (processors.folders.empty() || request.files.size() > 1) {
       reader_ = make_case();
+    } else if (processors.collated) {
+      collated_ = std::make_unique<FoamCollated>(processors.folders);
+      notes.push_back("collated processor folders are parted into temporary files");
+      reader_ = make_decomposed_reader(collated_->folders(), make_case);
     } else {
-      reader_ = make_decomposed_reader(std::move(processors), make_case);
+      reader_ = make_decomposed_reader(std::move(processors.folders), make_case);
     }
     reader_->on_progress = on_progress;
     FileInfo info = reader_->open(request, format);
@@ -409,6 +414,7 @@ class OpenFoamReader : public Loader {
   }
 
  private:
+  std::unique_ptr<FoamCollated> collated_;
   std::unique_ptr<Loader> reader_;
 };
 

@@ -15,6 +15,7 @@
 #include "loaders/vtk/ensight/ensight_check.h"
 #include "loaders/vtk/foam/foam_baffles.h"
 #include "loaders/vtk/foam/foam_boundary.h"
+#include "loaders/vtk/foam/foam_collated.h"
 #include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"
@@ -27,6 +28,14 @@ namespace {
 
 /// Each of OpenFOAM's files that are read here, and what comes of them together.
 void read_foam(std::string_view text) {
+  try {
+    for (const std::string& block : part_foam_blocks(text)) {
+      if (block.find("FoamFile") == std::string::npos) __builtin_trap();
+    }
+  } catch (const FoamMalformed&) {
+  }
+  if (const auto [first, count] = foam_processors_of(text.substr(0, text.find('\n'))); first < 0 || count < 0)
+    __builtin_trap();
   std::vector<FoamPatch> patches{{"lid", {"wall"}, 2, 1}, {"floor", {}, 1, 3}};
   try {
     patches = read_foam_patches(text, "boundary");

@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/cells/boundary_values.h"
+#include "loaders/vtk/foam/foam_collated.h"
 #include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/foam/foam_text.h"
 
@@ -298,9 +299,7 @@ void FoamBoundaryReader::restore_values(DataSet& block, const fs::path& folder,
                                         std::set<std::string>& problems) const {
   const FoamInclude include = [&](std::string_view name) { return included(folder, name); };
   for (DataArray& array : block.arrays) {
-    if (array.association != Association::kCell || array.type != ScalarType::kFloat32 ||
-        !there(folder / array.name))
-      continue;
+    if (array.type != ScalarType::kFloat32 || !there(folder / array.name)) continue;
     std::string why = "the order of its values is not VTK's";
     try {
       const FoamText text(folder / array.name);
@@ -309,7 +308,7 @@ void FoamBoundaryReader::restore_values(DataSet& block, const fs::path& folder,
       if (values.uniform) {
         const std::vector<double> one = std::move(values.numbers);
         values.numbers.clear();
-        for (std::size_t cell = 0; cell < array.tuples; ++cell)
+        for (std::size_t tuple = 0; tuple < array.tuples; ++tuple)
           values.numbers.insert(values.numbers.end(), one.begin(), one.end());
       } else if (array.components == 6) {
         order_as_vtk(values);
@@ -400,10 +399,8 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
   return {problems.begin(), problems.end()};
 }
 
-std::vector<fs::path> foam_processors(const fs::path& folder, const std::string& file,
-                                      std::vector<std::string>& notes) {
-  std::vector<std::pair<double, fs::path>> single;
-  bool collated = false;
+FoamProcessors foam_processors(const fs::path& folder, std::vector<std::string>& notes) {
+  std::vector<std::pair<double, fs::path>> single, collated;
   std::error_code error, ignored;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     const std::string name = it->path().filename().string();
@@ -411,31 +408,39 @@ std::vector<fs::path> foam_processors(const fs::path& folder, const std::string&
     if (name.compare(0, kName.size(), kName) != 0 || !it->is_directory(ignored)) continue;
     const auto rank = parsed<int>(std::string_view(name).substr(kName.size()));
     if (rank && *rank >= 0) single.emplace_back(*rank, it->path());
-    collated = collated || name.compare(0, kName.size() + 1, "processors") == 0;
+    const auto [first, count] = foam_processors_of(name);
+    if (count > 0) collated.emplace_back(first, it->path());
   }
-  if (single.empty() && !collated) return {};
+  FoamProcessors out;
+  if (single.empty() && collated.empty()) return out;
   std::sort(single.begin(), single.end());
-  const std::optional<double> own = last_time(folder);
-  const std::optional<double> parts = single.empty() ? std::nullopt : last_time(single.front().second);
+  std::sort(collated.begin(), collated.end());
+  const auto last_of = [](const auto& folders) {
+    return folders.empty() ? std::nullopt : last_time(folders.front().second);
+  };
+  const std::optional<double> own = last_time(folder), of_single = last_of(single),
+                              of_collated = last_of(collated);
+  out.collated = !of_single || (of_collated && *of_collated > *of_single);
+  const std::optional<double> parts = out.collated ? of_collated : of_single;
   if (own && !(parts && *parts > *own)) {
-    notes.push_back("the case's own times are read, not those of its " +
-                    std::string(single.empty() ? "collated " : "") + "processor folders");
+    notes.push_back("the case's own times are read, not those of its processor folders");
     return {};
-  }
-  if (single.empty()) {
-    throw input_error({file, "", "has values in collated processor folders alone, which are not read",
-                       "folders of times, or processor0, processor1, …", "run reconstructPar"});
   }
   if (own) {
     notes.push_back("the processor folders are read: they go on after time " + short_number(*own) +
                     ", the last of the case's own");
   }
+  if (out.collated) {
+    out.collated = !collated.empty();
+    for (auto& [first, path] : collated) out.folders.push_back(std::move(path));
+    return out;
+  }
+  if (!collated.empty()) notes.push_back("the collated processor folders are not read: the others go as far");
   if (single.back().first + 1.0 != static_cast<double>(single.size())) {
     notes.push_back("processor folders are missing: " + std::to_string(single.size()) +
                     " are there, the last is processor" + short_number(single.back().first));
   }
-  std::vector<fs::path> out;
-  for (auto& [rank, path] : single) out.push_back(std::move(path));
+  for (auto& [rank, path] : single) out.folders.push_back(std::move(path));
   return out;
 }
 

@@ -21,7 +21,7 @@ namespace palpate {
 [[nodiscard]] std::filesystem::path foam_folder(const std::string& file);
 
 /// Adds what fields are at the boundary to blocks of a case, parts cells at baffles, and gives points and values of
-/// cells the precision of their files.
+/// cells and points the precision of their files.
 class FoamBoundaryReader {
  public:
   FoamBoundaryReader() = default;
@@ -53,12 +53,15 @@ class FoamBoundaryReader {
   std::map<std::filesystem::path, Mesh> meshes_;  ///< by their folders polyMesh
 };
 
-/// The folders processor0, processor1, … of a case whose last values stand in them, by their numbers; none where the
-/// case's own times go as far. @throws Error (bad input) with `file` where only collated ones (processors4) have values.
+/// The folders of processors of a case whose last values stand in them, by their numbers; none where the case's own
+/// times go as far.
+struct FoamProcessors {
+  std::vector<std::filesystem::path> folders;
+  bool collated = false;  ///< processors4, for FoamCollated; else processor0, processor1, …
+};
 /// @param notes what of the case is not read.
-[[nodiscard]] std::vector<std::filesystem::path> foam_processors(const std::filesystem::path& folder,
-                                                                 const std::string& file,
-                                                                 std::vector<std::string>& notes);
+[[nodiscard]] FoamProcessors foam_processors(const std::filesystem::path& folder,
+                                             std::vector<std::string>& notes);
 
 /// Reads each of `folders` as a case by a loader of its own; their blocks, at the times that all of them have.
 [[nodiscard]] std::unique_ptr<Loader> make_decomposed_reader(

@@ -10,14 +10,33 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/base/text.h"
+#include "common/field/vector_field.h"
 #include "common/math/vec.h"
 
 namespace palpate::test {
+
+inline Vec3 helix(const Vec3& x) { return {-x.y, x.x, 0.3}; }
+
+inline bool says(const std::vector<std::string>& notes, const std::string& words) {
+  return std::ranges::any_of(notes,
+                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
+/// The field of the vectors "U" of cells.
+inline std::shared_ptr<const VectorField> vectors_of_cells(const std::vector<DataSet>& blocks) {
+  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kCell, {"U"}, "U"};
+  return make_vector_field(blocks, choice, "foam");
+}
+
+/// A box with one patch, of which nothing is known.
+inline constexpr const char* kFree = "border { type zeroGradient; }\n";
+inline std::string border(const Vec3&) { return "border"; }
 
 /// n x n x n cubes over [-1, 1] x [-1, 1] x [0, 2], or those of one processor.
 class FoamBox {
@@ -73,6 +92,12 @@ class FoamBox {
 
   /// Of what is unit length from one cube to the next.
   [[nodiscard]] Vec3 placed(const Vec3& x) const { return x * (2.0 / n_) - Vec3(1.0, 1.0, 0.0); }
+  /// In the order of the file.
+  [[nodiscard]] std::vector<Vec3> points() const {
+    std::vector<Vec3> out;
+    for (const Vec3& x : points_) out.push_back(placed(x));
+    return out;
+  }
   /// The middles of a patch's faces.
   [[nodiscard]] std::vector<Vec3> middles(const std::string& patch) const {
     std::vector<Vec3> out;

@@ -1,4 +1,4 @@
-// OpenFOAM cases: what fields are at the boundary, and cases in the folders of processors.
+// OpenFOAM cases: the precision of fields, and what they are at the boundary.
 
 #include <algorithm>
 #include <array>
@@ -22,150 +22,19 @@
 #include "common/trace/trace.h"
 #include "loaders/vtk/foam/foam_boundary.h"
 #include "loaders/vtk/foam/foam_precision.h"
-#include "tests/loaders/foam_box.h"
+#include "tests/loaders/foam/foam_box.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
 namespace {
 
+using test::border;
 using test::FoamBox;
+using test::helix;
+using test::kFree;
+using test::says;
+using test::vectors_of_cells;
 namespace fs = std::filesystem;
-
-Vec3 helix(const Vec3& x) { return {-x.y, x.x, 0.3}; }
-
-bool says(const std::vector<std::string>& notes, const std::string& words) {
-  return std::ranges::any_of(notes,
-                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
-}
-
-std::shared_ptr<const VectorField> field_of(const std::vector<DataSet>& blocks) {
-  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kCell, {"U"}, "U"};
-  return make_vector_field(blocks, choice, "foam");
-}
-
-// --- folders of processors --------------------------------------------------------------------------------
-
-constexpr const char* kFree = "border { type zeroGradient; }\n";
-
-std::string border(const Vec3&) { return "border"; }
-
-/// In 1, 2 or 4 parts.
-void write_parts(const fs::path& folder, int parts, bool binary, const std::set<std::string>& times) {
-  constexpr int kN = 6;
-  const auto rank_of = [parts](const Index3& cube) {
-    return parts == 1 ? 0 : (cube.x >= kN / 2 ? 1 : 0) + (parts == 4 && cube.y >= kN / 3 ? 2 : 0);
-  };
-  FoamBox::write_control(folder);
-  fs::create_directories(folder / "constant");
-  for (int rank = 0; rank < parts; ++rank) {
-    const FoamBox box(kN, border, rank_of, rank);
-    const fs::path part = parts == 1 ? folder : folder / ("processor" + std::to_string(rank));
-    box.write_mesh(part, binary);
-    for (const std::string& time : times) box.write_vectors(part / time / "U", binary, helix, kFree);
-  }
-}
-
-/// Lines follow the helix to the border of the box.
-void expect_helices(const std::vector<DataSet>& blocks) {
-  const auto field = field_of(blocks);
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> side(-0.7, 0.7), up(0.05, 0.4);
-  std::vector<Vec3> from;
-  for (int i = 0; i < 40; ++i) {
-    const double x = side(random), y = side(random);
-    from.emplace_back(x, y, up(random));
-  }
-  TraceOptions options;
-  options.integrator = Integrator::kExact;
-  options.threads = 1;
-  for (const Line& line : trace_lines(*field, from, options).lines) {
-    const Vec3& x0 = from[line.seed];
-    const LinePoint& last = line.points.back();
-    EXPECT_EQ(line.end, End::kLeftDomain);
-    const double out =
-        std::max({std::abs(last.position.x), std::abs(last.position.y), last.position.z - 1.0});
-    EXPECT_NEAR(out, 1.0, 3e-6) << line.seed;
-    const double c = std::cos(last.time), s = std::sin(last.time);
-    EXPECT_LE(
-        glm::distance(last.position, {c * x0.x - s * x0.y, s * x0.x + c * x0.y, x0.z + 0.3 * last.time}),
-        1e-6);
-  }
-}
-
-TEST(FoamProcessors, AreOneCase) {
-  for (const bool binary : {false, true}) {
-    for (const int parts : {1, 2, 4}) {
-      SCOPED_TRACE(parts);
-      const test::TempFolder folder;
-      write_parts(folder.path(), parts, binary, {"0", "1"});
-      Source source = Source::open({{folder.path()}, {}});
-      EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 1.0}));
-      ASSERT_EQ(source.info().blocks.size(), static_cast<std::size_t>(parts));
-      EXPECT_EQ(says(source.info().notes, "processor folders read as one case"), parts > 1);
-      const auto blocks = source.read({"U"}, 1);
-      ASSERT_EQ(blocks.size(), static_cast<std::size_t>(parts));
-      if (parts > 1) {
-        EXPECT_EQ(blocks[1].name.substr(0, 10), "processor1");
-      }
-      expect_helices(blocks);
-    }
-  }
-}
-
-TEST(FoamProcessors, TimesThatNotAllHaveAreLeftOut) {
-  const test::TempFolder folder;
-  write_parts(folder.path(), 2, false, {"0", "1", "2"});
-  fs::remove_all(folder.path("processor1/1"));
-  Source source = Source::open({{folder.path()}, {}});
-  EXPECT_EQ(source.info().times, (std::vector<double>{0.0, 2.0}));
-  EXPECT_TRUE(says(source.info().notes, "1 time left out: not all"));
-  EXPECT_EQ(source.read({"U"}, 1).size(), 2U);
-  // One of them has a single time.
-  fs::remove_all(folder.path("processor1/0"));
-  Source last = Source::open({{folder.path()}, {}});
-  EXPECT_TRUE(says(last.info().notes, "2 times left out: not all"));
-  expect_helices(last.read({"U"}, 0));
-  fs::remove_all(folder.path("processor0/2"));
-  EXPECT_THROW((void)Source::open({{folder.path()}, {}}), Error);
-  // Both have.
-  fs::remove_all(folder.path("processor0/0"));
-  EXPECT_THROW((void)Source::open({{folder.path()}, {}}), Error);
-}
-
-TEST(FoamProcessors, AreReadWhereTheCaseHasOnlyItsStart) {
-  const test::TempFolder folder;
-  write_parts(folder.path(), 1, false, {"0"});
-  write_parts(folder.path(), 2, false, {"0", "1"});
-  Source source = Source::open({{folder.path()}, {}});
-  EXPECT_TRUE(says(source.info().notes, "they go on after time 0"));
-  expect_helices(source.read({"U"}, 1));
-  write_parts(folder.path(), 1, false, {"1"});
-  Source own = Source::open({{folder.path()}, {}});
-  EXPECT_TRUE(says(own.info().notes, "the case's own times are read"));
-  EXPECT_EQ(own.read({"U"}, 1).size(), 1U);
-}
-
-TEST(FoamProcessors, CollatedOnesAreNamed) {
-  const test::TempFolder folder;
-  write_parts(folder.path(), 2, false, {"0"});
-  fs::rename(folder.path("processor0"), folder.path("processors2"));
-  fs::remove_all(folder.path("processor1"));
-  try {
-    (void)Source::open({{folder.path()}, {}});
-    FAIL() << "opened";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("collated"), std::string::npos) << error.what();
-  }
-}
-
-TEST(FoamProcessors, NeedNoConstantBeside) {
-  const test::TempFolder folder;
-  write_parts(folder.path(), 2, false, {"0", "1"});
-  fs::remove_all(folder.path("constant"));
-  expect_helices(Source::open({{folder.path()}, {}}).read({"U"}, 1));
-  std::ofstream(folder.path("a.foam")) << "";
-  expect_helices(Source::open({{folder.path("a.foam")}, {}}).read({"U"}, 1));
-}
 
 // --- precision --------------------------------------------------------------------------------------------
 
@@ -202,6 +71,40 @@ TEST(FoamPrecision, IsThatOfTheFiles) {
           for (int c = 0; c < 3; ++c) EXPECT_EQ(u->at(cell, c), wanted[c]);
           EXPECT_EQ(p->at(cell), 0.1234567890123456789);
         }
+      }
+    }
+  }
+}
+
+TEST(FoamPrecision, OfPointFieldsIsThatOfTheFiles) {
+  const auto value = [](const Vec3& x) { return Vec3{1.0 + 1e-12 * x.x, 1.0 / 3.0 + x.y, x.z - 1e-13}; };
+  const FoamBox box(3, border);
+  for (const bool binary : {false, true}) {
+    for (const bool uniform : {false, true}) {
+      SCOPED_TRACE(binary);
+      const test::TempFolder folder;
+      FoamBox::write_control(folder.path());
+      box.write_mesh(folder.path(), binary);
+      box.write_vectors(folder.path("1/U"), binary, helix, kFree);
+      std::vector<Vec3> values = box.points();
+      for (Vec3& x : values) x = value(x);
+      FoamBox::write(
+          folder.path("1/pointU"),
+          FoamBox::header("pointVectorField", "pointU", binary) +
+              "dimensions [0 1 -1 0 0 0 0];\ninternalField " +
+              (uniform ? "uniform (0.1 0.2 0.3)" : "nonuniform " + FoamBox::vectors(values, binary)) +
+              ";\nboundaryField\n{\nborder { type calculated; }\n}\n");
+      Source source = Source::open({{folder.path()}, {}});
+      const auto blocks = source.read({"pointU"});
+      const DataArray* const array = blocks.at(0).find("pointU", Association::kPoint);
+      ASSERT_NE(array, nullptr);
+      EXPECT_EQ(array->type, ScalarType::kFloat64);
+      ASSERT_EQ(array->tuples, values.size());
+      const auto& mesh = std::get<UnstructuredTopology>(blocks[0].topology);
+      for (std::size_t p = 0; p < values.size(); ++p) {
+        const Vec3 x{mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)};
+        const Vec3 due = uniform ? Vec3{0.1, 0.2, 0.3} : value(x);
+        EXPECT_EQ(Vec3(array->at(p, 0), array->at(p, 1), array->at(p, 2)), due) << p;
       }
     }
   }
@@ -301,7 +204,7 @@ TEST_P(FoamBoundary, IsAsThePatchesSay) {
   EXPECT_EQ(at_points(block, 2, 1.0).value, Vec3(0.0, 0.5, 0.0));
   EXPECT_FALSE(is_finite(at_points(block, 0, 1.0).value));
 
-  const auto field = field_of(blocks);
+  const auto field = vectors_of_cells(blocks);
   EXPECT_TRUE(says(field->notes().lines, "boundary points have the values that the data gives there"));
   CellHint hint;
   EXPECT_NEAR(glm::distance(field->sample({0.13, 1.0, 1.07}, hint).value, Vec3(1, 0, 0)), 0.0, 1e-6);
@@ -467,7 +370,7 @@ TEST(FoamBoundary, NothingGoesThroughWallsAlongWhichTheFlowSlides) {
     const std::string slides = std::string(" { type ") + type + "; }\n";
     const DataSet block = box_with(
         folder, "lid" + slides + "back" + slides + "inlet { type fixedValue; value uniform (1 2 3); }\n");
-    const auto field = field_of({block});
+    const auto field = vectors_of_cells({block});
     EXPECT_TRUE(says(field->notes().lines, "along which the flow slides"));
     const auto expect = [&](const Vec3& x, const Vec3& v) {
       CellHint hint;
@@ -502,7 +405,7 @@ TEST(FoamBaffles, LetNothingThroughThoughTheirCellsShareAllPoints) {
           std::string(kFree) + "baffle { type zeroGradient; }\n");
       Source source = Source::open({{folder.path()}, {}});
       const auto blocks = source.read({"U"}, 0);
-      const auto field = field_of(blocks);
+      const auto field = vectors_of_cells(blocks);
       std::vector<Vec3> seeds;
       for (const double y : {-0.9, -0.4, 0.05, 0.3, 0.7}) seeds.emplace_back(-0.8, y, 0.9);
       for (const Line& line : trace_lines(*field, seeds, {}).lines) {
@@ -582,7 +485,7 @@ TEST(FoamBoundaryText, WhatCannotBeReadIsInterpolatedAndSaid) {
            "patch 'lid': type uniformFixedValue without values of its own: interpolated from the cells"));
   const auto blocks = source.read({"U", "p"}, 0);
   EXPECT_EQ(blocks.front().find(boundary_array_of("U"), Association::kPoint), nullptr);
-  const auto field = field_of(blocks);
+  const auto field = vectors_of_cells(blocks);
   const auto pressure = make_scalar_field(*field, blocks, {"p", Association::kCell, 0}, "foam");
   CellHint hint;
   EXPECT_NEAR(pressure->sample({1.0, 0.1, 0.8}, hint).value, -3.0, 1e-6);
