@@ -286,4 +286,62 @@ inline std::string gambit_file(const CellKind& kind) {
          "2 NFLAGS:          1\n                           fluid\n       0\n       1\nENDOFSECTION\n";
 }
 
+/// Outer faces of a linear cell, seen from outside against the clock.
+inline std::vector<std::vector<int>> faces_of(const CellKind& kind) {
+  switch (kind.vtk) {
+    case 10:
+      return {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}};
+    case 12:
+      return {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
+    case 13:
+      return {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
+    case 14:
+      return {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    default:
+      return {};
+  }
+}
+
+/// One cell of a Fluent case, by its faces, whose corners turn so that their normal leads into the cell.
+inline std::string fluent_file(const CellKind& kind) {
+  const std::vector<std::vector<int>> faces = faces_of(kind);
+  if (faces.empty()) return {};
+  const std::vector<Vec3> nodes = places(kind, {});
+  const std::string n = std::to_string(nodes.size()),
+                    f = std::to_string(faces.size());  // below ten: as in hex
+  const int shape = kind.vtk == 10 ? 2 : kind.vtk == 12 ? 4 : kind.vtk == 13 ? 6 : 5;
+  std::string out = "(0 \"one cell\")\n(2 3)\n(10 (0 1 " + n + " 0 3))\n(10 (1 1 " + n + " 1 3)(\n";
+  for (const Vec3& x : nodes) out += words_of(x) + "\n";
+  out += "))\n(12 (0 1 1 0))\n(12 (2 1 1 1 " + std::to_string(shape) + "))\n(13 (0 1 " + f +
+         " 0))\n(13 (3 1 " + f + " 3 0)(\n";
+  for (const std::vector<int>& face : faces) {
+    out += std::to_string(face.size());
+    for (auto corner = face.rbegin(); corner != face.rend(); ++corner)
+      out += " " + std::to_string(*corner + 1);
+    out += " 1 0\n";
+  }
+  return out + "))\n(45 (2 fluid fluid-2)())\n(45 (3 wall wall-3)())\n";
+}
+/// Its values: one of the cell.
+inline std::string fluent_values_file() {
+  return "(0 \"one cell\")\n(33 (1 1 1))\n(300 (111 2 1 0 0 1 1)(\n0.5\n))\n";
+}
+
+/// One cell in STAR-CD's files of vertices and cells.
+inline std::string star_vertices_file(const CellKind& kind) {
+  if (faces_of(kind).empty()) return {};
+  std::string out = "PROSTAR_VERTEX\n 4000 0 0 0 0 0 0 0\n";
+  const std::vector<Vec3> nodes = places(kind, {});
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out += std::to_string(i + 1) + " " + words_of(nodes[i]) + "\n";
+  return out;
+}
+inline std::string star_cells_file(const CellKind& kind) {
+  const int shape = kind.vtk == 10 ? 13 : kind.vtk == 12 ? 11 : kind.vtk == 13 ? 12 : 14;
+  std::string out = "PROSTAR_CELL\n 4000 0 0 0 0 0 0 0\n1 " + std::to_string(shape) + " " +
+                    std::to_string(kind.corners.size()) + " 1 1\n1";
+  for (std::size_t i = 0; i < kind.corners.size(); ++i) out += " " + std::to_string(i + 1);
+  return out + "\n";
+}
+
 }  // namespace palpate::test

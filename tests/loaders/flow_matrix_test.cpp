@@ -2,11 +2,15 @@
 // formula and byte by byte, so that no reader or writer vouches for another. The table is part of loaders/README.md:
 //   PALPATE_WRITE_PAGES=1 ctest --preset release -R loaders/flow_matrix_test
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -30,6 +34,8 @@ struct Dialect {
   std::vector<Variant> variants;
   std::function<std::string(const CellKind&, const Variant&)> write;  ///< empty where it has no such file
   bool has_values = true;
+  /// A second file: its name and content.
+  std::function<std::pair<std::string, std::string>(const CellKind&, const Variant&)> beside = {};
 };
 
 std::string number_bytes(double value, const Variant& variant) {
@@ -156,7 +162,32 @@ std::vector<Dialect> dialects() {
       {"CGNS", "HDF5", "a.cgns", text,
        [](const CellKind& kind, const Variant& v) { return cgns_file(kind, v.wide); }},
       {"VTKHDF", "1.0", "a.vtkhdf", text,
-       [](const CellKind& kind, const Variant& v) { return vtkhdf_file(kind, v.wide); }}};
+       [](const CellKind& kind, const Variant& v) { return vtkhdf_file(kind, v.wide); }},
+      {"XDMF", "text", "a.xdmf", text,
+       [](const CellKind& kind, const Variant& v) { return xdmf_file(kind, v.wide, false); }},
+      {"XDMF", "HDF5", "a.xdmf", text,
+       [](const CellKind& kind, const Variant& v) { return xdmf_file(kind, v.wide, true); }, true,
+       [](const CellKind& kind, const Variant& v) { return std::pair("a.h5", xdmf_numbers(kind, v.wide)); }},
+      {"Fluent", "mesh alone", "a.cas", one,
+       [](const CellKind& kind, const Variant&) { return fluent_file(kind); }, false,
+       [](const CellKind&, const Variant&) { return std::pair("a.dat", fluent_values_file()); }},
+      {"STAR-CD", "mesh alone", "a.vrt", one,
+       [](const CellKind& kind, const Variant&) { return star_vertices_file(kind); }, false,
+       [](const CellKind& kind, const Variant&) { return std::pair("a.cel", star_cells_file(kind)); }}};
+}
+
+/// The edges of a linear cell by the places of their ends, lower one first.
+std::set<std::array<double, 6>> edges_of(const CellKind& kind, const std::vector<Vec3>& corners) {
+  std::set<std::array<double, 6>> out;
+  for (const std::vector<int>& face : faces_of(kind)) {
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      Vec3 a = corners[static_cast<std::size_t>(face[i])];
+      Vec3 b = corners[static_cast<std::size_t>(face[(i + 1) % face.size()])];
+      if (std::tuple(a.x, a.y, a.z) > std::tuple(b.x, b.y, b.z)) std::swap(a, b);
+      out.insert({a.x, a.y, a.z, b.x, b.y, b.z});
+    }
+  }
+  return out;
 }
 
 /// Empty: the cell is of that kind, its nodes lie where VTK has them, and have their values.
@@ -170,11 +201,20 @@ std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool 
   if (mesh->types[0] != kind.vtk) return "a cell of type " + std::to_string(mesh->types[0]);
   const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
   if (mesh->connectivity.size() != nodes.size()) return std::to_string(mesh->connectivity.size()) + " nodes";
+  if (!has_values) {
+    // Some formats list faces, or turn cells the other way: corners in any order that makes the same cell.
+    std::vector<Vec3> corners;
+    for (const std::int64_t id : mesh->connectivity) {
+      const auto point = static_cast<std::size_t>(id);
+      corners.emplace_back(mesh->positions.at(point, 0), mesh->positions.at(point, 1),
+                           mesh->positions.at(point, 2));
+    }
+    return edges_of(kind, corners) == edges_of(kind, nodes) ? "" : "other edges";
+  }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto point = static_cast<std::size_t>(mesh->connectivity[i]);
     const Vec3 x{mesh->positions.at(point, 0), mesh->positions.at(point, 1), mesh->positions.at(point, 2)};
     if (glm::distance(x, nodes[i]) > 1e-6) return "node " + std::to_string(i) + " lies elsewhere";
-    if (!has_values) continue;
     Vec3 v{NAN};
     const DataArray* const velocity = block.find("Velocity", Association::kPoint);
     const DataArray* const whole = velocity != nullptr ? velocity : block.find("U", Association::kPoint);
@@ -214,6 +254,10 @@ TEST(FlowMatrix, EveryKindOfCellIsRightOrRefusedInEveryDialect) {
         const std::string content = dialect.write(kind, variant);
         if (content.empty()) continue;
         const auto path = folder.write(dialect.name, content);
+        if (dialect.beside) {
+          const auto [name, second] = dialect.beside(kind, variant);
+          (void)folder.write(name, second);
+        }
         const std::string what = std::string(dialect.format) + ", " + dialect.encoding + ", " + kind.name +
                                  (variant.wide ? ", double" : ", float") +
                                  (variant.big ? ", big" : ", little");

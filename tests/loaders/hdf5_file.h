@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <hdf5.h>
@@ -219,6 +220,48 @@ inline std::string vtkhdf_file(const CellKind& kind, bool wide) {
   file.group("/VTKHDF/PointData");
   file.set_real("/VTKHDF/PointData/U", tuples_of(flows_at(nodes)), wide, {nodes.size(), 3});
   return file.bytes();
+}
+
+/// The numbers of one cell for XDMF, whose text xdmf_file() is.
+inline std::string xdmf_numbers(const CellKind& kind, bool wide) {
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  const Hdf5File file;
+  std::vector<std::int64_t> order;
+  for (std::size_t i = 0; i < nodes.size(); ++i) order.push_back(static_cast<std::int64_t>(i));
+  file.set("/cells", order, {1, nodes.size()});
+  file.set_real("/points", tuples_of(nodes), wide, {nodes.size(), 3});
+  file.set_real("/u", tuples_of(flows_at(nodes)), wide, {nodes.size(), 3});
+  return file.bytes();
+}
+
+/// One cell in XDMF, its numbers in the text, or in a.h5 beside it. Cells as "XDMF Model and Format" calls them.
+inline std::string xdmf_file(const CellKind& kind, bool wide, bool beside) {
+  static const std::vector<std::pair<int, const char*>> kNames{
+      {10, "Tetrahedron"},    {12, "Hexahedron"},    {13, "Wedge"},         {14, "Pyramid"},
+      {24, "Tetrahedron_10"}, {25, "Hexahedron_20"}, {29, "Hexahedron_27"}, {26, "Wedge_15"},
+      {32, "Wedge_18"},       {27, "Pyramid_13"}};
+  const char* name = "";
+  for (const auto& [vtk, of_kind] : kNames) name = vtk == kind.vtk ? of_kind : name;
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  const std::string n = std::to_string(nodes.size());
+  const auto item = [&](const std::string& counts, bool whole, const std::string& place,
+                        const std::string& text) {
+    return "<DataItem Dimensions=\"" + counts + "\" NumberType=\"" + (whole ? "Int" : "Float") +
+           "\" Precision=\"" + (whole || wide ? "8" : "4") + "\" Format=\"" +
+           (beside ? "HDF\">a.h5:/" + place : "XML\">" + text) + "</DataItem>";
+  };
+  std::string order, points, values;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    order += std::to_string(i) + " ";
+    points += words_of(nodes[i]) + " ";
+    values += words_of(flow_at(nodes[i])) + " ";
+  }
+  return "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid Name=\"g\" GridType=\"Uniform\"><Topology "
+         "TopologyType=\"" +
+         std::string(name) + "\" NumberOfElements=\"1\">" + item("1 " + n, true, "cells", order) +
+         "</Topology><Geometry GeometryType=\"XYZ\">" + item(n + " 3", false, "points", points) +
+         "</Geometry><Attribute Name=\"U\" AttributeType=\"Vector\" Center=\"Node\">" +
+         item(n + " 3", false, "u", values) + "</Attribute></Grid></Domain></Xdmf>\n";
 }
 
 }  // namespace palpate::test
