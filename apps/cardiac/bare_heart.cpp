@@ -168,7 +168,7 @@ void add_flat_cells(BareHeart& heart, const DataSet& block, bool shell, const st
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
     const std::uint8_t type = cells.types[c];
     const bool line = type == kLine || type == kPolyLine;
-    if (!line && !shell) continue;
+    if ((!line && !shell) || (!block.hidden_cells.empty() && block.hidden_cells[c] != 0)) continue;
     const std::vector<std::uint32_t> points = points_of(block, cells, c, file);
     if (!std::ranges::all_of(points, [&](std::uint32_t p) { return is_finite(position_of(cells, p)); })) {
       ++unfit;

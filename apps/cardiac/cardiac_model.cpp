@@ -85,7 +85,9 @@ CardiacContent CardiacModel::read(Input& input, const Document& document, Progre
   // are.
   const Scene* open = scene();
   const bool other_step = open != nullptr && &open->input == &input && input.times().size() > 1 &&
-                          open->shown.document.input.field == input.field_label();
+                          open->shown.document.input.field == input.field_label() &&
+                          open->shown.document.input.regions == input.spec().regions &&
+                          open->shown.document.input.paint == input.spec().paint;
   CardiacContent content;
   if (other_step) {
     content.print = fingerprint(input, progress);
@@ -132,6 +134,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   LayerColors colors = color_layer(input, heart, layer, document.heart, threads, colored);
   state.lines = layer.lines;
   state.surfaces = {surface_of(layer, colors, document.heart.contours)};
+  add_wall(input, *heart, document, colors, *content.walls, state.surfaces, &progress);
   if (auto lens = lens_of(document.heart)) {
     HeartOptions inside = document.heart;
     inside.angle = document.heart.lens_angle;
@@ -143,6 +146,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     state.color_lens->style = of_lens.style;
   }
   state.color_array = colors.style.array;
+  state.document.heart.walls = WallPictures::shown(input, document.heart);
 
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(depth.tet_mesh()->points().size(), "point") + ", " +
@@ -153,6 +157,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     info->plotted = scalars_of(input);
     info->input = input.spec();
   }
+  info->regions = input.regions(&progress);
   info->bounds = depth.bounds();
   info->units = units_of(input);
   state.info = std::move(info);
@@ -181,6 +186,7 @@ SceneState CardiacModel::present_bare(Input& input, const OpenHeart& heart, cons
     info->plotted = info->color_arrays;
     info->input = input.spec();
   }
+  info->regions = input.regions();
   info->bounds = heart.bare->bounds;
   info->units = units_of(input);
   state.info = std::move(info);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/cardiac/heart_scene.h"
+#include "apps/cardiac/wall_view.h"
 #include "common/compose/input_model.h"
 #include "common/trace/layer_fibre.h"
 #include "common/window/panels/panel.h"
@@ -16,6 +17,7 @@ namespace palpate {
 
 struct CardiacContent {
   OpenHeart heart;
+  std::shared_ptr<WallPictures> walls = std::make_shared<WallPictures>();  ///< made when they are asked for
   std::uint64_t print =
       0;  ///< of what it was made from, so that other time steps know it again; 0: not taken
 };

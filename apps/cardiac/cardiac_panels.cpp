@@ -8,7 +8,9 @@
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/heart_scene.h"
+#include "apps/cardiac/surface_brush.h"
 #include "common/base/text.h"
+#include "common/field/heart/regions.h"
 #include "common/math/vec_text.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/panels/color_panel.h"
@@ -86,8 +88,36 @@ void draw_layer(PanelContext& on) {
   if (layered) choose_lens(heart, info, on.view);
 }
 
+/// Which regions are taken: as boxes to tick, the last of which stays.
+void draw_regions(PanelContext& on) {
+  const std::vector<RegionCount>& regions = on.scene.info->regions;
+  if (regions.size() < 2 || !section("REGIONS")) return;
+  std::string& text = on.state.document.input.regions;
+  std::vector<double> chosen = parse_regions(text);
+  const auto taken = [&chosen](double number) { return std::ranges::find(chosen, number) != chosen.end(); };
+  const bool all = chosen.empty();
+  const bool scrolls = begin_list("##regions", regions.size(), 6.0F);
+  for (const auto& [number, elements] : regions) {
+    bool on_now = all || taken(number);
+    const std::string label = "region " + exact_number(number);
+    if (checkbox(label.c_str(), &on_now)) {
+      if (all)
+        for (const RegionCount& each : regions) chosen.push_back(each.number);
+      std::erase(chosen, number);
+      if (on_now) chosen.push_back(number);
+      if (!chosen.empty()) text = chosen.size() == regions.size() ? std::string() : regions_text(chosen);
+    }
+    hint("%s", counted(elements, "element").c_str());
+  }
+  if (scrolls) ImGui::EndChild();
+  if (small_button("all that have fibres")) text.clear();
+  explain("regions");
+}
+
 }  // namespace
 
-std::vector<PanelPart> cardiac_panels() { return {draw_layer, draw_layer_colors}; }
+std::vector<PanelPart> cardiac_panels() {
+  return {draw_layer, SurfaceBrush(), draw_regions, draw_layer_colors};
+}
 
 }  // namespace palpate

@@ -29,7 +29,22 @@ constexpr double kRadian = std::numbers::pi / 180.0;
 constexpr double kMicrometre = 1000.0;  // of a millimetre
 
 FibreRule rule_of(const HeartOptions& options) {
-  return options.rule == name_of(FibreRule::kBayerPrinted) ? FibreRule::kBayerPrinted : FibreRule::kBayer;
+  for (const FibreRule rule : {FibreRule::kBayerPrinted, FibreRule::kDoste})
+    if (options.rule == name_of(rule)) return rule;
+  return FibreRule::kBayer;
+}
+
+/// @throws Error (usage) for an angle of another rule.
+void check_angles(const Document& options) {
+  const bool doste = rule_of(options.heart) == FibreRule::kDoste;
+  for (const char* const name :
+       {"sheet-endo", "sheet-epi", "right-endo", "right-epi", "transverse-endo", "transverse-epi"}) {
+    const bool of_doste = name[0] != 's';
+    if (of_doste != doste && std::ranges::find(options.given, name) != options.given.end())
+      throw usage_error(std::string("--") + name + ": --rule " + options.heart.rule + " has no such angle, " +
+                        (doste ? "but --transverse-endo and --transverse-epi, which turn fibre and sheet"
+                               : "--rule doste has"));
+  }
 }
 
 /// The mesh with its directions, in the order of the input's cells.
@@ -171,8 +186,14 @@ std::string rule_text(const FibreRuleSummary& summary, const std::string& progra
   std::string text = summary.input + ": fibres by the rule " + summary.rule + " -> " +
                      counted(summary.files.size(), "file") + "\n";
   text += "  fibres     from " + degrees(summary.endo) + " on the inner to " + degrees(summary.epi) +
-          " on the outer surface, sheets from " + degrees(summary.sheet_endo) + " to " +
-          degrees(summary.sheet_epi) + "\n";
+          " on the outer surface";
+  if (summary.doste && summary.two)
+    text +=
+        ", in the right ventricle from " + degrees(summary.right_endo) + " to " + degrees(summary.right_epi);
+  text += summary.doste
+              ? "; out of the layer by " + degrees(summary.transverse_endo) + " to " +
+                    degrees(summary.transverse_epi) + "\n"
+              : ", sheets from " + degrees(summary.sheet_endo) + " to " + degrees(summary.sheet_epi) + "\n";
   text += "  elements   " + counted(summary.elements - summary.undefined, "element") + " by the rule";
   if (summary.undefined > 0)
     text += "; it is not defined in " + std::to_string(summary.undefined) + " more, up to " +
@@ -186,6 +207,7 @@ std::string rule_text(const FibreRuleSummary& summary, const std::string& progra
 
 ExitCode run_fibers(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
+  check_angles(options);
   const std::string ending = options.output.file.extension().string();
   if (ending != ".pts" && ending != ".vtu")
     throw usage_error(options.output.file.empty()
@@ -208,7 +230,11 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                                            {.endo = kRadian * heart.endo,
                                             .epi = kRadian * heart.epi,
                                             .sheet_endo = kRadian * heart.sheet_endo,
-                                            .sheet_epi = kRadian * heart.sheet_epi},
+                                            .sheet_epi = kRadian * heart.sheet_epi,
+                                            .right_endo = kRadian * heart.right_endo,
+                                            .right_epi = kRadian * heart.right_epi,
+                                            .transverse_endo = kRadian * heart.transverse_endo,
+                                            .transverse_epi = kRadian * heart.transverse_epi},
                                            input.title(), options.common.threads);
   FibreRuleSummary summary{.input = input.title(),
                            .files = {},
@@ -217,6 +243,11 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                            .epi = heart.epi,
                            .sheet_endo = heart.sheet_endo,
                            .sheet_epi = heart.sheet_epi,
+                           .doste = rule_of(heart) == FibreRule::kDoste,
+                           .transverse_endo = heart.transverse_endo,
+                           .transverse_epi = heart.transverse_epi,
+                           .right_endo = heart.right_endo,
+                           .right_epi = heart.right_epi,
                            .elements = made.fibres.size(),
                            .undefined = made.undefined,
                            .without = made.without,
@@ -225,6 +256,9 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                            .most_turn = made.most_turn / kRadian,
                            .two = wall.surfaces.has(BorderRole::kRight),
                            .notes = wall.notes};
+  if (summary.doste)
+    summary.notes.emplace_back(
+        "the whole base is one opening: valves are not told apart, and the rule's angles of outflow tracts are left out");
   constexpr double kCoarse = 20.0;  // degrees
   if (summary.most_turn > kCoarse)
     summary.notes.push_back(
@@ -261,8 +295,8 @@ Verb fibers_verb(std::vector<UsageExample> examples) {
       .name = "fibers",
       .summary = "make fibres and sheets by a rule, for a mesh that has none",
       .details =
-          "The rule is that of Bayer et al., Ann Biomed Eng 40 (2012) 2243: directions along and through the "
-          "wall come from Laplace's equation between the surfaces that 'info --surfaces' shows, and the "
+          "The rule is that of Bayer et al., Ann Biomed Eng 40 (2012) 2243, or of Doste et al., Int J Numer Meth "
+          "Biomed Eng 35 (2019) e3185: directions along and through the wall come from Laplace's equation between the surfaces that 'info --surfaces' shows, and the "
           "fibre turns from one angle on the inner surface to another one on the outer. NAME.pts keeps the "
           "elements of the file; NAME.vtu has tetrahedra.",
       .groups = {Group::kInput, Group::kRule, Group::kOut},

@@ -7,6 +7,7 @@
 
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/default_appearance.h"
+#include "apps/cardiac/wall_view.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
@@ -210,8 +211,9 @@ LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>&
     const bool same = before != nullptr && before->name == options.angle;
     array->range = series_range(input, choice, *value, grid, same ? before->range : std::nullopt, threads);
   }
-  const AngleProbe probe(heart, options, value);
   LayerColors colors;
+  colors.probe = std::make_shared<const AngleProbe>(heart, options, value);
+  const AngleProbe& probe = *colors.probe;
   array->name = probe.name();
   array->unit = probe.unit();
   const std::vector<double> along = angles_along(probe, *layer.lines, threads);
@@ -245,6 +247,11 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   const int threads = options.common.threads;
   LayerColors colors = color_layer(input, heart, scene.layer, options.heart, threads);
   view.surfaces = {surface_of(scene.layer, colors, options.heart.contours)};
+  Document asked = options;
+  if (asked.heart.walls == "auto")
+    asked.heart.walls = "none";  // a window shows first what was found, a picture does not
+  WallPictures walls;
+  add_wall(input, *heart, asked, colors, walls, view.surfaces, progress);
   view.color_lens = lens_of(options.heart);
   if (view.color_lens) {
     HeartOptions inside = options.heart;

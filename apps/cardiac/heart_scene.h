@@ -107,6 +107,7 @@ struct LayerGeometry {
 struct LayerColors {
   LineStyle style;  ///< with the array of the lines
   std::shared_ptr<const std::vector<float>> values;
+  std::shared_ptr<const AngleProbe> probe;  ///< what gave them, for other places
 };
 
 /// @param options which angle or scalar; that of the file is read at the input's time step.

@@ -104,6 +104,13 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     console.print_json(trace_json(summary));
     throw work_error(summary.failure);
   }
+  // No way leads on from a seed where fibres are not known.
+  const std::size_t short_ones =
+      std::erase_if(summary.result.lines, [](const Line& line) { return line.points.size() < 2; });
+  summary.result.points -= short_ones;
+  if (short_ones > 0)
+    console.note(counted(short_ones, "line") +
+                 " of one point left out: fibres are not known, or not defined, at their seeds");
   if (!options.output.file.empty()) {
     context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;

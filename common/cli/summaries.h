@@ -239,6 +239,8 @@ struct FibreRuleSummary {
   std::vector<std::string> files;
   std::string rule;
   double endo = 0.0, epi = 0.0, sheet_endo = 0.0, sheet_epi = 0.0;  ///< [degrees]
+  bool doste = false;  ///< turned out of the layer by the next two in place of the sheet's
+  double transverse_endo = 0.0, transverse_epi = 0.0, right_endo = 0.0, right_epi = 0.0;  ///< [degrees]
   std::size_t elements = 0;
   std::size_t undefined = 0;  ///< of them where the rule is not: they have the mean of their neighbours
   std::size_t without = 0;    ///< of these without a neighbour that has a direction

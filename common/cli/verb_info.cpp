@@ -10,6 +10,7 @@
 #include "common/field/array_statistics.h"
 #include "common/field/field_grid.h"
 #include "common/load/read_tractogram.h"
+#include "common/load/write/write_mesh.h"
 #include "common/load/write/write_surface.h"
 #include "common/math/vec_text.h"
 
@@ -173,7 +174,9 @@ void add_heart(Input& input, const Document& options, Progress& progress, InfoSu
 
 ExitCode run_info(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (!options.heart.surfaces.empty()) check_surface_output(options.heart.surfaces, options.common.force);
+  if (!options.heart.surfaces.empty())
+    (is_tagged_mesh(options.heart.surfaces) ? check_mesh_output : check_surface_output)(
+        options.heart.surfaces, options.common.force);
   Input input = Input::open(options.input, &context.progress);
   InfoSummary summary;
   summary.input = &input;

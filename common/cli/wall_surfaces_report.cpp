@@ -4,27 +4,51 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/layer/laplace.h"
+#include "common/field/layer/wall_layer.h"
 #include "common/field/layer/wall_measures.h"
+#include "common/load/write/write_mesh.h"
 #include "common/load/write/write_surface.h"
 #include "common/scene/wall/open_wall.h"
 
 namespace palpate {
 namespace {
 
-/// In the order of their numbers in the file; 1 and 2 are those of the array kSurfaceArray of points.
-constexpr std::array<BorderRole, kBorderRoleCount> kNumbered{BorderRole::kLeft,   BorderRole::kInner,
-                                                             BorderRole::kOuter,  BorderRole::kRight,
-                                                             BorderRole::kSeptum, BorderRole::kBase};
-
-std::int32_t number_of(BorderRole role) {
-  for (std::size_t n = 0; n < kNumbered.size(); ++n)
-    if (kNumbered[n] == role) return static_cast<std::int32_t>(n);
-  return 0;
+/// The wall as a mesh whose points have the array kSurfaceArray, beside what the file's points and cells have.
+void write_tagged_mesh(const OpenWall& wall, const Document& options, const std::optional<Vec3>& long_axis) {
+  const FieldGrid& grid = *wall.grid;
+  const TetMesh& tets = *grid.tets;
+  std::vector<Vec3> points;
+  points.reserve(tets.points().size());
+  for (const Vec3& x : tets.points()) points.push_back(grid.frame.data_from_local(x));
+  std::vector<std::size_t> input_of(points.size());
+  for (std::size_t i = wall.mesh.point_count(); i-- > 0;) {
+    const std::size_t p = grid.point_of_input.empty() ? i : grid.point_of_input[i];
+    if (p < input_of.size()) input_of[p] = i;
+  }
+  // Where two meet the first of these counts, as it does for the depth.
+  MeshColumn tags{.name = kSurfaceArray, .values = std::vector<double>(points.size(), 0.0)};
+  for (const BorderRole role :
+       {BorderRole::kBase, BorderRole::kOuter, BorderRole::kSeptum, BorderRole::kRight, BorderRole::kInner})
+    give_on(wall.surfaces, role, tag_of(role), tags.values);
+  std::vector<MeshColumn> columns{std::move(tags)};
+  for (const DataArray& array : wall.mesh.arrays) {
+    if (array.name == kSurfaceArray || array.name == kLayerArray) continue;
+    const bool of_cells = array.association == Association::kCell;
+    MeshColumn column{
+        .name = array.name, .values = {}, .components = as_size(array.components), .of_cells = of_cells};
+    for (std::size_t i = 0; i < (of_cells ? tets.cells().size() : points.size()); ++i)
+      for (int c = 0; c < array.components; ++c)
+        column.values.push_back(array.at(of_cells ? grid.source_cell[i] : input_of[i], c));
+    columns.push_back(std::move(column));
+  }
+  write_mesh(options.heart.surfaces, points, tets.cells(), columns, options.common.force, long_axis);
 }
 
 std::string percent(double share) { return short_number(std::round(1000.0 * share) / 10.0) + " %"; }
@@ -32,7 +56,11 @@ std::string percent(double share) { return short_number(std::round(1000.0 * shar
 }  // namespace
 
 WallSurfacesSummary report_wall_surfaces(Input& input, const Document& options, Progress& progress) {
-  const OpenWall wall = open_wall(input, {}, options.common.threads, &progress);
+  const bool mesh = is_tagged_mesh(options.heart.surfaces);
+  std::vector<std::string> arrays;
+  for (const ArrayInfo& array : input.arrays())
+    if (mesh) arrays.push_back(array.name);
+  const OpenWall wall = open_wall(input, std::move(arrays), options.common.threads, &progress);
   const FieldGrid& grid = *wall.grid;
   progress.begin("measuring the wall", 0);
   const WallPotential depth =
@@ -51,12 +79,17 @@ WallSurfacesSummary report_wall_surfaces(Input& input, const Document& options, 
     summary.notes.push_back(std::move(doubt));
   SurfaceLabels labels{.name = kSurfaceArray, .of = {}, .words = {}};
   const bool two = wall.surfaces.has(BorderRole::kRight) || wall.surfaces.has(BorderRole::kSeptum);
-  for (const BorderRole role : kNumbered) {
+  for (int tag = 0; tag < kBorderRoleCount; ++tag) {
+    const BorderRole role = role_of_tag(tag);
     const std::string name = role == BorderRole::kInner && !two ? "endocardium" : name_of(role);
     labels.words.push_back(name);
     if (wall.surfaces.areas[as_size(role)] > 0.0)
       summary.parts.push_back(
           {name, wall.surfaces.areas[as_size(role)], wall.surfaces.pieces[as_size(role)]});
+  }
+  if (mesh) {
+    write_tagged_mesh(wall, options, input.file()->long_axis);
+    return summary;
   }
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> place(grid.tets->points().size(), kUnused);
@@ -75,11 +108,13 @@ WallSurfacesSummary report_wall_surfaces(Input& input, const Document& options, 
       corner = place[p];
     }
   }
-  for (const BorderRole role : wall.surfaces.roles) labels.of.push_back(number_of(role));
+  for (const BorderRole role : wall.surfaces.roles) labels.of.push_back(tag_of(role));
   const std::array<SurfaceColumn, 2> columns{std::move(thickness), std::move(depths)};
   write_surface(options.heart.surfaces, points, triangles, labels, columns, options.common.force);
   return summary;
 }
+
+bool is_tagged_mesh(const std::filesystem::path& file) { return file.extension() == ".vtu"; }
 
 std::string surfaces_text(const WallSurfacesSummary& summary) {
   std::string text = "  surfaces   written to " + summary.output + "\n";

@@ -142,9 +142,10 @@ class InputModel : public WindowModel {
   /// @throws Error, Cancelled.
   virtual void complete(Document& /*document*/, Input& /*input*/, Progress& /*progress*/) const {}
 
-  /// Whether both mean the same fields at the same time.
+  /// Whether both mean the same fields, regions and surfaces at the same time.
   [[nodiscard]] static bool same_content(const Document& a, const Document& b) {
     return a.input.field == b.input.field && a.input.secondary == b.input.secondary &&
+           a.input.regions == b.input.regions && a.input.paint == b.input.paint &&
            a.input.time == b.input.time;
   }
 
@@ -155,6 +156,8 @@ class InputModel : public WindowModel {
   static void choose(Input& input, const Document& document) {
     input.set_field(document.input.field);
     input.set_secondary(document.input.secondary);
+    input.set_regions(document.input.regions);
+    input.set_paint(document.input.paint);
     if (!input.times().empty()) input.set_time_step(time_step_of(document, input.times()));
   }
 

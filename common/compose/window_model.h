@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/field/heart/regions.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
@@ -49,6 +50,7 @@ struct SceneInfo {
   std::vector<std::string> color_arrays;  ///< arrays of the data and measures that can colour the lines
   std::vector<double> times;              ///< empty for a single state
   std::optional<ValueRange> layers;       ///< depths that a heart's wall has
+  std::vector<RegionCount> regions;       ///< of a heart's mesh, chosen or not
   std::vector<std::string> plotted;       ///< scalars that can be plotted over time at the probe
   std::vector<std::string> volumes;       ///< scalars of a flow that can be drawn as a volume
   bool resampled = false;                 ///< these can be only where they are resampled

@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
+#include "common/base/files/user_folder.h"
 #include "common/base/text.h"
 #include "common/scene/sha256.h"
 
@@ -27,9 +28,17 @@ Keeping keeping_from_name(const std::string& name) {
 
 CachedFile::CachedFile(const std::filesystem::path& input, const Kind& kind, Keeping keeping, int threads)
     : kind_(kind), keeping_(keeping), threads_(threads) {
+  std::error_code ignored;
+  const std::filesystem::path whole = std::filesystem::absolute(input, ignored).lexically_normal();
+  from_ = std::string(kind.what) + " of " + printable(whole.string()) + ", kept by Palpate; may be deleted";
+  const auto folder = user_folder("XDG_CACHE_HOME", ".cache");
+  if (!folder) return;
   std::filesystem::path stem = input.filename();
   if (stem.extension() == ".gz") stem.replace_extension();
-  file_ = input.parent_path() / (stem.replace_extension().string() + ".palpate." + kind.what);
+  constexpr std::size_t kDigits = 12;  // of the place, so that two hearts of one name have a file each
+  file_ = *folder / "palpate" / "hearts" /
+          (stem.replace_extension().string() + "-" + sha256_of(whole.string()).substr(0, kDigits) +
+           ".palpate." + kind.what);
 }
 
 bool CachedFile::there() const {
@@ -51,7 +60,8 @@ std::optional<std::string_view> CachedFile::body_of(const MappedFile& mapped, co
   if (key.empty() || text.size() < kDigestDigits) return std::nullopt;
   const std::string_view whole = text.substr(0, text.size() - kDigestDigits);
   std::string_view body = whole;
-  if (take_line(body) != kind_.version || take_line(body) != key) return std::nullopt;
+  if (take_line(body) != from_ || take_line(body) != kind_.version || take_line(body) != key)
+    return std::nullopt;
   if (sha256_in_pieces({&whole, 1}, "", threads_) != text.substr(whole.size())) return std::nullopt;
   return body;
 }
@@ -65,17 +75,20 @@ void CachedFile::note_found(bool found) {
 
 bool CachedFile::wants(double seconds) {
   if (keeping_ == Keeping::kOff || (keeping_ == Keeping::kAuto && seconds < kWorthKeeping)) return false;
-  if (may_cache_beside(file_)) return true;
-  notes_.push_back(std::string(kind_.what) + " not kept for the next opening: the folder of " +
-                   file_.string() + " is read-only");
+  std::error_code ignored;
+  if (!file_.empty()) std::filesystem::create_directories(file_.parent_path(), ignored);
+  if (!file_.empty() && may_cache_beside(file_)) return true;
+  notes_.push_back(std::string(kind_.what) + " not kept for the next opening: " +
+                   (file_.empty() ? "the user has no folder for it"
+                                  : "the folder of " + file_.string() + " is read-only"));
   return false;
 }
 
 void CachedFile::keep(const std::string& key, std::string_view body) {
   if (key.empty()) return;
   std::string text;
-  text.reserve(key.size() + body.size() + 2 * kDigestDigits);
-  text += std::string(kind_.version) + "\n" + key + "\n";
+  text.reserve(from_.size() + key.size() + body.size() + 2 * kDigestDigits);
+  text += from_ + "\n" + kind_.version + "\n" + key + "\n";
   text += body;
   const std::string_view whole = text;
   text += sha256_in_pieces({&whole, 1}, "", threads_);

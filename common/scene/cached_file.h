@@ -1,6 +1,7 @@
-/// A file beside an input that keeps what took time to make, such as layers and meshes, for the next opening.
+/// A file that keeps what took time to make of an input, such as layers and meshes, for the next opening.
 ///
-/// It belongs to one thing: the version of the method and a digest of all that the thing was made from stand
+/// It lies in $XDG_CACHE_HOME/palpate/hearts (~/.cache where the variable is not set), named after the input and its
+/// place, and may be deleted at any time; its first line says what it is of. It belongs to one thing: the version of the method and a digest of all that the thing was made from stand
 /// first, so that other options, an input that has changed and a newer program find nothing in it and write
 /// it anew. The checksum of all before it stands at its end: what is damaged or cut off counts as nothing,
 /// too.
@@ -33,7 +34,7 @@ class CachedFile {
     const char* version;  ///< one line; goes up with every change of how they are made
   };
 
-  /// @param input the file that is opened: "heart.pts" keeps its layers in "heart.palpate.layers" beside it.
+  /// @param input the file that is opened: "heart.pts" keeps its layers in "heart-8f2c….palpate.layers".
   /// @param threads that sum up, as parallel_for(); they change nothing.
   CachedFile(const std::filesystem::path& input, const Kind& kind, Keeping keeping, int threads);
 
@@ -52,8 +53,8 @@ class CachedFile {
     return found;
   }
 
-  /// Whether what took that long [s] is to be kept. Where the folder is read-only it is not, and notes() says
-  /// so.
+  /// Whether what took that long [s] is to be kept. Where there is no folder for it, or a read-only one, it is not, and
+  /// notes() says so.
   [[nodiscard]] bool wants(double seconds);
   /// Where the disk refuses, notes() says so. @pre wants().
   void keep(const std::string& key, std::string_view body);
@@ -69,7 +70,8 @@ class CachedFile {
                                                         const std::string& key) const;
   void note_found(bool found);
 
-  std::filesystem::path file_;
+  std::filesystem::path file_;  ///< empty: the user has no folder
+  std::string from_;            ///< its first line
   Kind kind_;
   Keeping keeping_;
   int threads_;

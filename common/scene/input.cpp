@@ -15,6 +15,7 @@
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/heart/tissue.h"
+#include "common/field/layer/paint_surfaces.h"
 #include "common/load/volume_block.h"
 #include "common/scene/raw_file.h"
 #include "common/scene/tensor/read_vectors.h"
@@ -172,6 +173,8 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
     for (const VectorChoice& choice : vector_choices(input.arrays_)) input.fields_.push_back(choice.label);
   }
   input.part_fields();
+  input.set_regions(spec.regions);
+  input.set_paint(spec.paint);
   if (spec.kind == FieldKind::kVector && spec.time.empty() && input.times().size() > 1) {
     bool failed = false;
     const auto step = moving_step(input, failed, progress);
@@ -298,6 +301,16 @@ std::vector<std::string> Input::notes() const {
   std::vector<std::string> notes;
   if (!raw_note_.empty()) notes.push_back(raw_note_);
   if (const FileInfo* info = file()) notes.insert(notes.end(), info->notes.begin(), info->notes.end());
+  if (!chosen_regions_.empty()) {
+    std::size_t all = 0, taken = 0;
+    for (const RegionCount& region : *regions_) {
+      all += region.elements;
+      if (std::find(chosen_regions_.begin(), chosen_regions_.end(), region.number) != chosen_regions_.end())
+        taken += region.elements;
+    }
+    notes.push_back("regions " + regions_text(chosen_regions_) + " are taken, " + counted(taken, "element") +
+                    " of " + std::to_string(all) + "; the others are hidden");
+  }
   return notes;
 }
 
@@ -322,6 +335,7 @@ HeartChoice Input::heart_choice() const {
   check_volume();
   HeartChoice choice = choose_heart(arrays_, spec_.field, file_name());
   choice.constant_cells = spec_.cell_directions == "constant";
+  choice.paint = parse_paint(spec_.paint);
   return choice;
 }
 
@@ -371,7 +385,56 @@ std::string Input::choice_sentence() const {
   return text;
 }
 
+void Input::set_regions(const std::string& numbers) {
+  std::vector<double> chosen = parse_regions(numbers);
+  if (!chosen.empty()) {
+    const std::vector<RegionCount>& known = regions();
+    std::vector<double> all;
+    for (const RegionCount& region : known) all.push_back(region.number);
+    for (const double number : chosen)
+      if (std::find(all.begin(), all.end(), number) == all.end())
+        throw usage_error("--regions " + numbers + ": " + file_name() +
+                          (all.empty() ? " has no array that numbers the regions of its elements"
+                                       : " has the regions " + regions_text(all)));
+  }
+  chosen_regions_ = std::move(chosen);
+  spec_.regions = numbers;
+}
+
+void Input::set_paint(const std::vector<std::string>& paint) {
+  (void)parse_paint(paint);
+  spec_.paint = paint;
+}
+
+const std::vector<RegionCount>& Input::regions(Progress* progress) {
+  if (regions_) return *regions_;
+  regions_.emplace();
+  const std::string name = spec_.kind == FieldKind::kFibre ? region_array(arrays_) : std::string();
+  if (name.empty()) return *regions_;
+  const std::vector<DataSet> blocks = read_whole({name}, progress);
+  const DataArray* const numbers =
+      blocks.size() == 1 ? blocks.front().find(name, Association::kCell) : nullptr;
+  if (numbers != nullptr) *regions_ = count_regions(*numbers);
+  return *regions_;
+}
+
 std::vector<DataSet> Input::read(const std::vector<std::string>& names, Progress* progress) {
+  if (chosen_regions_.empty()) return read_whole(names, progress);
+  const std::string regions = region_array(arrays_);
+  const bool asked = std::find(names.begin(), names.end(), regions) != names.end();
+  std::vector<std::string> all = names;
+  if (!asked) all.push_back(regions);
+  std::vector<DataSet> blocks = read_whole(all, progress);
+  for (DataSet& block : blocks) {
+    const DataArray* const numbers = block.find(regions, Association::kCell);
+    if (numbers == nullptr || numbers->tuples != block.cell_count()) continue;  // refused where it is checked
+    (void)hide_other_regions(block, *numbers, chosen_regions_);
+    if (!asked) std::erase_if(block.arrays, [&](const DataArray& array) { return &array == numbers; });
+  }
+  return blocks;
+}
+
+std::vector<DataSet> Input::read_whole(const std::vector<std::string>& names, Progress* progress) {
   if (!remeshed_) return read_file(names, progress);
   const DataSet& made = remeshed_->mesh;
   DataSet mesh{.name = made.name, .topology = made.topology, .arrays = {}, .visible = {}, .hidden_cells = {}};

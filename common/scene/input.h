@@ -14,6 +14,7 @@
 #include "common/field/analytic/examples.h"
 #include "common/field/analytic/heart_example.h"
 #include "common/field/heart/heart.h"
+#include "common/field/heart/regions.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
@@ -76,6 +77,13 @@ class Input {
 
   /// Chooses another field, as `--field` would. Unknown names are refused by choice() and load_field().
   void set_field(std::string name) { spec_.field = std::move(name); }
+  /// Chooses regions of a heart, as `--regions` would. @throws Error (usage) for one that the file has not.
+  void set_regions(const std::string& numbers);
+  /// Chooses how a heart's surfaces are painted, as `--paint-surface` would. @throws Error (usage).
+  void set_paint(const std::vector<std::string>& paint);
+  /// The regions of a heart's mesh, chosen or not; none where it has no array of them. Read once.
+  /// @throws Error, Cancelled.
+  [[nodiscard]] const std::vector<RegionCount>& regions(Progress* progress = nullptr);
   /// Chooses what InputOptions::secondary has.
   void set_secondary(std::vector<std::string> names) { spec_.secondary = std::move(names); }
 
@@ -113,7 +121,8 @@ class Input {
   [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.
   [[nodiscard]] std::vector<DataSet> read_timed(const std::vector<std::string>& names, Progress* progress);
-  /// Reads topology and arrays by name at the chosen time step. @pre file().
+  /// Reads topology and arrays by name at the chosen time step, with the cells of regions that are not chosen
+  /// hidden. @pre file().
   [[nodiscard]] std::vector<DataSet> read(const std::vector<std::string>& names,
                                           Progress* progress = nullptr);
 
@@ -130,6 +139,7 @@ class Input {
   void open_files(Progress* progress);
   void remesh(Progress* progress);
   [[nodiscard]] std::vector<DataSet> read_file(const std::vector<std::string>& names, Progress* progress);
+  [[nodiscard]] std::vector<DataSet> read_whole(const std::vector<std::string>& names, Progress* progress);
   void part_fields();
   [[nodiscard]] std::string file_name() const;
   void check_volume() const;
@@ -144,6 +154,8 @@ class Input {
   std::optional<FileInfo> made_info_;  ///< where it is not the source's
   std::vector<ArrayInfo> arrays_;
   std::vector<std::string> fields_;
+  std::optional<std::vector<RegionCount>> regions_;
+  std::vector<double> chosen_regions_;  ///< empty: all
   std::string not_volume_;
   TimeChoice time_;
   double seconds_open_ = 0.0;

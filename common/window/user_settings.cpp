@@ -1,7 +1,6 @@
 #include "common/window/user_settings.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
+#include "common/base/files/user_folder.h"
 #include "common/compose/appearance.h"
 #include "common/scene/document/setting.h"
 
@@ -17,15 +17,6 @@ namespace palpate {
 namespace {
 
 constexpr int kSmallest = 200, kLargest = 20'000;  // [screen coordinates] of a window's edge
-
-/// The folder of an XDG variable, which has to be absolute to count.
-std::optional<std::filesystem::path> folder_of(const char* variable, const char* below_home) {
-  const char* const given = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): read only
-  if (given != nullptr && std::filesystem::path(given).is_absolute()) return std::filesystem::path(given);
-  const char* const home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe): read only
-  if (home == nullptr || !std::filesystem::path(home).is_absolute()) return std::nullopt;
-  return std::filesystem::path(home) / below_home;
-}
 
 toml::table read_table(const std::filesystem::path& path, std::vector<std::string>& notes) {
   std::ifstream in(path);
@@ -132,9 +123,9 @@ void remember(std::vector<InputFiles>& recent, const InputFiles& input) {
 }
 
 std::optional<UserFiles> user_files(const std::string& program) {
-  const auto config = folder_of("XDG_CONFIG_HOME", ".config");
-  const auto state = folder_of("XDG_STATE_HOME", ".local/state");
-  const auto cache = folder_of("XDG_CACHE_HOME", ".cache");
+  const auto config = user_folder("XDG_CONFIG_HOME", ".config");
+  const auto state = user_folder("XDG_STATE_HOME", ".local/state");
+  const auto cache = user_folder("XDG_CACHE_HOME", ".cache");
   if (!config || !state || !cache) return std::nullopt;
   return UserFiles{*config / "palpate" / (program + ".toml"), *state / "palpate" / (program + "-recent.toml"),
                    *cache / "palpate" / "thumbnails"};

@@ -105,7 +105,7 @@ TEST_F(CardiacMesh, HeartsOpenOnTheMeshersTetrahedraAndKeepThem) {
     return command;
   };
   const Json written = json(with({"mesh", "--out", "heart.vtu"}));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path("heart.palpate.mesh")));
+  EXPECT_TRUE(is_kept(".mesh"));
   const Json info = json(with({"info"}));
   EXPECT_NE(info["notes"].dump().find("mesh taken from"), std::string::npos) << info["notes"];
   EXPECT_NE(info["notes"].dump().find("by delaunay in place of 3240 cells"), std::string::npos);

@@ -13,6 +13,8 @@
 
 #include "apps/cardiac/cardiac_model.h"
 #include "common/compose/appearance.h"
+#include "common/field/analytic/ventricle.h"
+#include "common/field/layer/paint_surfaces.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/math/vec_text.h"
 #include "common/scene/session.h"
@@ -135,6 +137,33 @@ TEST_F(CardiacWindow, ShowsAShellInPlaceOfAHeartAndLetsGo) {
   EXPECT_EQ(result.view.lines->size(), 2U);
   EXPECT_EQ(result.document.heart.angle, "region");
   EXPECT_EQ(result.document.heart.layer, "");
+}
+
+// A brush corrects what the wall was taken for: a stroke is one edit, the view does not turn, and layers are solved anew.
+TEST_F(CardiacWindow, PaintsTheWallWithABrush) {
+  options_.heart.walls = "found";
+  constexpr float kTextHeight = 14.0F;
+  const PictureArea area = layout(kWidth, kHeight, kTextHeight).picture;
+  const auto press = [&](int frame, const std::string& control) {
+    window_.script.push_back({frame, {.kind = InputKind::kMove}, control});
+    at(frame + 2, {.kind = InputKind::kPress, .button = MouseButton::kLeft});
+    at(frame + 4, {.kind = InputKind::kRelease, .button = MouseButton::kLeft});
+  };
+  press(20, "base");
+  const double x = area.left + 0.5 * area.width, y = area.top + 0.55 * area.height;
+  at(30, {.kind = InputKind::kMove, .x = x, .y = y});
+  at(34, {.kind = InputKind::kPress, .button = MouseButton::kLeft});
+  at(40, {.kind = InputKind::kMove, .x = x + 60.0, .y = y});
+  at(46, {.kind = InputKind::kRelease, .button = MouseButton::kLeft});
+  const WindowResult result = run_until(140);
+  EXPECT_EQ(result.missing, std::vector<std::string>());
+  ASSERT_GE(result.document.input.paint.size(), 2U) << "where it began and where it ended";
+  const std::vector<SurfacePaint> paint = parse_paint(result.document.input.paint);
+  EXPECT_EQ(paint.front().role, BorderRole::kBase);
+  const Vec3 seen = project(result.view.camera, paint.front().center, static_cast<int>(area.width),
+                            static_cast<int>(area.height));
+  EXPECT_LT(std::hypot(seen.x + area.left - x, seen.y + area.top - y), 1.5)
+      << "[pixels], under the mouse still";
 }
 
 /// The measured ventricles of a dog, from the file to a fibre under the hand, by the mouse alone.
@@ -400,7 +429,7 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
     EXPECT_NE(std::find(saved.options.begin(), saved.options.end(), option), saved.options.end())
         << option.first;
   EXPECT_TRUE(std::filesystem::exists(session));
-  std::filesystem::remove(folder_.path(file.stem().string() + ".palpate.layers"));
+  std::filesystem::remove_all(cache_.path("palpate"));
   const auto lines = [&](const std::string& name, const std::vector<std::string>& words) {
     std::vector<std::string> command{"trace", file.string(), "--out", name};
     command.insert(command.end(), words.begin(), words.end());
@@ -408,8 +437,7 @@ TEST_F(CardiacSession, KeepsTheOptionsThatAreNoEditsOfTheWindow) {
     return read_file(folder_.path(name));
   };
   const std::string back = lines("back.csv", {"--session", session.string()});
-  EXPECT_TRUE(std::filesystem::exists(folder_.path(file.stem().string() + ".palpate.layers")))
-      << "always kept, as the session has it";
+  EXPECT_TRUE(is_kept(".layers")) << "always kept, as the session has it";
   EXPECT_EQ(back, lines("given.csv", {"--cell-directions", "constant", "--layer", "0.25", "--seeds",
                                       "random:3", "--step", "0.015625", "--least-gap", "0.125"}));
 }
@@ -449,6 +477,80 @@ TEST_F(CardiacSession, LeavesOutWhatThePanelCutsAway) {
   EXPECT_EQ(again.start(progress).document.heart.cut, document.heart.cut);
   document.heart.cut.clear();
   EXPECT_NEAR(farthest(model.update(document, progress)), farthest(whole), 0.0);
+}
+
+// The wall is seen beside its layer: its inner and outer surface, and the face that a cut lays open, whose area is that
+// between two ellipses, 2 f^2 times the integral of sinh^2 lambda + sin^2 mu.
+TEST_F(CardiacSession, ShowsTheWallAndTheFaceOfItsCut) {
+  const Ventricle shape;
+  Document options;
+  options.input.example = "ventricle";
+  options.tracing.seeds = "random:10";
+  options.heart.angle = "depth";
+  options.heart.walls = "both";
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState whole = model.start(progress);
+  ASSERT_EQ(whole.surfaces.size(), 3U) << "layer, inner and outer surface";
+  for (const std::size_t s : {1U, 2U}) {
+    EXPECT_LT(whole.surfaces[s].opacity, 0.5) << "the layer is seen through it";
+    const double lambda = s == 1 ? shape.lambda_inner : shape.lambda_outer;
+    for (const Vec3& x : whole.surfaces[s].mesh->points)
+      ASSERT_NEAR(shape.coordinates(x).lambda, lambda, 1e-9);
+  }
+  Document document = whole.document;
+  document.heart.cut = "0,1,0,0";
+  const SceneState half = model.update(document, progress);
+  ASSERT_EQ(half.surfaces.size(), 4U) << "and the face of the cut";
+  const SurfaceView& face = half.surfaces[1];
+  double area = 0.0;
+  for (const auto& [a, b, c] : face.mesh->triangles) {
+    const Vec3 at = face.mesh->points[a];
+    area += 0.5 * glm::length(glm::cross(face.mesh->points[b] - at, face.mesh->points[c] - at));
+  }
+  const auto sinh2 = [](double l) { return 0.25 * std::sinh(2.0 * l) - 0.5 * l; };
+  const auto sin2 = [](double m) { return 0.5 * m - 0.25 * std::sin(2.0 * m); };
+  const double across = shape.lambda_outer - shape.lambda_inner;
+  const double exact = 2.0 * shape.focus * shape.focus *
+                       (shape.mu_base * (sinh2(shape.lambda_outer) - sinh2(shape.lambda_inner)) +
+                        across * sin2(shape.mu_base));
+  EXPECT_NEAR(area, exact, 5e-3 * exact);
+  const auto [least, most] = std::ranges::minmax(*face.values);
+  EXPECT_NEAR(least, 0.0, 1e-5) << "from the inner surface";
+  EXPECT_NEAR(most, 1.0, 1e-5) << "to the outer one";
+  for (std::size_t s = 2; s < 4; ++s)
+    for (const auto& triangle : half.surfaces[s].mesh->triangles)
+      for (const std::uint32_t corner : triangle) ASSERT_LE(half.surfaces[s].mesh->points[corner].y, 1e-9);
+  document.heart.cut_face = false;
+  EXPECT_EQ(model.update(document, progress).surfaces.size(), 3U);
+}
+
+// What a hand has painted comes back with the session.
+TEST_F(CardiacSession, KeepsPaintAndRegions) {
+  Document options;
+  options.input.example = "ventricle";
+  options.tracing.seeds = "random:10";
+  options.input.paint = {"base:0,30,-20,8", "outer:0,30,-20,4"};
+  CardiacModel model(options, "cardiac");
+  Progress progress;
+  const SceneState state = model.start(progress);
+  EXPECT_EQ(state.document.heart.walls, "found") << "what was painted is shown";
+  SceneView view;
+  show_scene(state, ShownAs::kNew, view);
+  (void)saved_session(model, state, view, folder_.path("painted.palpate.toml"));
+  const Json again = json({"info", "--session", "painted.palpate.toml", "--surfaces", "tagged.vtu"});
+  const Json given = json({"info", "--example", "ventricle", "--paint-surface", "base:0,30,-20,8",
+                           "--paint-surface", "outer:0,30,-20,4", "--surfaces", "given.vtu"});
+  EXPECT_EQ(again["surfaces"]["parts"], given["surfaces"]["parts"]);
+  EXPECT_NE(given["surfaces"]["parts"],
+            json({"info", "--example", "ventricle", "--surfaces", "bare.vtp"})["surfaces"]["parts"]);
+  // The tagged mesh has them without paint, but for rims.
+  const Json read = json({"info", "tagged.vtu", "--surfaces", "read.vtp"});
+  for (std::size_t part = 0; part < read["surfaces"]["parts"].size(); ++part)
+    EXPECT_NEAR(read["surfaces"]["parts"][part]["area"].get<double>() /
+                    given["surfaces"]["parts"][part]["area"].get<double>(),
+                1.0, 0.15)
+        << read["surfaces"]["parts"][part];
 }
 
 // Whatever a window saves, the program opens again: after edits of the picture, and at what it found itself.

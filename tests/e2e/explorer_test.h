@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +19,10 @@ using Json = nlohmann::json;
 
 class ExplorerTest : public ::testing::Test {
  protected:
-  explicit ExplorerTest(std::string explorer) : explorer_(std::move(explorer)) {}
+  explicit ExplorerTest(std::string explorer) : explorer_(std::move(explorer)) {
+    // What is kept for the next opening is a test's own.
+    ::setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
+  }
 
   ProgramResult run(const std::vector<std::string>& arguments) {
     std::vector<std::string> command{bin(explorer_).string()};
@@ -46,7 +50,14 @@ class ExplorerTest : public ::testing::Test {
     return names;
   }
 
-  TempFolder folder_;
+  /// Whether something with this ending is kept for the next opening.
+  bool is_kept(const std::string& ending) const {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(cache_.path()))
+      if (entry.path().extension() == ending) return true;
+    return false;
+  }
+
+  TempFolder folder_, cache_;
 
  private:
   std::string explorer_;

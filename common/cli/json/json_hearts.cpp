@@ -61,23 +61,28 @@ std::string convert_json(const ConvertSummary& summary) {
 }
 
 std::string fibre_rule_json(const FibreRuleSummary& summary) {
-  return json_text({{"input", summary.input},
-                    {"files", summary.files},
-                    {"rule", summary.rule},
-                    {"endo", summary.endo},
-                    {"epi", summary.epi},
-                    {"sheet_endo", summary.sheet_endo},
-                    {"sheet_epi", summary.sheet_epi},
-                    {"ventricles", summary.two ? 2 : 1},
-                    {"elements", summary.elements},
-                    {"undefined", summary.undefined},
-                    {"undefined_reach", summary.farthest},
-                    {"without", summary.without},
-                    {"turn_within_median", summary.median_turn},
-                    {"turn_within_95", summary.most_turn},
-                    {"notes", summary.notes},
-                    {"seconds", summary.seconds},
-                    {"version", version()}});
+  Json angles{{"endo", summary.endo}, {"epi", summary.epi}};
+  if (summary.doste) {
+    angles.update({{"transverse_endo", summary.transverse_endo}, {"transverse_epi", summary.transverse_epi}});
+    if (summary.two) angles.update({{"right_endo", summary.right_endo}, {"right_epi", summary.right_epi}});
+  } else {
+    angles.update({{"sheet_endo", summary.sheet_endo}, {"sheet_epi", summary.sheet_epi}});
+  }
+  Json made{{"input", summary.input},
+            {"files", summary.files},
+            {"rule", summary.rule},
+            {"ventricles", summary.two ? 2 : 1},
+            {"elements", summary.elements},
+            {"undefined", summary.undefined},
+            {"undefined_reach", summary.farthest},
+            {"without", summary.without},
+            {"turn_within_median", summary.median_turn},
+            {"turn_within_95", summary.most_turn},
+            {"notes", summary.notes},
+            {"seconds", summary.seconds},
+            {"version", version()}};
+  made.update(angles);
+  return json_text(made);
 }
 
 std::string coordinates_json(const CoordinatesSummary& summary) {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -22,14 +23,15 @@ constexpr double kAgree = 0.3;
 /// Sine of the angle between the ways along and through the wall below which there is no way round it.
 constexpr double kApart = 0.1;
 
-/// The solutions of Laplace's equation; `left` and `right` are empty where there is one ventricle.
+/// The solutions of Laplace's equation; all but two are empty where there is one ventricle, `through` (phi_t) and
+/// `between` (b, before it is scaled) where the rule is none of kDoste.
 struct RulePotentials {
-  std::vector<double> psi, epi, left, right;
+  std::vector<double> psi, epi, left, right, through, between;
   std::vector<std::uint32_t> apex;
 };
 
-RulePotentials rule_potentials(const FieldGrid& grid, const WallSurfaces& surfaces, const std::string& file,
-                               int threads) {
+RulePotentials rule_potentials(const FieldGrid& grid, const WallSurfaces& surfaces, FibreRule rule,
+                               const std::string& file, int threads) {
   RulePotentials made;
   WallAxis axis = find_wall_axis(grid, surfaces, file, threads);
   made.psi = std::move(axis.potential);
@@ -46,6 +48,10 @@ RulePotentials rule_potentials(const FieldGrid& grid, const WallSurfaces& surfac
     made.epi = solve(1.0, 0.0, 0.0);
     made.left = solve(0.0, 1.0, 0.0);
     made.right = solve(0.0, 0.0, 1.0);
+    if (rule == FibreRule::kDoste) {
+      made.through = solve(0.0, -2.0, 1.0);
+      made.between = solve(std::numeric_limits<double>::quiet_NaN(), -2.0, 1.0);
+    }
   } else {
     made.epi = solve_laplace(*grid.tets, depths_on(surfaces), file, threads).values;
   }
@@ -56,7 +62,19 @@ RulePotentials rule_potentials(const FieldGrid& grid, const WallSurfaces& surfac
 struct RuleCell {
   Vec3 psi{0.0}, epi{0.0}, left{0.0}, right{0.0};  ///< means of unit directions of gradients
   double d = 0.0, r = 0.0;
+  double through = 0.0, between = 0.0;  ///< phi_t and b
 };
+
+/// What lies between -2 and 1, as -1 to 1.
+double scaled(double potential) { return potential < 0.0 ? 0.5 * potential : potential; }
+
+/// alpha and beta of (5).
+std::pair<double, double> doste_angles(double d, double through, double b, const RuleAngles& angles) {
+  const double s = std::abs(scaled(through)), w = 0.5 * (1.0 + b);
+  return {
+      (b < 0.0 ? angles.endo : angles.right_endo) * s + ((1.0 - w) * angles.epi + w * angles.right_epi) * d,
+      angles.transverse_endo * s + angles.transverse_epi * d};
+}
 
 /// The part of `v` across `along`, unit; nothing where it has none, or `v` is no direction.
 std::optional<Vec3> made_across(const Vec3& v, const Vec3& along) {
@@ -93,6 +111,15 @@ Mat3 oriented(const Vec3& e_l, const TurnedWay& by) {
           std::sin(by.beta) * l + std::cos(by.beta) * by.way};
 }
 
+/// (6)
+Mat3 turned_out(const Vec3& e_l, const TurnedWay& by) {
+  const Vec3 e_c = glm::cross(e_l, by.way);
+  const Vec3 along = std::cos(by.alpha) * e_c + std::sin(by.alpha) * e_l;
+  return {std::cos(by.beta) * along - std::sin(by.beta) * by.way,
+          -std::sin(by.alpha) * e_c + std::cos(by.alpha) * e_l,
+          std::sin(by.beta) * along + std::cos(by.beta) * by.way};
+}
+
 /// Of Bayer et al.: between frames whose axes have no sign.
 Mat3 bislerp(const Mat3& from, const Mat3& to, double part) {
   using Turn = glm::dquat;
@@ -109,9 +136,28 @@ Mat3 bislerp(const Mat3& from, const Mat3& to, double part) {
   return glm::mat3_cast(glm::slerp(nearest, b, part));  // the shorter way
 }
 
+/// The frame of (6); nothing where (1) is not defined.
+std::optional<Mat3> doste_frame(const RuleCell& cell, const RuleAngles& angles) {
+  const Vec3 e_l = glm::normalize(cell.psi);
+  const auto inside = made_across(cell.between < 0.0 ? -cell.left : -cell.right, e_l),
+             epi = made_across(cell.epi, e_l);
+  if (cell.d < 0.5 ? !inside : !epi) return std::nullopt;
+  const auto [alpha, beta] = doste_angles(cell.d, cell.through, cell.between, angles);
+  const TurnedWay outwards{epi.value_or(Vec3{0.0}), alpha, beta};
+  if (!inside) return turned_out(e_l, outwards);
+  const TurnedWay from{*inside, alpha, beta};
+  if (!epi) return turned_out(e_l, from);
+  // Both lead out of the cavity. Where they do not agree, deep in a septum, the epicardium's weighs little.
+  TurnedWay way = mixed(from, outwards, cell.d, e_l);
+  way.alpha = alpha;
+  way.beta = beta;
+  return turned_out(e_l, way);
+}
+
 /// Fibre and sheet, columns 0 and 2; nothing where (1) is not defined.
 std::optional<Mat3> frame_of(const RuleCell& cell, FibreRule rule, const RuleAngles& angles) {
   if (!(glm::length(cell.psi) > kAgree)) return std::nullopt;
+  if (rule == FibreRule::kDoste) return doste_frame(cell, angles);
   const Vec3 e_l = glm::normalize(cell.psi);
   double d = cell.d, r = cell.r;
   const auto left = made_across(-cell.left, e_l), right = made_across(cell.right, e_l),
@@ -140,16 +186,27 @@ std::optional<Mat3> frame_of(const RuleCell& cell, FibreRule rule, const RuleAng
   return bislerp(endo, oriented(e_l, of_epi), d);
 }
 
-/// By how much alpha of (3) differs between the points of a cell; NaN where it is not known at one of them.
-double turn_within(const TetMesh::Tet& tet, const RulePotentials& potentials, const RuleAngles& angles) {
+/// alpha of (3), or of (5), at a point.
+double alpha_at(std::uint32_t p, const RulePotentials& potentials, FibreRule rule, const RuleAngles& angles) {
+  const double d = potentials.epi[p];
+  if (rule == FibreRule::kDoste)
+    return potentials.through.empty()
+               ? doste_angles(d, 2.0 * (d - 1.0), -1.0, angles).first
+               : doste_angles(d, potentials.through[p], scaled(potentials.between[p]), angles).first;
+  double endo = angles.endo;
+  if (!potentials.right.empty()) {
+    const double both = potentials.right[p] + potentials.left[p];
+    endo *= both > 0.0 ? 1.0 - 2.0 * potentials.right[p] / both : 0.0;
+  }
+  return endo * (1.0 - d) + angles.epi * d;
+}
+
+/// By how much it differs between the points of a cell; NaN where it is not known at one of them.
+double turn_within(const TetMesh::Tet& tet, const RulePotentials& potentials, FibreRule rule,
+                   const RuleAngles& angles) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const std::uint32_t p : tet) {
-    double endo = angles.endo;
-    if (!potentials.right.empty()) {
-      const double both = potentials.right[p] + potentials.left[p];
-      endo *= both > 0.0 ? 1.0 - 2.0 * potentials.right[p] / both : 0.0;
-    }
-    const double d = potentials.epi[p], alpha = endo * (1.0 - d) + angles.epi * d;
+    const double alpha = alpha_at(p, potentials, rule, angles);
     if (!std::isfinite(alpha)) return std::numeric_limits<double>::quiet_NaN();
     low = std::min(low, alpha);
     high = std::max(high, alpha);
@@ -157,11 +214,11 @@ double turn_within(const TetMesh::Tet& tet, const RulePotentials& potentials, co
   return high - low;
 }
 
-void state_turns(const TetMesh& mesh, const RulePotentials& potentials, const RuleAngles& angles,
-                 RuleFibres& made) {
+void state_turns(const TetMesh& mesh, const RulePotentials& potentials, FibreRule rule,
+                 const RuleAngles& angles, RuleFibres& made) {
   std::vector<double> turns;
   for (const TetMesh::Tet& tet : mesh.cells()) {
-    const double turn = turn_within(tet, potentials, angles);
+    const double turn = turn_within(tet, potentials, rule, angles);
     if (std::isfinite(turn)) turns.push_back(turn);
   }
   if (turns.empty()) return;
@@ -204,7 +261,7 @@ void fill(const TetMesh& mesh, std::vector<bool>& defined, RuleFibres& made) {
 RuleFibres make_rule_fibres(const FieldGrid& grid, const WallSurfaces& surfaces, FibreRule rule,
                             const RuleAngles& angles, const std::string& file, int threads) {
   const TetMesh& mesh = *grid.tets;
-  const RulePotentials potentials = rule_potentials(grid, surfaces, file, threads);
+  const RulePotentials potentials = rule_potentials(grid, surfaces, rule, file, threads);
   const bool two = !potentials.right.empty();
   const std::vector<Vec3> psi = gradient_directions(mesh, potentials.psi),
                           epi = gradient_directions(mesh, potentials.epi);
@@ -225,13 +282,20 @@ RuleFibres make_rule_fibres(const FieldGrid& grid, const WallSurfaces& surfaces,
     };
     RuleCell cell{.psi = mean(psi), .epi = mean(epi), .d = mean(potentials.epi)};
     cell.left = -cell.epi;
+    cell.through = 2.0 * (cell.d - 1.0);
+    cell.between = -1.0;
+    if (two && rule == FibreRule::kDoste) {
+      cell.through = mean(potentials.through);
+      cell.between = scaled(mean(potentials.between));
+    }
     if (two) {
       cell.left = mean(left);
       cell.right = mean(right);
       const double of_right = mean(potentials.right), of_both = of_right + mean(potentials.left);
       cell.r = of_both > 0.0 ? of_right / of_both : 0.0;
     }
-    if (!std::isfinite(cell.d) || !std::isfinite(cell.r)) continue;
+    if (!std::isfinite(cell.d) || !std::isfinite(cell.r) || !std::isfinite(cell.through + cell.between))
+      continue;
     const auto frame = frame_of(cell, rule, angles);
     if (!frame) continue;
     defined[c] = true;
@@ -249,7 +313,7 @@ RuleFibres make_rule_fibres(const FieldGrid& grid, const WallSurfaces& surfaces,
     made.farthest = std::max(made.farthest, nearest * grid.frame.length_scale());
   }
   fill(mesh, defined, made);
-  state_turns(mesh, potentials, angles, made);
+  state_turns(mesh, potentials, rule, angles, made);
   made.without = as_size(std::count(defined.begin(), defined.end(), false));
   return made;
 }

@@ -1,5 +1,5 @@
-/// Directions of fibres and sheets by a rule, for walls that have none: Bayer et al., Ann Biomed Eng 40 (2012) 2243,
-/// from four solutions of Laplace's equation.
+/// Directions of fibres and sheets by a rule, for walls that have none, from solutions of Laplace's equation: Bayer et
+/// al., Ann Biomed Eng 40 (2012) 2243, or Doste et al., Int J Numer Meth Biomed Eng 35 (2019) e3185.
 ///
 ///   psi      0 at the apex, 1 at the base (layer/wall_coordinates.h)
 ///   phi_e    1 on the epicardium, 0 on the endocardia (and the septum's sides)
@@ -21,6 +21,20 @@
 ///   kBayer         the same frames are mixed before they are turned, and turned once, by alpha_w in free walls and
 ///                  alpha_s in the septum: linear in d, as in the adaptation of S. Schuler (KIT-IBT/LDRB_Fibers, 2021).
 ///
+///   kDoste         the fibre is turned out of the layer, too, by beta about e_l', the way along the layer across it; each
+///                  ventricle has angles of its own, and two thirds of a septum are the left one's:
+///
+///   phi_t  -2 on the left endocardium, 0 on the epicardium, 1 on the right one, the septum's side with it
+///   s = |phi_t| / 2 on the left of its zero, |phi_t| on the right;   b likewise from -1 to 1, but no epicardium given
+///   w = (1 + b) / 2,   alpha = alpha_endo s + (alpha_epi_left (1 - w) + alpha_epi_right w) d,   beta likewise       (5)
+///   e_t outwards from the cavity of b's sign, mixed with grad phi_e by d;   f = cos(beta) e_c' - sin(beta) e_t      (6)
+///
+///                  alpha_endo is that of b's side, too. In a free wall s = 1 - d, so that both angles are linear; in the
+///                  middle of a septum they go to zero from both sides. These are the rule's angles as an open
+///                  implementation restates them (SV-fibergen, "Cardiac Fiber Generation Documentation", Doste Method),
+///                  turned once as by kBayer. The valves are not told apart: the base is one opening, and the angles of
+///                  outflow tracts are left out.
+///
 /// Gradients are taken at the points, as the mean of their directions in the cells around, and a cell has the mean of
 /// its points'. All frames share e_l, so that mixing unturned ones turns e_t about it, the shorter way round as an
 /// axis has no sign.
@@ -38,17 +52,23 @@
 
 namespace palpate {
 
-enum class FibreRule : std::uint8_t { kBayer, kBayerPrinted };
-inline constexpr int kFibreRuleCount = 2;
+enum class FibreRule : std::uint8_t { kBayer, kBayerPrinted, kDoste };
+inline constexpr int kFibreRuleCount = 3;
 [[nodiscard]] constexpr std::string_view name_of(FibreRule rule) noexcept {
-  constexpr std::array<std::string_view, kFibreRuleCount> kNames{"bayer", "bayer-printed"};
+  constexpr std::array<std::string_view, kFibreRuleCount> kNames{"bayer", "bayer-printed", "doste"};
   return kNames[as_size(rule)];
 }
 
 /// [rad], each within a right angle.
 struct RuleAngles {
-  double endo = 0.0, epi = 0.0;              ///< alpha: of the fibre, from e_c towards the base
-  double sheet_endo = 0.0, sheet_epi = 0.0;  ///< beta: of the sheet about the fibre, from e_t
+  double endo = 0.0, epi = 0.0;  ///< alpha: of the fibre, from e_c towards the base
+  double sheet_endo = 0.0,
+         sheet_epi = 0.0;  ///< beta of (4), not of kDoste: of the sheet about the fibre, from e_t
+  /// @name Of kDoste alone
+  /// @{
+  double right_endo = 0.0, right_epi = 0.0;  ///< alpha of the right ventricle; `endo`, `epi` are the left's
+  double transverse_endo = 0.0, transverse_epi = 0.0;  ///< beta of (6), of both ventricles
+  /// @}
 };
 
 /// Of the cells of grid.tets, in their order there.
@@ -60,7 +80,7 @@ struct RuleFibres {
           ///< neighbours' outer products
   std::size_t without = 0;  ///< cells of which no neighbour knows one either: zero
   double farthest = 0.0;    ///< of an undefined cell from the apex, data units
-  /// By how much alpha of (3) differs between the points of a cell, half of the cells and 95 % of them by less [rad]:
+  /// By how much alpha of (3) or (5) differs between the points of a cell, half of the cells and 95 % of them by less [rad]:
   /// a cell has one fibre, so that coarse walls show the rule in steps of this size.
   double median_turn = 0.0, most_turn = 0.0;
 };

@@ -16,6 +16,7 @@
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/mesh_quality.h"
 #include "common/field/heart/tissue.h"
+#include "common/field/layer/paint_surfaces.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -79,13 +80,14 @@ const char* note_on_directions(const TensorField& fibres, const HeartChoice& cho
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
 void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mesh, const HeartChoice& choice,
                 const std::string& file, int threads, LayersNeeded layers, CachedLayers* kept, Heart& heart) {
-  if (!choice.layer.empty()) {
+  if (!choice.layer.empty() && choice.paint.empty()) {
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
   } else {
+    if (!choice.paint.empty()) kept = nullptr;  // what is kept knows nothing of paint
     std::optional<WallLayer> layer = kept != nullptr ? kept->find(mesh) : std::nullopt;
     if (!layer && layers == LayersNeeded::kSurfaces) {
-      const std::vector<std::string> found = notes_of(find_wall_surfaces(*grid, mesh, file));
+      const std::vector<std::string> found = notes_of(find_painted_surfaces(*grid, mesh, file, choice.paint));
       heart.notes.emplace_back(
           "layers by Laplace's equation from the inner to the outer surface, solved when they are needed");
       heart.notes.insert(heart.notes.end(), found.begin(), found.end());
@@ -93,7 +95,7 @@ void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mes
     }
     if (!layer) {
       const Stopwatch watch;
-      layer = make_wall_layer(*grid, mesh, file, threads);
+      layer = make_wall_layer(*grid, mesh, file, threads, choice.paint);
       if (kept != nullptr) kept->keep(mesh, *layer, watch.seconds());
     }
     DataSet with = mesh;

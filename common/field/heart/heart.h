@@ -31,10 +31,11 @@ struct DirectionChoice {
 /// Which arrays make a heart.
 struct HeartChoice {
   DirectionChoice fibre;
-  DirectionChoice sheet;        ///< no array: none is known
-  std::string layer;            ///< point array that rises through the wall; empty: from Laplace's equation
-  bool surface = false;         ///< the file says which points lie on the inner and the outer surface
-  bool constant_cells = false;  ///< directions of cells hold all over their cell: TensorChoice
+  DirectionChoice sheet;  ///< no array: none is known
+  std::string layer;      ///< point array that rises through the wall; empty: from Laplace's equation
+  bool surface = false;   ///< the file says which points lie on the inner and the outer surface
+  std::vector<SurfacePaint> paint;  ///< of its surfaces; layers of the file count no more where there is some
+  bool constant_cells = false;      ///< directions of cells hold all over their cell: TensorChoice
 
   /// All that are to be read.
   [[nodiscard]] std::vector<std::string> arrays() const;

@@ -8,6 +8,7 @@
 
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/heart/regions.h"
 #include "common/field/region_names.h"
 
 namespace palpate {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kMostWithout = 0.95;  // of a region's elements
 constexpr double kManyWithout = 0.2;   // of all elements
-constexpr std::size_t kMostRegions = 1000;
 
 /// What does not fit is refused where fields are made.
 bool fit(const UnstructuredTopology& cells, const DataArray& fibre) {
@@ -72,17 +72,21 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
   const DataArray* const fibre = mesh.find(choice.array, choice.association);
   if (cells == nullptr || fibre == nullptr || !fit(*cells, *fibre)) return {};
   const std::vector<bool> without = cells_without(*cells, *fibre);
+  mesh.hidden_cells.resize(without.size());
+  const auto shown = [&mesh](std::size_t c) { return mesh.hidden_cells[c] == 0; };
   const DataArray* numbers = regions_of(mesh);
   if (numbers != nullptr && numbers->tuples != without.size()) numbers = nullptr;
   std::map<double, Region> regions;
-  for (std::size_t c = 0; numbers != nullptr && c < without.size() && regions.size() <= kMostRegions; ++c) {
+  for (std::size_t c = 0; numbers != nullptr && c < without.size() && regions.size() <= kMostHeartRegions;
+       ++c) {
+    if (!shown(c)) continue;
     const double number = numbers->at(c);
     Region& region = regions[std::isfinite(number) ? number : 0.0];
     ++region.elements;
     region.without += without[c] ? 1 : 0;
   }
   const bool tell =
-      regions.size() <= kMostRegions &&
+      regions.size() <= kMostHeartRegions &&
       std::any_of(regions.begin(), regions.end(), [](const auto& r) { return !r.second.bare(); });
   std::string names;
   std::size_t hidden = 0;
@@ -93,9 +97,9 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
   }
   std::vector<std::string> notes;
   if (hidden > 0) {
-    mesh.hidden_cells.resize(without.size());
     std::size_t left_fibres = 0;
     for (std::size_t c = 0; c < without.size(); ++c) {
+      if (!shown(c)) continue;
       const double number = numbers->at(c);
       if (!regions.at(std::isfinite(number) ? number : 0.0).bare()) continue;
       mesh.hidden_cells[c] = 1;
@@ -107,11 +111,15 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
                     "; muscle is where fibres are");
     return notes;
   }
-  const auto bare = as_size(std::count(without.begin(), without.end(), true));
-  const double share =
-      static_cast<double>(bare) / static_cast<double>(std::max<std::size_t>(1, without.size()));
-  if (share > kManyWithout && bare < without.size())
-    notes.push_back("WARNING: " + counted(bare, "element") + " of " + std::to_string(without.size()) +
+  std::size_t all = 0, bare = 0;
+  for (std::size_t c = 0; c < without.size(); ++c) {
+    all += shown(c) ? 1 : 0;
+    bare += shown(c) && without[c] ? 1 : 0;
+  }
+  if (all == without.size()) mesh.hidden_cells.clear();
+  const double share = static_cast<double>(bare) / static_cast<double>(std::max<std::size_t>(1, all));
+  if (share > kManyWithout && bare < all)
+    notes.push_back("WARNING: " + counted(bare, "element") + " of " + std::to_string(all) +
                     " without a fibre, and no region that tells bath or blood from muscle: layers go through "
                     "them all; number regions in an array 'region' of elements");
   return notes;

@@ -46,6 +46,20 @@ void measure_surfaces(const FieldGrid& grid, const WallBorder& border, WallSurfa
   surfaces.confidence = total > 0.0 ? 1.0 - left / total : 0.0;
 }
 
+void mark_points(const FieldGrid& grid, WallSurfaces& surfaces) {
+  surfaces.of_point.assign(grid.point_count(), WallSurface::kNone);
+  const auto mark = [&surfaces](BorderRole role, WallSurface surface) {
+    for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
+      if (surfaces.roles[t] != role) continue;
+      for (const std::uint32_t p : surfaces.triangles[t]) surfaces.of_point[p] = surface;
+    }
+  };
+  mark(BorderRole::kOuter, WallSurface::kOuter);
+  mark(BorderRole::kSeptum, WallSurface::kOuter);
+  mark(BorderRole::kRight, WallSurface::kInner);
+  mark(BorderRole::kInner, WallSurface::kInner);
+}
+
 std::string areas_text(const WallSurfaces& surfaces) {
   std::string text;
   for (const BorderRole role :

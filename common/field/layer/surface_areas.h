@@ -14,6 +14,9 @@ inline constexpr double kSmallPart = 0.01;  ///< of the border's area: what has 
 /// Areas, pieces and confidence of the roles.
 void measure_surfaces(const FieldGrid& grid, const WallBorder& border, WallSurfaces& surfaces);
 
+/// Makes WallSurfaces::of_point of the roles. Where two meet an inner surface counts before an outer one.
+void mark_points(const FieldGrid& grid, WallSurfaces& surfaces);
+
 /// "endocardium (area 1200), epicardium (area 2300, 2 pieces), base (area 300)"
 [[nodiscard]] std::string areas_text(const WallSurfaces& surfaces);
 

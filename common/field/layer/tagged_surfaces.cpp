@@ -5,30 +5,47 @@
 
 namespace palpate {
 
-std::vector<WallSurface> tagged_points(const FieldGrid& grid, const DataArray& array) {
-  std::vector<WallSurface> of_point(grid.point_count(), WallSurface::kNone);
+std::vector<std::uint8_t> tags_of_points(const FieldGrid& grid, const DataArray& array) {
+  std::vector<std::uint8_t> tags(grid.point_count(), 0);
   for (std::size_t p = 0; p < array.tuples; ++p) {
     const double tag = array.at(p);
     const std::size_t point = grid.point_of_input.empty() ? p : grid.point_of_input[p];
-    if (point >= of_point.size()) continue;  // no cell uses it
-    if (tag == 1.0) of_point[point] = WallSurface::kInner;
-    if (tag == 2.0) of_point[point] = WallSurface::kOuter;
+    if (point >= tags.size()) continue;  // no cell uses it
+    for (int role = 1; role < kBorderRoleCount; ++role)
+      if (tag == role) tags[point] = static_cast<std::uint8_t>(role);
   }
-  return of_point;
+  return tags;
 }
 
-std::vector<BorderRole> tagged_roles(const WallBorder& border, const std::vector<WallSurface>& of_point) {
+std::vector<WallSurface> tagged_points(const std::vector<std::uint8_t>& tags) {
+  std::vector<WallSurface> surfaces;
+  surfaces.reserve(tags.size());
+  for (const std::uint8_t tag : tags) {
+    const BorderRole role = role_of_tag(tag);
+    surfaces.push_back(role == BorderRole::kInner || role == BorderRole::kRight    ? WallSurface::kInner
+                       : role == BorderRole::kOuter || role == BorderRole::kSeptum ? WallSurface::kOuter
+                                                                                   : WallSurface::kNone);
+  }
+  return surfaces;
+}
+
+std::vector<BorderRole> tagged_roles(const WallBorder& border, const std::vector<std::uint8_t>& tags) {
   std::vector<BorderRole> roles(border.triangles.size(), BorderRole::kLeft);
-  const auto all = [&](std::size_t t, WallSurface surface) {
-    return std::all_of(border.triangles[t].begin(), border.triangles[t].end(),
-                       [&](std::uint32_t p) { return of_point[p] == surface; });
+  const auto count = [&](std::size_t t, BorderRole role) {
+    return std::count_if(border.triangles[t].begin(), border.triangles[t].end(),
+                         [&](std::uint32_t p) { return role_of_tag(tags[p]) == role; });
   };
   Vec3 opening{0.0};
   double outer = 0.0;
   for (std::size_t t = 0; t < roles.size(); ++t) {
-    if (all(t, WallSurface::kInner)) roles[t] = BorderRole::kInner;
-    if (!all(t, WallSurface::kOuter)) continue;
-    roles[t] = BorderRole::kOuter;
+    for (const BorderRole role :
+         {BorderRole::kInner, BorderRole::kOuter, BorderRole::kRight, BorderRole::kSeptum})
+      if (count(t, role) == 3) roles[t] = role;
+    // Between both sides of the right cavity, whose points lie on the inner surface where they meet.
+    if (count(t, BorderRole::kSeptum) > 0 &&
+        count(t, BorderRole::kSeptum) + count(t, BorderRole::kRight) == 3)
+      roles[t] = BorderRole::kSeptum;
+    if (roles[t] != BorderRole::kOuter) continue;
     opening -= border.areas[t];
     outer += glm::length(border.areas[t]);
   }

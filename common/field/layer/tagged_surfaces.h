@@ -1,6 +1,7 @@
 /// Surfaces of a wall that its mesh names.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "common/field/data_set.h"
@@ -10,11 +11,14 @@
 
 namespace palpate {
 
-/// Of the grid's points. @param array kSurfaceArray, of the input's points.
-[[nodiscard]] std::vector<WallSurface> tagged_points(const FieldGrid& grid, const DataArray& array);
+/// The numbers of kSurfaceArray at the grid's points; 0 where there is another one. @param array of the input's points.
+[[nodiscard]] std::vector<std::uint8_t> tags_of_points(const FieldGrid& grid, const DataArray& array);
+
+/// Which of both surfaces a point with each tag lies on.
+[[nodiscard]] std::vector<WallSurface> tagged_points(const std::vector<std::uint8_t>& tags);
 
 /// Roles of triangles by the tags of their points, as find_wall_surfaces() says.
 [[nodiscard]] std::vector<BorderRole> tagged_roles(const WallBorder& border,
-                                                   const std::vector<WallSurface>& of_point);
+                                                   const std::vector<std::uint8_t>& tags);
 
 }  // namespace palpate

@@ -18,9 +18,10 @@ WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int thre
   return make_wall_layer(*make_field_grid(std::span(&mesh, 1), file, threads), mesh, file, threads);
 }
 
-WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file, int threads) {
+WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file, int threads,
+                          std::span<const SurfacePaint> paint) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const WallSurfaces surfaces = find_wall_surfaces(grid, mesh, file);
+  const WallSurfaces surfaces = find_painted_surfaces(grid, mesh, file, paint);
   const WallPotential depth = solve_laplace(*grid.tets, depths_on(surfaces), file, threads);
 
   WallLayer layer;

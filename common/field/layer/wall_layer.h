@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/field/data_set.h"
 #include "common/field/field_grid.h"
+#include "common/field/layer/paint_surfaces.h"
 
 namespace palpate {
 
@@ -42,8 +44,8 @@ class CachedLayers {
 /// the iteration does not converge.
 [[nodiscard]] WallLayer make_wall_layer(const DataSet& mesh, const std::string& file, int threads = 0);
 
-/// The same on the grid that was made of `mesh`.
+/// The same on the grid that was made of `mesh`, between surfaces that are painted (paint_surfaces.h).
 [[nodiscard]] WallLayer make_wall_layer(const FieldGrid& grid, const DataSet& mesh, const std::string& file,
-                                        int threads = 0);
+                                        int threads = 0, std::span<const SurfacePaint> paint = {});
 
 }  // namespace palpate

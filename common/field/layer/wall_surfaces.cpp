@@ -49,6 +49,33 @@ class BorderReading {
     if (outer_ == parts_.size()) return;
     find_base();
     find_cavities();
+    find_jagged_base();
+  }
+  /// Of a wall with flat sides, whose border has no curved parts that tell: sides that meet in a re-entrant edge are
+  /// those of a cavity, what meets a cavity over another edge is base, and the rest is outer surface.
+  struct FlatSides {
+    double crease = kCreases[0];
+  };
+  BorderReading(const TetMesh& mesh, const WallBorder& border, const FlatSides& sides)
+      : BorderReading(mesh, border, border_parts(mesh, border, sides.crease)) {
+    const std::vector<BorderPart> rooms = border_parts(mesh, border, [this](std::size_t a, std::size_t b) {
+      return part_of_[a] == part_of_[b] || re_entrant(mesh_, border_, a, b);
+    });
+    for (const BorderPart& room : rooms) {
+      const bool several = std::ranges::any_of(
+          room.triangles, [&](std::uint32_t t) { return part_of_[t] != part_of_[room.triangles.front()]; });
+      if (!several || !(room.area >= kSmallPart * area_) || !(room.bulge < -kLevel)) continue;
+      for (const std::uint32_t t : room.triangles) part_roles_[part_of_[t]] = BorderRole::kInner;
+    }
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (part_roles_[p] == BorderRole::kLeft && touches(p, BorderRole::kInner))
+        part_roles_[p] = BorderRole::kBase;
+    for (std::size_t p = parts_.size(); p-- > 0;) {
+      if (part_roles_[p] != BorderRole::kLeft || !large(p)) continue;
+      part_roles_[p] = BorderRole::kOuter;
+      outer_ = p;
+    }
+    find_cavities();
   }
   /// Of a wall of voxels. @param border with the areas of `stairs`.
   BorderReading(const TetMesh& mesh, const WallBorder& border, const WallStairs& stairs)
@@ -112,6 +139,13 @@ class BorderReading {
   }
 
   using Cavity = std::vector<std::size_t>;  // parts
+
+  /// Whether the wall is on the outer side of the edge between both, as in the corners of a room.
+  static bool re_entrant(const TetMesh& mesh, const WallBorder& border, std::size_t a, std::size_t b) {
+    const Vec3 way = triangle_middle(mesh.points(), border.triangles[b]) -
+                     triangle_middle(mesh.points(), border.triangles[a]);
+    return glm::dot(way, border.normal(a)) > 0.0;
+  }
 
   [[nodiscard]] bool large(std::size_t part) const { return parts_[part].area >= kSmallPart * area_; }
   [[nodiscard]] bool touches(std::size_t part, BorderRole role) const {
@@ -229,6 +263,35 @@ class BorderReading {
       const bool level = std::abs(parts_[p].bulge) < kLevel && (!axis_ || facing(p) > kFacesUp);
       const bool opening = facing(p) > kFacesOpening && touches(p, BorderRole::kOuter);
       if (parts_[p].flat() || level || opening || round_opening(p)) part_roles_[p] = BorderRole::kBase;
+    }
+  }
+
+  /// Small parts that hang together, from the outer surface to an inner one, are the base: a jagged rim has no part
+  /// that is all of it.
+  void find_jagged_base() {
+    std::vector<std::vector<std::size_t>> next(parts_.size());
+    for (const auto& [a, b] : beside_) {
+      next[a].push_back(b);
+      next[b].push_back(a);
+    }
+    std::vector<bool> seen(parts_.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (part_roles_[p] != BorderRole::kLeft || seen[p]) continue;
+      std::vector<std::size_t> strip{p};
+      seen[p] = true;
+      bool outer = false, inner = false;
+      for (std::size_t i = 0; i < strip.size(); ++i) {
+        for (const std::size_t other : next[strip[i]]) {
+          const BorderRole role = part_roles_[other];
+          outer = outer || role == BorderRole::kOuter;
+          inner = inner || role == BorderRole::kInner || role == BorderRole::kRight;
+          if (role != BorderRole::kLeft || seen[other]) continue;
+          seen[other] = true;
+          strip.push_back(other);
+        }
+      }
+      for (const std::size_t part : strip)
+        if (outer && inner) part_roles_[part] = BorderRole::kBase;
     }
   }
 
@@ -379,23 +442,6 @@ class BorderReading {
 
 }  // namespace
 
-const char* name_of(BorderRole role) noexcept {
-  switch (role) {
-    case BorderRole::kOuter:
-      return "epicardium";
-    case BorderRole::kInner:
-      return "left endocardium";
-    case BorderRole::kRight:
-      return "right endocardium";
-    case BorderRole::kSeptum:
-      return "septum on the right";
-    case BorderRole::kBase:
-      return "base";
-    default:
-      return "none";
-  }
-}
-
 WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, const std::string& file) {
   const auto refuse = [&file](const std::string& found) {
     throw input_error({file, "", found, "an inner and an outer surface",
@@ -406,10 +452,11 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   WallSurfaces surfaces;
   surfaces.triangles = border.triangles;
   if (const DataArray* array = mesh.find(kSurfaceArray, Association::kPoint)) {
-    surfaces.of_point = tagged_points(grid, *array);
+    const std::vector<std::uint8_t> tags = tags_of_points(grid, *array);
+    surfaces.of_point = tagged_points(tags);
     surfaces.note = std::string("inner and outer surface from the array '") + kSurfaceArray + "'";
     if (!both(surfaces.of_point)) refuse(std::string("has not both in its array '") + kSurfaceArray + "'");
-    surfaces.roles = tagged_roles(border, surfaces.of_point);
+    surfaces.roles = tagged_roles(border, tags);
     measure_surfaces(grid, border, surfaces);
     return surfaces;
   }
@@ -437,22 +484,19 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
     }
     if (whole) break;
   }
-  if (!reading->has(BorderRole::kOuter) || !reading->has(BorderRole::kInner))
-    refuse("has a border of " + counted(reading->part_count(), "smooth part") +
-           ", none of them an inner surface");
+  const auto tells = [&reading] {
+    return reading->has(BorderRole::kOuter) && reading->has(BorderRole::kInner);
+  };
+  const std::size_t smooth = reading->part_count();
+  if (!tells()) {
+    reading.emplace(*grid.tets, border, BorderReading::FlatSides());
+    crease = kCreases[0];
+  }
+  if (!tells())
+    refuse("has a border of " + counted(smooth, "smooth part") + ", none of them an inner surface");
   surfaces.roles = reading->roles(surfaces.doubts);
   measure_surfaces(grid, border, surfaces);
-  surfaces.of_point.assign(grid.point_count(), WallSurface::kNone);
-  const auto mark = [&surfaces](BorderRole role, WallSurface surface) {
-    for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
-      if (surfaces.roles[t] != role) continue;
-      for (const std::uint32_t p : surfaces.triangles[t]) surfaces.of_point[p] = surface;
-    }
-  };
-  mark(BorderRole::kOuter, WallSurface::kOuter);
-  mark(BorderRole::kSeptum, WallSurface::kOuter);
-  mark(BorderRole::kRight, WallSurface::kInner);
-  mark(BorderRole::kInner, WallSurface::kInner);
+  mark_points(grid, surfaces);
   if (!both(surfaces.of_point)) refuse("has an inner surface that is all rim");
 
   if (crease < kCreases[0])
@@ -474,30 +518,6 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
                   areas_text(surfaces) + "; confidence " +
                   short_number(std::round(100.0 * surfaces.confidence)) + " %";
   return surfaces;
-}
-
-std::vector<double> depths_on(const WallSurfaces& surfaces) {
-  std::vector<double> depths(surfaces.of_point.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t p = 0; p < depths.size(); ++p) {
-    if (surfaces.of_point[p] == WallSurface::kInner) depths[p] = 0.0;
-    if (surfaces.of_point[p] == WallSurface::kOuter) depths[p] = 1.0;
-  }
-  return depths;
-}
-
-void give_on(const WallSurfaces& surfaces, BorderRole role, double value, std::vector<double>& given) {
-  for (std::size_t t = 0; t < surfaces.roles.size(); ++t) {
-    if (surfaces.roles[t] != role) continue;
-    for (const std::uint32_t p : surfaces.triangles[t]) given[p] = value;
-  }
-}
-
-std::vector<std::string> notes_of(const WallSurfaces& surfaces) {
-  std::vector<std::string> notes{surfaces.note};
-  for (const std::string& doubt : surfaces.doubts)
-    notes.push_back("WARNING: surfaces of the wall are in doubt: " + doubt + "; a point array '" +
-                    kSurfaceArray + "' names them (1 inner, 2 outer)");
-  return notes;
 }
 
 }  // namespace palpate

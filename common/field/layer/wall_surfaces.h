@@ -11,9 +11,10 @@
 
 namespace palpate {
 
-/// The point array by which a loader says which surface a point lies on.
+/// The point array by which a file says which surface a point lies on, by tag_of(): 1 inner, 2 outer, of two ventricles
+/// also 3 right endocardium and 4 septum on the right, 5 base.
 inline constexpr const char* kSurfaceArray = "surface";
-/// What it holds.
+/// Where the depth is given.
 enum class WallSurface : std::uint8_t { kNone = 0, kInner = 1, kOuter = 2 };
 
 /// What a triangle of the border is part of.
@@ -26,6 +27,9 @@ enum class BorderRole : std::uint8_t {
   kBase     ///< where the wall is cut: no surface
 };
 inline constexpr int kBorderRoleCount = 6;
+/// The number of a role in files; 0: none. And what a number means.
+[[nodiscard]] int tag_of(BorderRole role) noexcept;
+[[nodiscard]] BorderRole role_of_tag(int tag) noexcept;
 /// "epicardium", "base", …
 [[nodiscard]] const char* name_of(BorderRole role) noexcept;
 
@@ -45,8 +49,8 @@ struct WallSurfaces {
   }
 };
 
-/// Takes them from the array kSurfaceArray where `mesh` has it: triangles whose points are all inner or all outer
-/// are so (every cavity counts as the left one's), others are base where they face the way in which the outer
+/// Takes them from the array kSurfaceArray where `mesh` has it: triangles whose points all have one tag are of that
+/// surface (a cavity of inner points counts as the left one's), others are base where they face the way in which the outer
 /// surface opens. Else from the shape of the border, which is parted where it bends by more than 40 degrees (30 or 20, where that tells no surfaces or no base, which is
 /// a doubt). Parts below 1 % of its area have no role. Of the others
 /// - the one with the largest extent that is not flat is the outer surface, and so are those beside it that
@@ -58,6 +62,9 @@ struct WallSurfaces {
 ///   ends in it, there is the septum, whose side counts as outer, so that the septum, too, runs from 0 to 1
 ///   (as Bayer et al., Ann Biomed Eng 40 (2012) 2243, and universal ventricular coordinates have it: Bayer
 ///   et al., Med Image Anal 45 (2018) 83).
+/// Small parts that hang together from the outer surface to an inner one are base, too: a jagged rim. Where no part is
+/// curved, as in a box, sides that meet in re-entrant edges are a cavity's, what meets them over another edge is base,
+/// and the rest is outer.
 /// The border of voxels is stairs and has no such parts: wall_stairs.h says what cavities, rims and normals are, which is
 /// a doubt.
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".

@@ -4,7 +4,10 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
@@ -14,6 +17,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/block_join.h"
+#include "common/field/grid/tet_mesh.h"
 #include "common/field/tensor/eigenframe.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
@@ -244,7 +248,9 @@ class TensorFieldBuilder {
     } else {
       field->values_ = std::move(gathered.floats);
     }
-    survey(*field, choice.order == TensorOrder::kAxis);
+    const bool directions = choice.order == TensorOrder::kAxis;
+    if (directions && choice.association == Association::kPoint && field->grid_->tets) fill_points(*field);
+    survey(*field, directions);
     if (logarithms) take_logarithms(*field);
     if (choice.constant_cells && choice.association == Association::kCell && field->grid_->tets) {
       PALPATE_CHECK(!logarithms);
@@ -256,6 +262,59 @@ class TensorFieldBuilder {
   }
 
  private:
+  /// Gives points without a direction, in most of whose cells at least two points have one, the mean of these: the
+  /// apex, where a file has none, is no hole in the wall. By volume, as cells are brought to points.
+  static void fill_points(TensorField& field) {
+    const TetMesh& mesh = *field.grid_->tets;
+    struct Around {
+      Six sum{};
+      double volume = 0.0, unknown = 0.0;  ///< of cells whose other points have a direction, and of others
+    };
+    std::map<std::uint32_t, Around> missing;
+    for (std::uint32_t p = 0; p < mesh.points().size(); ++p)
+      if (!is_there(field.stored(p))) missing.try_emplace(p);
+    if (missing.empty()) return;
+    std::size_t filled = 0;
+    for (const TetMesh::Tet& tet : mesh.cells()) {
+      const Vec3 a = mesh.points()[tet[0]];
+      const double volume = std::abs(glm::dot(
+          mesh.points()[tet[1]] - a, glm::cross(mesh.points()[tet[2]] - a, mesh.points()[tet[3]] - a)));
+      Six sum{};
+      int known = 0;
+      for (const std::uint32_t p : tet) {
+        const Six d = field.stored(p);
+        if (!is_there(d)) continue;
+        ++known;
+        for (std::size_t i = 0; i < d.size(); ++i) sum[i] += d[i];
+      }
+      if (known == 4) continue;
+      for (const std::uint32_t p : tet) {
+        const auto found = missing.find(p);
+        if (found == missing.end()) continue;
+        Around& around = found->second;
+        // An axis of such points has cells with two of them.
+        (known >= 2 ? around.volume : around.unknown) += volume;
+        for (std::size_t i = 0; known >= 2 && i < sum.size(); ++i) around.sum[i] += volume * sum[i] / known;
+      }
+    }
+    for (const auto& entry : missing) {
+      const Around& around = entry.second;
+      if (!(around.volume > around.unknown)) continue;
+      const std::size_t at = std::size_t{6} * entry.first;
+      std::visit(
+          [&](auto& values) {
+            using Number = typename std::decay_t<decltype(values)>::value_type;
+            for (std::size_t i = 0; i < around.sum.size(); ++i)
+              values[at + i] = static_cast<Number>(around.sum[i] / around.volume);
+          },
+          field.values_);
+      ++filled;
+    }
+    if (filled > 0)
+      field.notes_.lines.push_back(counted(filled, "point") + " without a direction " +
+                                   (filled == 1 ? "has" : "have") + " the mean of the points around");
+  }
+
   /// Counts tensors that are not there or not positive.
   /// @param directions outer products: their smaller eigenvalues are zero, but for rounding.
   static void survey(TensorField& field, bool directions) {

@@ -174,6 +174,8 @@ struct HeartOptions {
   std::string angle;  ///< name_of(WallAngle), gap, depth, a scalar; empty: the verb's default
   std::string convention = "streeter";  ///< name_of(AngleConvention)
   std::string cut;                      ///< nx,ny,nz,d: what lies beyond n.x = d is left out of the picture
+  bool cut_face = true;                 ///< what the cut lays open of the wall is coloured as the layer
+  std::string walls = "auto";           ///< kWallWords: surfaces of the wall that are drawn beside the layer
   double contours = 0.0;                ///< distance of lines of equal value on a layer; 0: none
   std::string contour_values;           ///< v,v,...: lines of equal value on a layer, to be written
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
@@ -185,6 +187,10 @@ struct HeartOptions {
   std::string rule = "bayer";                   ///< name_of(FibreRule)
   double endo = 60.0, epi = -60.0;              ///< helix angle on the inner and the outer surface [degrees]
   double sheet_endo = -65.0, sheet_epi = 25.0;  ///< of the sheet, as Bayer et al. have them [degrees]
+  double right_endo = 90.0,
+         right_epi = -25.0;  ///< of the right ventricle, as Doste et al. have them [degrees]
+  double transverse_endo = -20.0,
+         transverse_epi = 20.0;  ///< of the fibre out of the layer, likewise [degrees]
 };
 
 /// What is looked at over time.

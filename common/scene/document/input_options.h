@@ -25,6 +25,9 @@ struct InputWords {
   TensorSpec tensor;  ///< how tensors are read and fitted
   std::string cell_values = "recovered";      ///< of flows: recovered, constant
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
+  std::string
+      regions;  ///< of hearts: numbers of those that are taken, grammar of parse_regions(); empty: all
+  std::vector<std::string> paint;  ///< of hearts: corrections of their surfaces, grammar of parse_paint()
   std::string mesher;  ///< what fills a heart's wall: cells, delaunay, tetgen; empty: the verb's default
   double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
   Remesher remesher;            ///< fills hearts by these two; empty: the file's cells are taken

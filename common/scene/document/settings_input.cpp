@@ -206,10 +206,30 @@ const Setting kInputRows[] = {
      .groups = {Group::kInput},
      .kinds = kHearts,
      .words = "recovered|constant"},
+    {.name = "regions",
+     .place = kInputAt<&InputOptions::regions>,
+     .help =
+         "numbers of the regions that are taken, as the elements of the file have them; the others are hidden, and "
+         "have no part in surfaces, layers and fibres",
+     .value = "N,N,...",
+     .heading = "Input",
+     .groups = {Group::kInput},
+     .kinds = kHearts,
+     .otherwise = "all that have fibres, or all"},
+    {.name = "paint-surface",
+     .place = kInputAt<&InputOptions::paint>,
+     .help =
+         "correct the surfaces that were found: the border of the wall in a ball belongs to the one that is named, and "
+         "layers are solved between them anew; may be repeated, the last one counts",
+     .value = "inner|outer|right|septum|base:x,y,z,r",
+     .heading = "Input",
+     .groups = {Group::kInput},
+     .kinds = kHearts},
     {.name = "cache",
      .place = kInputAt<&InputOptions::cache>,
-     .help = "keep solved layers and made meshes in NAME.palpate.layers and NAME.palpate.mesh beside the "
-             "file for the next opening: auto, where they took more than half a second, always, off",
+     .help =
+         "keep solved layers and made meshes in the user's cache (~/.cache/palpate/hearts) for the next opening: auto, "
+         "where they took more than half a second, always, off",
      .heading = "Input",
      .groups = {Group::kInput},
      .kinds = kHearts,

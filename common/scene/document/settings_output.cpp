@@ -32,9 +32,11 @@ const Setting kOutputRows[] = {
      .saved = false},
     {.name = "surfaces",
      .place = kHeartAt<&HeartOptions::surfaces>,
-     .help = "the surfaces of the wall as they were found, with the array 'surface': 1 endocardium (of two, "
-             "the left one), 2 epicardium, 3 right endocardium, 4 septum on the right, 5 base, 0 none",
-     .value = "FILE.vtp",
+     .help =
+         "the surfaces of the wall as they were found, with the array 'surface': 1 endocardium (of two, "
+         "the left one), 2 epicardium, 3 right endocardium, 4 septum on the right, 5 base, 0 none; .vtp has their triangles, "
+         ".vtu the mesh with its arrays and that of its points, which is opened again by them",
+     .value = "FILE.vtp|FILE.vtu",
      .heading = "Output",
      .groups = {Group::kSurfaces},
      .kinds = kHearts,

@@ -320,6 +320,23 @@ const Setting kViewRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kHearts},
+    {.name = "cut-face",
+     .place = kHeartAt<&HeartOptions::cut_face>,
+     .help = "what --cut lays open of the wall, from its inner to its outer surface, coloured as the layer",
+     .value = "on|off",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kHearts},
+    {.name = "walls",
+     .place = kHeartAt<&HeartOptions::walls>,
+     .help =
+         "surfaces of the wall, translucent, beside the layer: inner, outer, both; found colours them by what they were "
+         "taken for (endocardium, right endocardium, septum, epicardium, base, none); auto is found in windows, "
+         "where neither layers nor surfaces are the file's own, else none",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kHearts,
+     .words = "auto|none|inner|outer|both|found"},
     {.name = "contour-spacing",
      .place = kHeartAt<&HeartOptions::contours>,
      .help = "lines of equal value on the layer where --angle is a multiple of this: isochrones of a time of "

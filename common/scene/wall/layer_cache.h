@@ -1,4 +1,4 @@
-/// Layers that took time to solve, kept in a file beside the session (cached_file.h) so that the next opening
+/// Layers that took time to solve, kept in a file of the user's cache (cached_file.h) so that the next opening
 /// need not. They belong to one mesh: its cells, places and tagged surfaces.
 #pragma once
 

@@ -1,4 +1,4 @@
-/// Tetrahedra that the mesher made, kept in "NAME.palpate.mesh" beside the file (cached_file.h), so that
+/// Tetrahedra that the mesher made, kept in a file of the user's cache (cached_file.h), so that
 /// neither the next opening nor the next `mesh` runs it again.
 ///
 /// They belong to the cells and places that were meshed, to the directions that came along, and to the
@@ -36,7 +36,7 @@ class MeshCache {
   int threads_;
 };
 
-/// make_wall_mesh(), or what was kept of it beside `input`; its notes say which. Tetrahedra of the file are
+/// make_wall_mesh(), or what was kept of it for `input`; its notes say which. Tetrahedra of the file are
 /// not kept a second time.
 /// @throws as make_wall_mesh().
 [[nodiscard]] WallMesh cached_or_made_mesh(const DataSet& block, const HeartChoice* choice,

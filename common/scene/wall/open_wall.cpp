@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/field/heart/heart.h"
 #include "common/field/heart/tissue.h"
+#include "common/field/layer/paint_surfaces.h"
 #include "common/scene/wall/remesh.h"
 
 namespace palpate {
@@ -35,7 +36,8 @@ OpenWall open_wall(Input& input, std::vector<std::string> names, int threads, Pr
     return std::find(names.begin(), names.end(), array.name) == names.end();
   });
   wall.grid = make_field_grid(std::span(&wall.mesh, 1), input.title(), threads);
-  wall.surfaces = find_wall_surfaces(*wall.grid, wall.mesh, input.title());
+  wall.surfaces =
+      find_painted_surfaces(*wall.grid, wall.mesh, input.title(), parse_paint(input.spec().paint));
   for (std::string& note : notes_of(wall.surfaces)) wall.notes.push_back(std::move(note));
   return wall;
 }

@@ -143,7 +143,7 @@ void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& 
       if (section("TOUCH"))
         actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
     }
-    PanelContext on{state, *state.scene, view, actions};
+    PanelContext on{state, *state.scene, view, actions, layout.picture};
     for (const PanelPart& part : parts) part(on);
     draw_appearance(view, actions);
     for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {

@@ -96,6 +96,7 @@ struct PanelContext {
   const SceneState& scene;
   SceneView& view;
   PanelActions& actions;
+  const PictureArea& picture;  ///< where the scene is drawn
 };
 
 /// A part of the panel that a program puts between those that all have: heading and controls. It draws nothing

@@ -195,6 +195,71 @@ TEST(FibreRule, TurnsFromCavityToCavityInTheSeptum) {
   }
 }
 
+// The fibre turns out of the layer, too: f = cos(beta) e_c' - sin(beta) e_t, both angles linear in the depth.
+TEST(FibreRule, IsTheRuleOfDosteOnTheVentricleWithinOneDegree) {
+  const RuleAngles angles{.endo = 60.0 * kDegree,
+                          .epi = -60.0 * kDegree,
+                          .right_endo = 90.0 * kDegree,
+                          .right_epi = -25.0 * kDegree,
+                          .transverse_endo = -20.0 * kDegree,
+                          .transverse_epi = 20.0 * kDegree};
+  const Ruled fine = ruled({.wall = 10, .along = 48, .around = 120}, FibreRule::kDoste, angles, false);
+  const TetMesh& mesh = *fine.grid->tets;
+  double worst = 0.0, sheet_worst = 0.0;
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    const Vec3 x = fine.grid->frame.data_from_local(mesh.position(static_cast<CellIndex>(c), Vec4{0.25}));
+    const Prolate at = fine.shape.coordinates(x);
+    if (at.mu < 0.2) continue;
+    const Mat3 axes = fine.shape.wall_axes(at);
+    const double d = depth_at(fine.shape, at), alpha = linear(angles, d), beta = (-20.0 + 40.0 * d) * kDegree;
+    const Vec3 along = std::cos(alpha) * axes[0] + std::sin(alpha) * axes[1];
+    worst = std::max(worst, apart(fine.made.fibres[c], std::cos(beta) * along - std::sin(beta) * axes[2]));
+    sheet_worst =
+        std::max(sheet_worst, apart(fine.made.sheets[c], std::sin(beta) * along + std::cos(beta) * axes[2]));
+  }
+  EXPECT_LT(worst, 1.0);
+  EXPECT_LT(sheet_worst, 1.0);
+  EXPECT_EQ(fine.made.without, 0U);
+}
+
+// Each ventricle has its own angles; in the septum both go to zero, two thirds of the way from the left.
+TEST(FibreRule, DosteHasTwoThirdsOfTheSeptumFromTheLeft) {
+  const RuleAngles angles{.endo = 60.0 * kDegree,
+                          .epi = -60.0 * kDegree,
+                          .right_endo = 80.0 * kDegree,
+                          .right_epi = -25.0 * kDegree};
+  const test::TwoVentricles heart(130.0 * kDegree);
+  const auto grid = make_field_grid(std::span(&heart.mesh, 1), "heart", 1);
+  const WallSurfaces surfaces = find_wall_surfaces(*grid, heart.mesh, "heart");
+  const RuleFibres made = make_rule_fibres(*grid, surfaces, FibreRule::kDoste, angles, "heart", 1);
+  EXPECT_EQ(made.without, 0U);
+  const TetMesh& mesh = *grid->tets;
+  // By the radius in the septum's middle, from the left (1) to the right (1.5): sums and counts of four layers.
+  std::array<double, 4> sums{}, counts{};
+  for (std::size_t c = 0; c < mesh.cells().size(); ++c) {
+    const Vec3 x = grid->frame.data_from_local(mesh.position(static_cast<CellIndex>(c), Vec4{0.25}));
+    const double polar = std::atan2(std::hypot(x.x, x.y), -x.z / 1.4), around = std::atan2(x.y, x.x);
+    const double radius = std::hypot(x.x, x.y, x.z / 1.4);
+    if (polar < 1.25 || polar > 1.5 || std::abs(around) > 20.0 * kDegree || radius > 1.5 || radius < 1.0)
+      continue;
+    const auto angle = wall_angle(WallAngle::kHelix, AngleConvention::kBayer,
+                                  {.axis = {0.0, 0.0, 1.0},
+                                   .transmural = {std::cos(around), std::sin(around), 0.0},
+                                   .fibre = made.fibres[c]});
+    ASSERT_TRUE(angle.has_value());
+    const auto layer = std::min<std::size_t>(3, static_cast<std::size_t>((radius - 1.0) * 8.0));
+    sums[layer] += *angle / kDegree;
+    counts[layer] += 1.0;
+  }
+  // The potential of a shell falls as 1/r: phi_t = -2 + 3 (1/1 - 1/r) / (1/1 - 1/1.5), at the middles of the layers.
+  for (std::size_t layer = 0; layer < 4; ++layer) {
+    ASSERT_GT(counts[layer], 20.0) << layer;
+    const double r = 1.0625 + 0.125 * static_cast<double>(layer), phi = -2.0 + 9.0 * (1.0 - 1.0 / r);
+    const double expected = phi < 0.0 ? -30.0 * phi : -80.0 * phi;
+    EXPECT_NEAR(sums[layer] / counts[layer], expected, 8.0) << layer;
+  }
+}
+
 // The printed algorithm mixes frames that are turned already: quadratic in the depth, the nearer of two axes.
 TEST(FibreRule, ThePrintedAlgorithmBendsTheAngle) {
   const RuleAngles narrow{.endo = 40.0 * kDegree, .epi = -40.0 * kDegree};

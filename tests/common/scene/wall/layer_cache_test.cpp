@@ -1,9 +1,11 @@
-// Layers kept beside the file: taken again for the same mesh, and for no other one, whatever happens to the
+// Layers kept in the user's cache: taken again for the same mesh, and for no other one, whatever happens to the
 // file.
 #include "common/scene/wall/layer_cache.h"
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -27,13 +29,16 @@ WallLayer solved(const DataSet& mesh) { return make_wall_layer(mesh, "wall"); }
 
 class LayerCacheTest : public testing::Test {
  protected:
+  LayerCacheTest() { ::setenv("XDG_CACHE_HOME", folder_.path("cache").c_str(), 1); }
+  ~LayerCacheTest() override { ::unsetenv("XDG_CACHE_HOME"); }
   [[nodiscard]] std::filesystem::path input() const { return folder_.path("heart.pts.gz"); }
-  [[nodiscard]] std::filesystem::path kept() const { return folder_.path("heart.palpate.layers"); }
+  [[nodiscard]] std::filesystem::path kept() const { return LayerCache(input(), Keeping::kOff).file(); }
   /// Keeps those of `mesh`. @return what the file holds then.
   std::string keep(const DataSet& mesh) const {
     LayerCache(input(), Keeping::kAlways).keep(mesh, solved(mesh), 0.0);
     return test::read_file(kept());
   }
+  void write(const std::string& bytes) const { std::ofstream(kept(), std::ios::binary) << bytes; }
   [[nodiscard]] bool found(const DataSet& mesh) const {
     return LayerCache(input(), Keeping::kAlways).find(mesh).has_value();
   }
@@ -57,6 +62,27 @@ TEST_F(LayerCacheTest, TheSameMeshHasTheSameLayersToTheLastBit) {
   EXPECT_EQ(layer->residual, expected.residual);
   ASSERT_EQ(cache.notes().size(), 1U);
   EXPECT_NE(cache.notes().front().find("layers taken from"), std::string::npos);
+}
+
+// Nothing is written beside the data; what is in the cache says what it is of, and two hearts of one name have a file each.
+TEST_F(LayerCacheTest, LiesInTheUsersCacheAndSaysWhatItIsOf) {
+  const std::string bytes = keep(wall());
+  EXPECT_EQ(bytes.substr(0, bytes.find('\n')),
+            "layers of " + input().string() + ", kept by Palpate; may be deleted");
+  EXPECT_EQ(kept().parent_path(), folder_.path("cache/palpate/hearts"));
+  EXPECT_TRUE(kept().filename().string().starts_with("heart-")) << kept();
+  EXPECT_NE(LayerCache(folder_.path("other/heart.pts.gz"), Keeping::kOff).file(), kept());
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_EQ(entry.path().filename(), "cache");
+  ::unsetenv("XDG_CACHE_HOME");
+  const char* const home = std::getenv("HOME");
+  const std::string before = home == nullptr ? "" : home;
+  ::unsetenv("HOME");
+  LayerCache nowhere(input(), Keeping::kAlways);
+  nowhere.keep(wall(), solved(wall()), 9.0);
+  ASSERT_EQ(nowhere.notes().size(), 1U);
+  EXPECT_NE(nowhere.notes().front().find("the user has no folder for it"), std::string::npos);
+  if (home != nullptr) ::setenv("HOME", before.c_str(), 1);
 }
 
 TEST_F(LayerCacheTest, AnotherMeshHasNone) {
@@ -92,12 +118,12 @@ TEST_F(LayerCacheTest, DamagedFilesAreIgnoredAndWrittenAnew) {
   for (std::size_t at = 0; at < whole.size(); at += 1 + at / 8) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
-    (void)folder_.write("heart.palpate.layers", damaged);
+    write(damaged);
     EXPECT_FALSE(found(mesh)) << "byte " << at;
-    (void)folder_.write("heart.palpate.layers", whole.substr(0, at));
+    write(whole.substr(0, at));
     EXPECT_FALSE(found(mesh)) << at << " bytes alone";
   }
-  (void)folder_.write("heart.palpate.layers", whole + "x");
+  write(whole + "x");
   EXPECT_FALSE(found(mesh));
   EXPECT_EQ(keep(mesh), whole);
   EXPECT_TRUE(found(mesh));
@@ -120,8 +146,9 @@ TEST_F(LayerCacheTest, AFolderThatCannotBeWrittenIsSaid) {
   const DataSet mesh = wall();
   std::filesystem::create_directory(folder_.path("shut"));
   std::filesystem::permissions(folder_.path("shut"), std::filesystem::perms(0555));
-  for (const auto& file : {std::filesystem::path("/proc/heart.pts"), folder_.path("shut/heart.pts")}) {
-    LayerCache cache(file, Keeping::kAlways);
+  for (const auto& cache_home : {std::filesystem::path("/proc"), folder_.path("shut")}) {
+    ::setenv("XDG_CACHE_HOME", cache_home.c_str(), 1);
+    LayerCache cache(input(), Keeping::kAlways);
     EXPECT_FALSE(cache.find(mesh));
     cache.keep(mesh, solved(mesh), 9.0);
     ASSERT_EQ(cache.notes().size(), 1U);

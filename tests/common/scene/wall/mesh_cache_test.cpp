@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <span>
 #include <string>
 #include <variant>
@@ -47,12 +48,19 @@ DataSet nudged(const DataSet& mesh, const std::string& name) {
 
 class MeshCacheTest : public testing::Test {
  protected:
-  MeshCacheTest() { helpers((test::build_folder() / "lib/palpate").string()); }
-  ~MeshCacheTest() override { ::unsetenv("PALPATE_HELPERS"); }
+  MeshCacheTest() {
+    helpers((test::build_folder() / "lib/palpate").string());
+    ::setenv("XDG_CACHE_HOME", folder_.path("cache").c_str(), 1);
+  }
+  ~MeshCacheTest() override {
+    ::unsetenv("PALPATE_HELPERS");
+    ::unsetenv("XDG_CACHE_HOME");
+  }
   static void helpers(const std::string& folder) { ::setenv("PALPATE_HELPERS", folder.c_str(), 1); }
 
   [[nodiscard]] std::filesystem::path input() const { return folder_.path("heart.exelem.gz"); }
-  [[nodiscard]] std::filesystem::path kept() const { return folder_.path("heart.palpate.mesh"); }
+  [[nodiscard]] std::filesystem::path kept() const { return MeshCache(input(), Keeping::kOff).file(); }
+  void write(const std::string& bytes) const { std::ofstream(kept(), std::ios::binary) << bytes; }
   [[nodiscard]] WallMesh made(const DataSet& mesh, const WallMeshOptions& options = {}) const {
     return cached_or_made_mesh(mesh, &kChoice, options, input(), Keeping::kAlways, nullptr);
   }
@@ -114,9 +122,9 @@ TEST_F(MeshCacheTest, DamagedFilesAreIgnoredAndWrittenAnew) {
   for (std::size_t at = 0; at < whole.size(); at += 1 + at / 4) {
     std::string damaged = whole;
     damaged[at] = static_cast<char>(damaged[at] ^ 1);
-    (void)folder_.write("heart.palpate.mesh", damaged);
+    write(damaged);
     EXPECT_FALSE(found(mesh)) << "byte " << at;
-    (void)folder_.write("heart.palpate.mesh", whole.substr(0, at));
+    write(whole.substr(0, at));
     EXPECT_FALSE(found(mesh)) << at << " bytes alone";
   }
   const WallMesh again = made(mesh);
@@ -128,7 +136,8 @@ TEST_F(MeshCacheTest, DamagedFilesAreIgnoredAndWrittenAnew) {
 TEST_F(MeshCacheTest, WhatMakesNoSenseIsNoMesh) {
   const DataSet mesh = wall();
   (void)made(mesh);
-  const std::string whole = test::read_file(kept());
+  std::string whole = test::read_file(kept());
+  whole.erase(0, whole.find('\n') + 1);  // what it is of
   const std::size_t line = whole.find('\n');
   const std::string version = whole.substr(0, line);
   const std::string key = whole.substr(line + 1, 64);
@@ -161,10 +170,12 @@ TEST_F(MeshCacheTest, NothingIsKeptWhereThatIsNotWantedOrPossible) {
   EXPECT_FALSE(std::filesystem::exists(kept()));
   std::filesystem::create_directory(folder_.path("shut"));
   std::filesystem::permissions(folder_.path("shut"), std::filesystem::perms(0555));
-  const WallMesh shut = make(folder_.path("shut/heart.exelem"), Keeping::kAlways);
+  ::setenv("XDG_CACHE_HOME", folder_.path("shut").c_str(), 1);
+  const WallMesh shut = make(input(), Keeping::kAlways);
   EXPECT_FALSE(shut.tets.empty());
   EXPECT_NE(shut.notes.back().find("not kept"), std::string::npos) << shut.notes.back();
-  EXPECT_FALSE(std::filesystem::exists(folder_.path("shut/heart.palpate.mesh")));
+  EXPECT_FALSE(std::filesystem::exists(kept()));
+  ::setenv("XDG_CACHE_HOME", folder_.path("cache").c_str(), 1);
   // A file's own tetrahedra stand in the file already.
   const DataSet tets = data_set_of(make(input(), Keeping::kOff));
   EXPECT_TRUE(cached_or_made_mesh(tets, nullptr, {}, input(), Keeping::kAlways, nullptr).kept);
