@@ -2,7 +2,7 @@
 """Makes a PNG of a trial small, for docs: scripts/small_picture.py IN.png OUT.png [PARTS]
 
 Each pixel becomes the nearest of 248 colours: greys, and blends of greys with the red and the blue of the marks
-(common/study/study_look.h), so that marks of a few pixels keep theirs. PARTS (1, 2, ...) pixels a side become one
+(common/study/study_appearance.h), so that marks of a few pixels keep theirs. PARTS (1, 2, ...) pixels a side become one
 first, by their mean. Reads 8-bit RGB and RGBA that is not interlaced, which is what the programs write.
 """
 import struct

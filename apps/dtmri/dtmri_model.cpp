@@ -97,7 +97,7 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
   if (content->tensors) {
     state.tensors = make_tensor_view(content->tensors->image, document.tensors);
     state.volume = make_tensor_volume(content->volume->image, document);
-    state.looks = {direction_lens(document.volume, *state.volume->image)};
+    state.appearances = {direction_lens(document.volume, *state.volume->image)};
   }
   show_tracts(with, before, shown, progress, state);
   if (const std::string& file = with.tensors.underlay; !file.empty()) {

@@ -120,13 +120,13 @@ std::string tract_seed_text(const TractSeedChoice& choice, const TensorView& ten
          short_number(radius_of(choice, *tensors.image));
 }
 
-void draw_tract_appearance(TractView& look) {
-  edit_setting("tract-width", look.width);
-  edit_setting("tract-opacity", look.opacity);
+void draw_tract_appearance(TractView& appearance) {
+  edit_setting("tract-width", appearance.width);
+  edit_setting("tract-opacity", appearance.opacity);
 }
 
 void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorView& tensors,
-                      std::optional<TractView>& look) {
+                      std::optional<TractView>& appearance) {
   constexpr std::array<const char*, 2> kWhere{"a ball at the crosshair", "all of high FA"};
   int where = choice.at_crosshair ? 0 : 1;
   if (combo("start in", &where, kWhere.data(), static_cast<int>(kWhere.size())))
@@ -164,8 +164,8 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   }
   // Always there, so that nothing below moves when tracts come and go.
   TractView none;
-  ImGui::BeginDisabled(!look);
-  draw_tract_appearance(look ? *look : none);
+  ImGui::BeginDisabled(!appearance);
+  draw_tract_appearance(appearance ? *appearance : none);
   ImGui::EndDisabled();
 }
 
@@ -205,7 +205,7 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
     (void)draw_transfer_editor("anisotropy", kAnisotropies, histogram, volume.transfer);
   }
   draw_rays(volume);
-  actions.lens = draw_lens_panel(volume, scene.looks, "FA", scene.info->bounds, state.histogram);
+  actions.lens = draw_lens_panel(volume, scene.appearances, "FA", scene.info->bounds, state.histogram);
   if (volume.lenses.empty()) return;
   EditedTransfer focus = focus_of(volume, scene);
   ImGui::TextDisabled("inside lenses");

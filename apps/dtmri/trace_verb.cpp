@@ -163,7 +163,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
           "a .tck file has no place for error, seed and termination: left out; .trk, .vtp and .csv have");
     if (ending == ".trk" || ending == ".vtp")
       console.note("termination_first and termination_last are numbers in a " + ending +
-                   " file: " + end_numbers() + "; .csv has words");
+                   " file: " + end_numbers() + "; .csv has names");
     add_line_columns(summary.result);
     if (const auto* const voxels = std::get_if<UniformTopology>(&image.image.topology)) {
       summary.result.lines.image = {.voxels = voxels->points, .axes = voxels->axes, .origin = voxels->origin};

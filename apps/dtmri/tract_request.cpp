@@ -120,8 +120,8 @@ std::vector<Vec3> random_seeds(std::size_t count, const UniformTopology& image, 
 
 }  // namespace
 
-void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look) {
-  if (!look.file.empty() && !options.seeds.empty())
+void check_view_tracts(const TractTracingOptions& options, const TractAppearance& appearance) {
+  if (!appearance.file.empty() && !options.seeds.empty())
     throw usage_error("give either --tracts, a file, or --seeds, to trace some; not both");
   // Regions name files, which are read when they are needed.
   TractTracingOptions numbers = options;
@@ -131,20 +131,20 @@ void check_view_tracts(const TractTracingOptions& options, const TractAppearance
   (void)tract_request(numbers, false, 1);
 }
 
-ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
+ViewTracts read_view_tracts(const TractAppearance& appearance, const TensorField* field, int threads,
                             Progress* progress) {
-  TractogramFile file = read_tractogram(look.file, progress);
+  TractogramFile file = read_tractogram(appearance.file, progress);
   ViewTracts tracts;
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(file.lines)));
   if (tracts.bundle->order.empty())
-    throw input_error({look.file, "", "holds no line of two points and more", "tracts", ""});
+    throw input_error({appearance.file, "", "holds no line of two points and more", "tracts", ""});
   tracts.left_out = tracts_left_out(*tracts.bundle);
   tracts.notes = file.info.notes;
   if (field != nullptr && field->voxels()) {
     const TractFit fit = fit_of_tracts(*field, *tracts.bundle->lines, threads);
     if (fit.suspicious || fit.strays()) tracts.notes.push_back(fit_sentence(fit, "dtmri tracts --turn"));
   }
-  for (std::string& note : tracts.notes) note.insert(0, look.file + ": ");
+  for (std::string& note : tracts.notes) note.insert(0, appearance.file + ": ");
   return tracts;
 }
 

@@ -58,13 +58,13 @@ struct ViewTracts {
 };
 
 /// Checks what can be checked before anything is read. @throws Error (usage).
-void check_view_tracts(const TractTracingOptions& options, const TractAppearance& look);
+void check_view_tracts(const TractTracingOptions& options, const TractAppearance& appearance);
 
 /// The lines of a tractogram. Where they are shown over `field`, a note says if they would fit it better turned:
 /// LPS taken for RAS, another image. @param field null: none, or of no image.
 /// @throws Error (bad input): not readable, or no line in it; Cancelled.
-[[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& look, const TensorField* field, int threads,
-                                          Progress* progress);
+[[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& appearance, const TensorField* field,
+                                          int threads, Progress* progress);
 
 /// Traces through `voxels` as the verb `trace` does. @pre document.tracts.seeds is not empty.
 /// @throws Error (usage), (bad input) as tract_options() and tract_seeds(); Cancelled.

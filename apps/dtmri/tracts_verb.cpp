@@ -41,7 +41,7 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   summary.notes.push_back(fit_sentence(summary.fit, "--turn"));
   if (turn) {
     turn_tracts(map_of(*turn, *field->voxels()), file.lines);
-    summary.turn = turn->words();
+    summary.turn = turn->text();
     summary.notes.push_back(
         "turned by " + summary.turn + ", as asked for: now " +
         fit_sentence(fit_of_tracts(*field, file.lines, options.common.threads), "--turn"));

@@ -63,7 +63,7 @@ SceneState trace(Input& input, const FlowContent& content, const Document& docum
   state.info = content.info;
   state.lines = std::make_shared<const std::vector<Line>>(std::move(result.lines));
   state.probed = content.field;
-  state.haptic_scalar = content.felt;
+  state.haptic_scalar = content.haptic;
   state.haptic_scalar_key = scalar_key(document.touch.scalar);
   state.ends = result.ends;
   state.seeds = seeds.size();
@@ -92,7 +92,7 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
   const Document& document = state.document;
   const VolumeOptions& asked = document.volume;
   state.volume_notes.clear();
-  state.looks.clear();
+  state.appearances.clear();
   state.volume.reset();
   if (asked.scalar.empty()) return;
   check_flow_volume(asked);
@@ -120,7 +120,7 @@ void show_volume(Input& input, const FlowContent& content, const SceneState* bef
     view.transfer = before->volume->transfer;
     view.regions = before->volume->regions;
   }
-  state.looks = lens_appearances(view, asked.focus, document.common.threads);
+  state.appearances = lens_appearances(view, asked.focus, document.common.threads);
   state.volume_label = names.front();
   state.volume = std::move(view);
 }
@@ -143,7 +143,7 @@ FlowContent FlowModel::read(Input& input, const Document& document, Progress& pr
   content.field = input.load_field(threads, &progress);
   content.info = info_of(input, *content.field);
   if (!document.touch.scalar.empty())
-    content.felt = haptic_scalar(document.touch.scalar, input, content.field, threads, &progress);
+    content.haptic = haptic_scalar(document.touch.scalar, input, content.field, threads, &progress);
   return content;
 }
 

@@ -14,7 +14,7 @@ namespace palpate {
 struct FlowContent {
   std::shared_ptr<const VectorField> field;
   std::shared_ptr<const SceneInfo> info;
-  std::shared_ptr<const ScalarField> felt;  ///< as `--scalar` names it; null: the default one
+  std::shared_ptr<const ScalarField> haptic;  ///< as `--scalar` names it; null: the default one
 };
 
 class FlowModel final : public InputModel<FlowContent> {

@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
                 "lines in a scalar of the same image, drawn as a volume"},
                {"flow render bluntfinxyz.bin --solution bluntfinq.bin --volume Density --resample 160 --lens "
                 "sphere:0,0.5,2.6,1.5 --out fin.png",
-                "other grids are resampled, and the error is told; lenses as in grid"},
+                "other grids are resampled, and the error is reported; lenses as in grid"},
                {"flow render carotid.vtk --path path.csv --out followed.png",
                 "with a hand on that path: the line that holds it, stream balls, the path by force"}}),
           report_verb("measure error against run time and stability on this very data",

@@ -35,7 +35,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, document);
   state.info = std::move(info);
-  state.looks = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
+  state.appearances = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
   if (view.volume->colored) state.notes.emplace_back(kOwnColorsNote);
   state.volume = std::move(view.volume);

@@ -55,8 +55,8 @@ int main(int argc, char** argv) {
                  "sphere:0,0,0,60,field=pet.nii.gz,tf=density "
                  "--out both.png",
                  "another volume in a lens, on its own grid"},
-                {"grid render tooth.nhdr --isovalue 900 --path path.csv --out felt.png",
-                 "with a surface, and what a hand on that path has felt of it"},
+                {"grid render tooth.nhdr --isovalue 900 --path path.csv --out touched.png",
+                 "with a surface, and the forces of it on a hand along that path"},
                 {"grid render --example shells --transfer-function shells.csv --out shells.png",
                  "with a transfer function of your own"}}),
            slice_verb(

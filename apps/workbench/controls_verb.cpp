@@ -155,15 +155,15 @@ ExitCode run_controls(const Document& options, const VerbContext& context) {
       log->write(line);
     }
     if (event.kind == SpaceEvent::Kind::kNone) continue;
-    nlohmann::ordered_json told{
+    nlohmann::ordered_json event_row{
         {"t", row.time}, {"event", what}, {"id", event.id}, {"label", menu.pointed_label()}};
     text += short_number(row.time) + " s: " + menu.pointed_label() + " " + what;
     if (event.kind == SpaceEvent::Kind::kSet) {
-      told["value"] = event.value;
+      event_row["value"] = event.value;
       text += " to " + short_number(event.value);
     }
     text += "\n";
-    events.push_back(std::move(told));
+    events.push_back(std::move(event_row));
   }
   if (log) log->finish();
   if (!picture.empty()) {

@@ -52,8 +52,8 @@ void FeelScore::add(const HandStep& step) noexcept {
       force_stretch_ += glm::dot(step.force, stretch);
       stretch_stretch_ += length * length;
     }
-    constexpr double kFelt = 0.1;  // [N]: below, directions are rounding
-    if (size > kFelt && length > 0.0) {
+    constexpr double kLeastForce = 0.1;  // [N]: below, directions are rounding
+    if (size > kLeastForce && length > 0.0) {
       const Vec3 u = stretch / length;
       leak_ = std::max(leak_, glm::length(step.force - glm::dot(step.force, u) * u) / size);
     }

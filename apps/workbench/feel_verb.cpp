@@ -289,7 +289,7 @@ ExitCode run_feel(const Document& document, const VerbContext& context) {
   }
   if (recorded) {
     if (!simulated && !options.device.empty())
-      throw usage_error("a recorded hand is felt by itself, or on a simulated arm: leave --device " +
+      throw usage_error("a recorded hand feels by itself, or on a simulated arm: leave --device " +
                         options.device + " away, or try --device simulated:falcon");
     const FeelScore score = feel_path(document, options, simulated, context);
     context.console.print(score_text(score, options, nullptr));

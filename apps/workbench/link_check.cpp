@@ -51,7 +51,7 @@ LinkCheck check_link(DriverLink& link, double seconds, double patience, Progress
   check.advice = link.advice();
   check.place = link.place();
   check.tracks = link.poses() != nullptr;
-  check.felt = link.atoms().has_position && !check.tracks;
+  check.has_arm = link.atoms().has_position && !check.tracks;
   return check;
 }
 
@@ -79,7 +79,7 @@ std::vector<std::string> advice_on(const LinkCheck& check) {
           "used, and take the highest rate of its line");
     }
   }
-  if (!check.ready || !check.felt) return advice;
+  if (!check.ready || !check.has_arm) return advice;
   constexpr double kSlow = 400.0;  // [Hz] stiff walls buzz
   constexpr double kUneven = 5.0;  // [ms]
   if (check.rate() < kSlow && check.status.rounds > 0) {

@@ -24,8 +24,8 @@ struct LinkCheck {
   LinkStatus status;
   std::string advice;
   std::string place;
-  bool felt = false;    ///< it is an arm: its rate and evenness are
-  bool tracks = false;  ///< it is a tracker, whose pictures lag behind a low rate
+  bool has_arm = false;  ///< it is an arm: its rate and evenness are
+  bool tracks = false;   ///< it is a tracker, whose pictures lag behind a low rate
 
   [[nodiscard]] double rate() const noexcept {
     return measured > 0.0 ? static_cast<double>(intervals.count()) / measured : 0.0;

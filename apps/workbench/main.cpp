@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
                         {"workbench screen --position-error 5,5 --orientation-error 1 --out screen-report",
                          "with pictures of the space that is seen"}}),
            stability_verb(
-               {{"workbench stability --out stability", "for an ideal device, beside known classes"},
+               {{"workbench stability --out stability", "for an ideal device, next to known classes"},
                 {"workbench stability --model arm.toml --out stability",
                  "for a device that a file describes"}}),
            devices_verb(

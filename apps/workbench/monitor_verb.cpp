@@ -176,11 +176,11 @@ ExitCode run_monitor(const Document& document, const VerbContext& context) {
                                              : atoms_text(now, link->atoms(), workbench));
     }
   }
-  const Json told{{"device", options.device},
-                  {"phase", name_of(link->status().phase)},
-                  {"advice", link->advice()},
-                  {"samples", samples}};
-  context.console.print_json(told.dump(2, ' ', false, Json::error_handler_t::replace));
+  const Json reported{{"device", options.device},
+                      {"phase", name_of(link->status().phase)},
+                      {"advice", link->advice()},
+                      {"samples", samples}};
+  context.console.print_json(reported.dump(2, ' ', false, Json::error_handler_t::replace));
   return ExitCode::kDone;
 }
 

@@ -79,7 +79,7 @@ TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, double 
   TuningNews news;
   ServoState state;
   std::string said;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   bool begun = false;
   constexpr std::int64_t kLook = 20;  // [ms]
   const std::int64_t start = monotonic_ns();
@@ -107,8 +107,8 @@ TuningNews tune_live(WorkbenchDevice& workbench, const TuningPlan& plan, double 
     begun = begun || (shown && state.hand.present);
     if (!begun && 1e-9 * static_cast<double>(monotonic_ns() - start) > patience)
       throw work_error("the device did not become ready; `workbench doctor` says why");
-    for (; told < news.place && told < news.count; ++told)
-      context.console.print(result_text(news.results[told]));
+    for (; reported < news.place && reported < news.count; ++reported)
+      context.console.print(result_text(news.results[reported]));
   }
   return news;
 }

@@ -43,7 +43,7 @@ extern "C" void on_signal(int) {
 struct InterruptGuard::State {
   std::string program;
   std::mutex mutex;
-  std::vector<std::filesystem::path> kept;
+  std::vector<std::filesystem::path> saved;
   std::vector<std::filesystem::path> unfinished;
   struct sigaction old_interrupt {};
   struct sigaction old_terminate {};
@@ -51,18 +51,18 @@ struct InterruptGuard::State {
   std::atomic<bool> over{false};
   std::thread watchdog;
 
-  std::string kept_text() {
+  std::string saved_text() {
     const std::lock_guard lock(mutex);
-    if (kept.empty()) return "nothing was kept";
-    std::string text = "kept: ";
-    for (const auto& path : kept) text += (path == kept.front() ? "" : ", ") + path.string();
+    if (saved.empty()) return "nothing was saved";
+    std::string text = "saved: ";
+    for (const auto& path : saved) text += (path == saved.front() ? "" : ", ") + path.string();
     return text;
   }
 
   [[noreturn]] void end_now() {
     run_last_acts();
     remove_unfinished_outputs();
-    const std::string line = "\n" + program + ": interrupted; " + kept_text() + "\n";
+    const std::string line = "\n" + program + ": interrupted; " + saved_text() + "\n";
     {
       const std::lock_guard lock(mutex);
       std::error_code ignored;
@@ -123,7 +123,7 @@ bool InterruptGuard::interrupted() noexcept { return signals_seen.load() > 0; }
 
 void InterruptGuard::keep(const std::filesystem::path& output) {
   const std::lock_guard lock(state_->mutex);
-  state_->kept.push_back(output);
+  state_->saved.push_back(output);
 }
 
 void InterruptGuard::unfinished(const std::filesystem::path& temporary) {
@@ -131,6 +131,6 @@ void InterruptGuard::unfinished(const std::filesystem::path& temporary) {
   state_->unfinished.push_back(temporary);
 }
 
-std::string InterruptGuard::kept() const { return state_->kept_text(); }
+std::string InterruptGuard::saved() const { return state_->saved_text(); }
 
 }  // namespace palpate

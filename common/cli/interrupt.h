@@ -11,7 +11,7 @@ namespace palpate {
 
 /// While it lives, SIGINT, SIGTERM and SIGHUP take the force away at once and cancel `progress`. 0.8 s later a program that is still at work does
 /// its last acts (last_acts.h), removes what it was writing (output_file.h) and the unfinished outputs that
-/// it announced, says what was kept and exits with 130; a second signal does so at once. One at a time.
+/// it announced, says what was saved and exits with 130; a second signal does so at once. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard(Progress& progress, std::string program);
@@ -24,8 +24,8 @@ class InterruptGuard {
   void keep(const std::filesystem::path& output);
   /// Announces a file or folder that is removed if the program has to be ended.
   void unfinished(const std::filesystem::path& temporary);
-  /// "nothing was kept", "kept: lines.vtp"
-  [[nodiscard]] std::string kept() const;
+  /// "nothing was saved", "saved: lines.vtp"
+  [[nodiscard]] std::string saved() const;
 
  private:
   struct State;

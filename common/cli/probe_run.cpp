@@ -88,12 +88,12 @@ void follow_hands(const std::vector<TrackedHands>& rows, ImmersiveTechnique& tec
                   const Workspace& workspace, ProbeRun& run, Progress& progress) {
   progress.begin("probing", rows.size());
   CarriedPlanes carried;
-  std::optional<WidgetNews> told;
+  std::optional<WidgetNews> reported;
   for (const TrackedHands& hands : rows) {
     (void)technique.take(hands, {});
     const HandsIntent& intent = technique.intent();
-    if (WidgetNews news; planes != nullptr && planes->read(news)) told = news;
-    if (const auto poses = carried.follow(intent, told)) {
+    if (WidgetNews news; planes != nullptr && planes->read(news)) reported = news;
+    if (const auto poses = carried.follow(intent, reported)) {
       settings.plane_widget.poses = *poses;
       ++settings.plane_widget.edit;
       stepper.apply(settings);

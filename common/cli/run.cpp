@@ -84,7 +84,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kParts{{
 /// Runs `verb` and turns whatever it throws into a line and an exit code.
 ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& context) {
   const auto interrupted = [&] {
-    context.console.fail("interrupted; " + context.interrupt.kept(),
+    context.console.fail("interrupted; " + context.interrupt.saved(),
                          static_cast<int>(ExitCode::kInterrupted));
     return ExitCode::kInterrupted;
   };

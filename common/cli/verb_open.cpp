@@ -49,7 +49,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   check_view(options);
   StereoView stereo = stereo_of(options.view);
   verb.check(options);
-  const bool felt = !verb.modes.empty();
+  const bool haptic = !verb.modes.empty();
   WindowRequest request{.program = context.explorer.name,
                         .command_line = context.command_line,
                         .start_page = begins_with_start_page(given),
@@ -57,7 +57,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
                         .stop_requested = [] { return InterruptGuard::interrupted(); },
                         .note = note};
   apply_appearance(options, request.view);
-  if (felt) request.touch = window_touch(verb.modes, options, context);
+  if (haptic) request.touch = window_touch(verb.modes, options, context);
   request.workbench = workbench_display_of(options, request.touch);
   if (const auto& workbench = request.workbench;
       workbench && !workbench->several && stereo.mode == StereoMode::kNone)
@@ -68,7 +68,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   request.view.stereo = stereo;
   if (!options.hand.record.empty()) context.interrupt.keep(options.hand.record);
   const WindowOutcome outcome = verb.window.open(*model, options, std::move(request));
-  if (felt) tell_of_touch(outcome, context);
+  if (haptic) tell_of_touch(outcome, context);
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;
 }
 

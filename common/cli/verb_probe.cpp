@@ -44,7 +44,7 @@ std::string summary_text(const ProbeSummary& summary) {
           " N/s, stiffness " + short_number(summary.settings.stiffness) + " N/m)\n";
   text += "  residual   at most " + short_number(summary.max_residual) + ", " +
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
-  text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; lets go at " +
+  text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; release distance " +
           short_number(1e3 * summary.settings.streamline.release_distance) + " mm\n";
   if (!summary.scalar.empty()) {
     const IsosurfaceSettings& surface = summary.settings.isosurface;
@@ -103,52 +103,52 @@ struct HapticInput {
 };
 
 HapticInput load_haptic(Input& input, const Document& options, const VerbContext& context) {
-  HapticInput felt;
-  const auto describe = [&felt](const auto& field) {
-    felt.name = field.name();
-    felt.bounds = field.bounds();
-    felt.diagonal = field.diagonal();
-    felt.mesh = field.tet_mesh();
-    felt.notes = field.notes().lines;
+  HapticInput haptic;
+  const auto describe = [&haptic](const auto& field) {
+    haptic.name = field.name();
+    haptic.bounds = field.bounds();
+    haptic.diagonal = field.diagonal();
+    haptic.mesh = field.tet_mesh();
+    haptic.notes = field.notes().lines;
   };
   if (context.explorer.kind == FieldKind::kTensor) {
-    felt.tensor = input.load_tensor(options.common.threads, &context.progress);
-    felt.name = felt.tensor->name();
-    felt.bounds = felt.tensor->bounds();
-    felt.diagonal = felt.tensor->bounds().diagonal();
-    felt.mesh = felt.tensor->grid()->tets.get();
-    felt.notes = felt.tensor->notes().lines;
+    haptic.tensor = input.load_tensor(options.common.threads, &context.progress);
+    haptic.name = haptic.tensor->name();
+    haptic.bounds = haptic.tensor->bounds();
+    haptic.diagonal = haptic.tensor->bounds().diagonal();
+    haptic.mesh = haptic.tensor->grid()->tets.get();
+    haptic.notes = haptic.tensor->notes().lines;
   } else if (context.explorer.kind == FieldKind::kFibre) {
     Heart heart = input.load_heart(options.common.threads, &context.progress);
-    felt.tensor = heart.fibres;
-    felt.scalar = heart.layer;
-    felt.name = heart.fibres->name();
-    felt.bounds = heart.layer->bounds();
-    felt.diagonal = heart.layer->diagonal();
-    felt.mesh = heart.layer->tet_mesh();
-    felt.notes = std::move(heart.notes);
+    haptic.tensor = heart.fibres;
+    haptic.scalar = heart.layer;
+    haptic.name = heart.fibres->name();
+    haptic.bounds = heart.layer->bounds();
+    haptic.diagonal = heart.layer->diagonal();
+    haptic.mesh = heart.layer->tet_mesh();
+    haptic.notes = std::move(heart.notes);
   } else if (context.explorer.kind == FieldKind::kScalar) {
-    felt.scalar = input.load_scalar(options.common.threads, &context.progress);
-    describe(*felt.scalar);
-    felt.secondary = load_secondary(input, options.volume, &context.progress);
+    haptic.scalar = input.load_scalar(options.common.threads, &context.progress);
+    describe(*haptic.scalar);
+    haptic.secondary = load_secondary(input, options.volume, &context.progress);
   } else {
-    felt.field = input.load_field(options.common.threads, &context.progress);
-    describe(*felt.field);
+    haptic.field = input.load_field(options.common.threads, &context.progress);
+    describe(*haptic.field);
     if (!options.touch.scalar.empty()) {
-      felt.scalar =
-          haptic_scalar(options.touch.scalar, input, felt.field, options.common.threads, &context.progress);
+      haptic.scalar =
+          haptic_scalar(options.touch.scalar, input, haptic.field, options.common.threads, &context.progress);
     }
   }
-  return felt;
+  return haptic;
 }
 
 /// Settles what isosurfaces are felt where nothing was said, so that the summary can state it.
-void settle_isosurfaces(HapticInput& felt, ProbeSummary& summary, const Console& console) {
-  if (!felt.scalar) felt.scalar = make_speed_field(felt.field);
+void settle_isosurfaces(HapticInput& haptic, ProbeSummary& summary, const Console& console) {
+  if (!haptic.scalar) haptic.scalar = make_speed_field(haptic.field);
   Isovalues& isovalues = summary.settings.isosurface.isovalues;
-  if (isovalues.count == 0) isovalues = {{otsu_threshold(*felt.scalar)}, 1};
-  summary.scalar = felt.scalar->name();
-  const std::string beyond = beyond_values(*felt.scalar, isovalues);
+  if (isovalues.count == 0) isovalues = {{otsu_threshold(*haptic.scalar)}, 1};
+  summary.scalar = haptic.scalar->name();
+  const std::string beyond = beyond_values(*haptic.scalar, isovalues);
   if (!beyond.empty()) console.note(beyond);
 }
 
@@ -214,34 +214,34 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
 
   Input input = open_input(options, context);
   console.note(input.choice_sentence());
-  HapticInput felt = load_haptic(input, options, context);
-  for (const std::string& note : felt.notes) console.note(input.title() + ": " + note);
+  HapticInput haptic = load_haptic(input, options, context);
+  for (const std::string& note : haptic.notes) console.note(input.title() + ": " + note);
   const Workspace workspace = touch_workspace(
-      options.touch, felt.diagonal, frame_of(felt.field.get(), felt.scalar.get(), felt.tensor.get()));
-  summary.settings = touch_settings(options.touch, felt.field.get(), workspace);
+      options.touch, haptic.diagonal, frame_of(haptic.field.get(), haptic.scalar.get(), haptic.tensor.get()));
+  summary.settings = touch_settings(options.touch, haptic.field.get(), workspace);
   const TunedDevice* tuned = simulated ? find_tuned(workbench.tuned, device_key(*simulated)) : nullptr;
   if (tuned != nullptr && summary.settings.stiffness > tuned->stiffness) {
     console.note(tuned_note(summary.settings.stiffness, tuned->stiffness));
     summary.settings.stiffness = tuned->stiffness;
   }
-  if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(felt, summary, context.console);
+  if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(haptic, summary, context.console);
   // Of a heart the tensors are its fibres, which no column tells of.
   ProbeLog::Measured logged{
-      .tensors = context.explorer.kind == FieldKind::kTensor ? felt.tensor.get() : nullptr,
-      .scalar = context.explorer.kind == FieldKind::kScalar ? felt.scalar.get() : nullptr,
-      .secondary = felt.secondary};
+      .tensors = context.explorer.kind == FieldKind::kTensor ? haptic.tensor.get() : nullptr,
+      .scalar = context.explorer.kind == FieldKind::kScalar ? haptic.scalar.get() : nullptr,
+      .secondary = haptic.secondary};
   if (context.explorer.kind == FieldKind::kFibre && !recording) {
     IsosurfaceSettings& layers = summary.settings.isosurface;
-    if (layers.isovalues.count == 0) layers.isovalues = default_layers(*felt.scalar);
+    if (layers.isovalues.count == 0) layers.isovalues = default_layers(*haptic.scalar);
     layers.hold = IsosurfaceHold::kLayer;
-    summary.scalar = felt.scalar->name();
+    summary.scalar = haptic.scalar->name();
   }
   summary.input = input.title();
-  summary.field = felt.name;
+  summary.field = haptic.name;
   summary.mode = mode.name;
   summary.output = options.output.file.string();
   summary.workspace_scale = workspace.scale();
-  summary.diagonal = felt.diagonal;
+  summary.diagonal = haptic.diagonal;
   summary.seconds_load = input.seconds_open() + input.seconds_read() + input.seconds_field();
 
   std::optional<OutputFile> file;
@@ -251,23 +251,24 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   std::shared_ptr<const ScalarField> noise;  ///< that is felt
   std::optional<TractPen> pen;
   if (!options.output.tract.empty()) {
-    pen.emplace(felt.tensor, kTractSpacing * felt.diagonal);
+    pen.emplace(haptic.tensor, kTractSpacing * haptic.diagonal);
     run.draw_on(*pen);
   }
   if (mode.name == kGridMode && !options.slice.box.empty()) {
     summary.box = parse_box(options.slice.box, "--box");
-    run.hold_box(summary.settings.grid_axis.threshold / workspace.scale(), felt.bounds);
+    run.hold_box(summary.settings.grid_axis.threshold / workspace.scale(), haptic.bounds);
   }
   if (mode.name == kGridMode) {
-    summary.focal_point = focal_point_of(options.view).value_or(felt.bounds.center());
+    summary.focal_point = focal_point_of(options.view).value_or(haptic.bounds.center());
     run.hold_view();
   }
   if (recording) {
     // The fields of all examples have the same label.
     std::string label = input.field_label();
     if (input.spec().files.empty()) label.insert(0, input.title() + " ");
-    const NamedField open{felt.field, field_key(label, input.time().step) + scalar_key(options.touch.scalar),
-                          felt.scalar, felt.tensor};
+    const NamedField open{haptic.field,
+                          field_key(label, input.time().step) + scalar_key(options.touch.scalar),
+                          haptic.scalar, haptic.tensor};
     int links = 0;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
@@ -292,7 +293,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     summary.replay_differs = replay.verdict().differs != 0;
   } else {
     HapticChain haptics = mode.make(
-        {felt.field, workspace, summary.settings, options.common.threads, felt.scalar, felt.tensor});
+        {haptic.field, workspace, summary.settings, options.common.threads, haptic.scalar, haptic.tensor});
     noise = haptics.noise;
     logged.noise = noise.get();
     if (file) run.log_to(*file, haptics.chain->size(), logged);
@@ -301,7 +302,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     if (!haptics.note.empty()) console.note(haptics.note);
     HandStepper stepper(std::move(haptics.chain), summary.limits);
     if (immersive) {
-      ImmersiveTechnique technique(workbench, felt.bounds.center(), workspace.scale());
+      ImmersiveTechnique technique(workbench, haptic.bounds.center(), workspace.scale());
       follow_hands(hands, technique, summary.settings, planes.get(), stepper, workspace, run,
                    context.progress);
     } else if (simulated) {

@@ -161,31 +161,31 @@ ConvexShape parse_beyond(std::string_view text, const std::string& asked) {
 }
 
 LensSpec parse_lens(const std::string& text) {
-  LensSpec words;
+  LensSpec spec;
   const std::string& all = text;
   std::string_view rest = text;
   constexpr std::string_view kTransfer = ",tf=";
   if (const std::size_t at = rest.find(kTransfer); at != std::string_view::npos) {
-    words.transfer = rest.substr(at + kTransfer.size());
-    if (words.transfer.empty()) throw usage_error("--lens " + all + ": " + kGrammar);
+    spec.transfer = rest.substr(at + kTransfer.size());
+    if (spec.transfer.empty()) throw usage_error("--lens " + all + ": " + kGrammar);
     rest = rest.substr(0, at);
   }
   // What is said of the lens stands behind its numbers, and begins with a letter.
   const auto says = [&](std::string_view word, std::string_view what) {
     if (what == "cut") {
-      words.lens.cut = true;
+      spec.lens.cut = true;
     } else if (word == "off" && what == "off") {
-      words.off = true;
+      spec.off = true;
     } else if (word == "magnify") {
-      words.lens.magnification = number_from(1.0, 100.0, what, "--lens " + all + ": magnify");
+      spec.lens.magnification = number_from(1.0, 100.0, what, "--lens " + all + ": magnify");
     } else if (word == "blend") {
-      words.lens.transition = number_from(0.0, 1.0, what, "--lens " + all + ": blend");
+      spec.lens.transition = number_from(0.0, 1.0, what, "--lens " + all + ": blend");
     } else if (word == "samples") {
-      words.samples = number_from(0.01, 64.0, what, "--lens " + all + ": samples");
+      spec.samples = number_from(0.01, 64.0, what, "--lens " + all + ": samples");
     } else if (word == "field" && !what.empty()) {
-      words.field = what;
+      spec.field = what;
     } else if (word == "shading" && (what == "on" || what == "off")) {
-      words.shading = what == "on";
+      spec.shading = what == "on";
     } else {
       throw usage_error("--lens " + all + ": " + kGrammar);
     }
@@ -199,8 +199,8 @@ LensSpec parse_lens(const std::string& text) {
     said.push_back(one);
     rest = rest.substr(0, comma);
   }
-  words.lens.screen = circle_of(rest, text);
-  if (!words.lens.screen) words.lens.shape = shape_of(rest, text);
+  spec.lens.screen = circle_of(rest, text);
+  if (!spec.lens.screen) spec.lens.shape = shape_of(rest, text);
   for (std::size_t i = 0; i < said.size(); ++i) {
     const std::size_t equal = said[i].find('=');
     const std::string_view word = said[i].substr(0, equal);
@@ -210,19 +210,19 @@ LensSpec parse_lens(const std::string& text) {
     }
     says(word, equal == std::string_view::npos ? word : said[i].substr(equal + 1));
   }
-  const Lens& lens = words.lens;
-  if (lens.cut && !(words.field.empty() && words.transfer.empty()))
+  const Lens& lens = spec.lens;
+  if (lens.cut && !(spec.field.empty() && spec.transfer.empty()))
     throw usage_error("--lens " + all + ": what is cut away shows nothing; leave out ',field' and ',tf'");
-  if (lens.transition > 0.0 && !words.field.empty())
+  if (lens.transition > 0.0 && !spec.field.empty())
     throw usage_error("--lens " + all +
                       ": values blend with those of one field; leave out ',blend' or ',field'");
-  if (words.off && !(lens.cut && is_half_space(lens.shape)))
+  if (spec.off && !(lens.cut && is_half_space(lens.shape)))
     throw usage_error("--lens " + all + ": only a half-space that cuts can be off");
   if (!lens.cut && lens.magnification > 1.0 && !magnifies(lens))
     throw usage_error("--lens " + all + ": only a shape with a middle and bounds can magnify");
   if (!lens.cut && lens.transition > 0.0 && !magnifies(lens) && !has_transition(lens))
     throw usage_error("--lens " + all + ": only a shape with a middle and bounds can blend");
-  return words;
+  return spec;
 }
 
 std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
@@ -268,23 +268,23 @@ VolumeParts make_parts(const VolumeOptions& options, const Lens& model) {
   for (const std::string& plane : options.clips)
     parts.cuts.push_back({.kept = cached_beside(parse_beyond(plane, "--clip " + plane))});
   for (const std::string& text : options.lenses) {
-    const LensSpec words = parse_lens(text);
-    if (words.lens.cut && is_half_space(words.lens.shape)) {
-      parts.cuts.push_back({.kept = cached_beside(words.lens.shape), .on = !words.off});
+    const LensSpec spec = parse_lens(text);
+    if (spec.lens.cut && is_half_space(spec.lens.shape)) {
+      parts.cuts.push_back({.kept = cached_beside(spec.lens.shape), .on = !spec.off});
       continue;
     }
-    Lens& lens = lenses.emplace_back(words.lens, words).first;
-    lens.samples_per_voxel = words.samples.value_or(options.samples);
-    lens.shading = words.shading.value_or(options.shading);
+    Lens& lens = lenses.emplace_back(spec.lens, spec).first;
+    lens.samples_per_voxel = spec.samples.value_or(options.samples);
+    lens.shading = spec.shading.value_or(options.shading);
     if (lens.cut) continue;
     lens.transfer = model.transfer;
     lens.regions = model.regions;
   }
   std::stable_partition(lenses.begin(), lenses.end(), [](const auto& one) { return one.first.cut; });
-  for (const auto& [lens, words] : lenses) {
+  for (const auto& [lens, spec] : lenses) {
     parts.lenses.push_back(lens);
-    parts.fields.push_back(words.field);
-    parts.transfers.push_back(words.transfer);
+    parts.fields.push_back(spec.field);
+    parts.transfers.push_back(spec.transfer);
   }
   if (parts.lenses.size() > kMostLenses) {
     throw usage_error("--lens: " + std::to_string(parts.lenses.size()) + " lenses; at most " +

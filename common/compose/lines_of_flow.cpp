@@ -12,33 +12,33 @@
 namespace palpate {
 namespace {
 
-/// Sentences about `told`; lengths that matter are those of the diagonal.
-void note(const InTime& told, LineKind kind, double diagonal, std::vector<std::string>& notes) {
-  if (told.moving_mesh) notes.emplace_back("the mesh moves: values move with its cells");
-  if (told.other_meshes) {
+/// Sentences about `reported`; lengths that matter are those of the diagonal.
+void note(const InTime& reported, LineKind kind, double diagonal, std::vector<std::string>& notes) {
+  if (reported.moving_mesh) notes.emplace_back("the mesh moves: values move with its cells");
+  if (reported.other_meshes) {
     notes.emplace_back(
         "the cells change from step to step: each step is taken at the place itself, and lines end where the grid of "
         "either step does");
   }
-  if (!told.sampling_known) {
+  if (!reported.sampling_known) {
     notes.emplace_back(
         "the errors are those of the integration alone: between two steps of the data none can be left out to see "
         "what the sampling in time costs");
-  } else if (told.sampling > told.integration) {
+  } else if (reported.sampling > reported.integration) {
     notes.push_back(
         "the errors are those of the sampling in time: with every second step left out, particles go up to " +
-        short_number(told.sampling) +
+        short_number(reported.sampling) +
         " elsewhere; more steps of the data lower that, where the flow is smooth --time-order cubic, too");
   }
   constexpr double kWide = 0.05;
-  if (told.gap > kWide * diagonal) {
-    notes.push_back("neighbouring particles are up to " + short_number(told.gap) + " apart: " +
+  if (reported.gap > kWide * diagonal) {
+    notes.push_back("neighbouring particles are up to " + short_number(reported.gap) + " apart: " +
                     (kind == LineKind::kStreaklines ? "a smaller --release-every draws" : "more seeds draw") +
                     " the lines finer");
   }
-  if (told.torn > 0) {
-    notes.push_back(counted(told.torn, kind == LineKind::kStreaklines ? "streakline" : "timeline") +
-                    (told.torn == 1 ? " is" : " are") +
+  if (reported.torn > 0) {
+    notes.push_back(counted(reported.torn, kind == LineKind::kStreaklines ? "streakline" : "timeline") +
+                    (reported.torn == 1 ? " is" : " are") +
                     " cut where particles have ended: each piece states why the next one has");
   }
 }

@@ -102,23 +102,23 @@ TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Prog
 }
 
 std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus, int threads) {
-  std::vector<Lens> looks;
+  std::vector<Lens> appearances;
   for (std::size_t field = 0; field <= volume.fields.size(); ++field) {
-    Lens& look = looks.emplace_back();
-    look.field = field;
-    look.samples_per_voxel = volume.samples_per_voxel;
-    look.shading = volume.shading;
+    Lens& appearance = appearances.emplace_back();
+    appearance.field = field;
+    appearance.samples_per_voxel = volume.samples_per_voxel;
+    appearance.shading = volume.shading;
     const VolumeImage& image = *image_of(volume, field);
     take_transfer(field == 0 || !focus.empty() ? focus_transfer_of(focus, image, threads)
                                                : volume_transfer_of("", image, threads),
-                  look);
+                  appearance);
   }
-  return looks;
+  return appearances;
 }
 
-void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& looks,
+void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& appearances,
                 int threads) {
-  VolumeParts parts = make_parts(options, looks.front());
+  VolumeParts parts = make_parts(options, appearances.front());
   volume.lenses = std::move(parts.lenses);
   volume.cuts = std::move(parts.cuts);
   for (std::size_t i = 0; i < volume.lenses.size(); ++i) {
@@ -127,8 +127,8 @@ void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vec
                                     [&](const VolumeField& field) { return field.name == parts.fields[i]; });
     if (!lens.cut && found != volume.fields.end()) {
       lens.field = static_cast<std::size_t>(found - volume.fields.begin()) + 1;
-      lens.transfer = looks[lens.field].transfer;
-      lens.regions = looks[lens.field].regions;
+      lens.transfer = appearances[lens.field].transfer;
+      lens.regions = appearances[lens.field].regions;
     }
     if (parts.transfers[i].empty()) continue;
     take_transfer(volume_transfer_of(parts.transfers[i], *image_of(volume, lens.field), threads), lens);

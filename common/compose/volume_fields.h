@@ -53,7 +53,7 @@ void check_file_field(const std::string& name, const std::string& option,
 /// The lenses and cuts that the options ask for, with the fields and transfer functions that they name.
 /// @param volume has its fields; @param looks of lens_appearances() for it.
 /// @throws Error (usage) as make_parts(), and for more transfer functions than a picture can have; of files.
-void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& looks,
+void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& appearances,
                 int threads);
 
 /// What is told of pictures by value and gradient magnitude.

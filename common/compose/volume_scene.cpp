@@ -242,8 +242,9 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
-    const std::vector<Lens> looks = lens_appearances(volume, options.volume.focus, options.common.threads);
-    take_parts(volume, options.volume, looks, options.common.threads);
+    const std::vector<Lens> appearances =
+        lens_appearances(volume, options.volume.focus, options.common.threads);
+    take_parts(volume, options.volume, appearances, options.common.threads);
     for (Lens& lens : volume.lenses) lens.colored = volume.colored && !lens.cut && lens.field == 0;
   }
   volume.planes = plane_images_of(options.volume);

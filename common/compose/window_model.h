@@ -80,11 +80,13 @@ struct SceneState {
   std::optional<TensorView> tensors;      ///< likewise, also with a volume
   std::optional<TractView> tracts;        ///< through them
   /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
-  std::vector<Lens> looks;
+  std::vector<Lens> appearances;
   /// Whether a volume of scalars is all that there is.
   [[nodiscard]] bool is_volume_alone() const { return volume && !tensors && !probed; }
   /// The one of a field that has none: as around lenses.
-  [[nodiscard]] Lens look(std::size_t field) const { return field < looks.size() ? looks[field] : Lens(); }
+  [[nodiscard]] Lens appearance(std::size_t field) const {
+    return field < appearances.size() ? appearances[field] : Lens();
+  }
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;

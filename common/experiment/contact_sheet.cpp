@@ -4,7 +4,7 @@
 
 #include "common/base/index.h"
 #include "common/render/render_image.h"
-#include "common/study/study_look.h"
+#include "common/study/study_appearance.h"
 
 namespace palpate {
 
@@ -26,7 +26,7 @@ Image contact_sheet(const StudyTasks& tasks, int stimuli, Progress& progress) {
       // A tile is a quarter of the window's height: lines become thinner with it, the start stays to be seen.
       constexpr double kThinner = 0.4, kMark = 2.2;
       view.style.width *= kThinner;
-      StudyLook(view).disc(start, StudyLook::kBlue, kMark);
+      StudyAppearance(view).disc(start, StudyAppearance::kBlue, kMark);
       if (s == 0) view.title = task->info().title;
       const Image tile = render_image(view, kTile, kTile).image;
       const int x = kGap + (s % kColumns) * (kTile + kGap), y = top + (s / kColumns) * (kTile + kGap);

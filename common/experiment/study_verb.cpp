@@ -199,7 +199,7 @@ void StudyWork::simulate() {
         const auto& [who, planned] = left[i];
         const StudyTask& task = *tasks[as_size(planned.task)];
         const std::unique_ptr<StudyTrial> trial = task.open(planned.stimulus);
-        const ChainWords words{task.info().name, planned.stimulus, planned.guided, plan.guidance};
+        const ChainSpec words{task.info().name, planned.stimulus, planned.guided, plan.guidance};
         const RandomStream random({plan.design.seed, 12, static_cast<std::uint64_t>(who->number),
                                    static_cast<std::uint64_t>(planned.task),
                                    static_cast<std::uint64_t>(folder.run_of(planned))});
@@ -259,11 +259,11 @@ ExitCode StudyWork::replay() {
       const bool same = again.outcome.error == r.outcome.error &&
                         again.outcome.seconds == r.outcome.seconds &&
                         again.outcome.reached == r.outcome.reached;
-      const ChainWords logged{r.task, r.stimulus, r.guided, folder.plan().guidance, r.most_stiffness};
-      if (again.words != logged || again.outcome.begin != r.outcome.begin ||
+      const ChainSpec logged{r.task, r.stimulus, r.guided, folder.plan().guidance, r.most_stiffness};
+      if (again.spec != logged || again.outcome.begin != r.outcome.begin ||
           again.outcome.end != r.outcome.end) {
         differing[i] = r.participant + " " + r.task + "/" + std::to_string(r.run) +
-                       ": the recording is of '" + chain_text(again.words) + "', steps " +
+                       ": the recording is of '" + chain_text(again.spec) + "', steps " +
                        std::to_string(again.outcome.begin) + " to " + std::to_string(again.outcome.end) +
                        "; logged is '" + chain_text(logged) + "', steps " + std::to_string(r.outcome.begin) +
                        " to " + std::to_string(r.outcome.end);

@@ -14,8 +14,8 @@ namespace palpate {
 
 bool wants_surfaces(const Document& options, const std::string& mode) {
   if (options.touch.show_surfaces == false) return false;
-  const bool felt = !options.touch.mode.empty() || !options.hand.path.empty();
-  return !options.touch.isovalues.empty() || (felt && mode == kIsosurfaceMode);
+  const bool haptic = !options.touch.mode.empty() || !options.hand.path.empty();
+  return !options.touch.isovalues.empty() || (haptic && mode == kIsosurfaceMode);
 }
 
 std::string show_haptic_surfaces(SceneView& view, const ScalarField& field, const TouchOptions& options,

@@ -124,13 +124,14 @@ void ProbeHand::lead(const HandEvent& event, const Camera& camera, const Picture
 std::optional<Vec3> ProbeHand::along_surface(const HandEvent& event, const Camera& camera,
                                              const Vec3& before) const {
   const bool held = readout_.held && readout_.state == HoldState::kHeld;
-  const HapticLevels felt = data_.levels();
-  if (!held || !felt.field || intent().axis || !std::holds_alternative<MouseDrag>(event)) return std::nullopt;
+  const HapticLevels levels = data_.levels();
+  if (!held || !levels.field || intent().axis || !std::holds_alternative<MouseDrag>(event))
+    return std::nullopt;
   CellHint hint;
-  const ScalarSample value = felt.field->sample(readout_.proxy, hint);
-  const auto level = haptic_level(felt, value.value);
+  const ScalarSample value = levels.field->sample(readout_.proxy, hint);
+  const auto level = haptic_level(levels, value.value);
   if (value.status != SampleStatus::kOk || !level) return std::nullopt;
-  return dragged_along({*felt.field, *level, readout_.proxy}, camera, before, intent().probe);
+  return dragged_along({*levels.field, *level, readout_.proxy}, camera, before, intent().probe);
 }
 
 void ProbeHand::engage(bool elsewhere) noexcept {

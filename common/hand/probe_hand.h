@@ -23,8 +23,8 @@ namespace palpate {
 class HandPlanes {
  public:
   /// From now on those of the chain that is felt; null: it has none.
-  void follow(std::shared_ptr<WidgetNewsBuffer> told) {
-    reported_ = std::move(told);
+  void follow(std::shared_ptr<WidgetNewsBuffer> reported) {
+    reported_ = std::move(reported);
     news_.reset();
   }
   /// Takes what the servo has told since. What is told of an edit before `edit` says nothing.

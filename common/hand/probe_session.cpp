@@ -108,21 +108,21 @@ void ProbeSession::close_field() {
 
 void ProbeSession::restart_chain() {
   ChainSettings settings = chain_settings();
-  std::string felt = mode();
+  std::string chain_spec = mode();
   if (const auto& dial = hand_.dial()) {
     // A hand that holds a dial is not let go by a stretch.
     constexpr double kAnywhere = 10.0;  // [m]
     settings.shape.snap_distance = settings.shape.release_distance = kAnywhere;
     settings.texture.by_noise = false;
     const Workspace workspace = data_.workspace();
-    felt = text_of({.kind = dial->kind,
-                    .start = workspace.workspace_from_data(dial->start),
-                    .end = workspace.workspace_from_data(dial->end),
-                    .normal = dial->normal,
-                    .detents = dial->detents});
+    chain_spec = text_of({.kind = dial->kind,
+                          .start = workspace.workspace_from_data(dial->start),
+                          .end = workspace.workspace_from_data(dial->end),
+                          .normal = dial->normal,
+                          .detents = dial->detents});
   }
   const std::string description =
-      describe_chain(felt, data_.workspace().scale(), settings, data_.field().name);
+      describe_chain(chain_spec, data_.workspace().scale(), settings, data_.field().name);
   HapticChain made = data_.build(description, options_.modes);
   follow_chain(made);
   textured_ = chain_settings().texture.by_noise;

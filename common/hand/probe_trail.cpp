@@ -48,7 +48,7 @@ void ProbeTrail::follow(const HapticChain& made) {
     curve_.reset();
   }
   follows_surface_ = made.surfaces_of != nullptr;
-  felt_.clear();
+  haptic_forces_.clear();
 }
 
 void ProbeTrail::clear_path() {
@@ -75,7 +75,7 @@ void ProbeTrail::take(const HandStep& step, bool on_dial, StrokeUse stroke) {
     other_line_ = true;
   }
   if (on_line && other_line_) {
-    felt_.clear();
+    haptic_forces_.clear();
     other_line_ = false;
     // A line is popped over to when the next one holds; a surface is behind when it lets go.
     if (held_before_ && data_.has_flow() && !follows_surface_) ++readout_.popped;
@@ -115,10 +115,10 @@ void ProbeTrail::draw_path(const HandStep& step, bool on_line, StrokeUse stroke)
   if (!drawing_ || !drawing_->joining()) path_->append(on_line ? proxy : Vec3{kNotThere}, force);
   if (!on_line) return;
   const double spacing = kPathSpacing * data_.field().diagonal();
-  if (felt_.empty() || glm::distance(felt_.back().position, proxy) > spacing) {
-    if (felt_.size() < kMostHaptic) felt_.push_back({proxy, force});
+  if (haptic_forces_.empty() || glm::distance(haptic_forces_.back().position, proxy) > spacing) {
+    if (haptic_forces_.size() < kMostHaptic) haptic_forces_.push_back({proxy, force});
   } else {
-    felt_.back().force = force;
+    haptic_forces_.back().force = force;
   }
 }
 
@@ -155,7 +155,7 @@ void ProbeTrail::note_line() {
   noted_.reset();
   if (drawing_ && readout_.held) drawing_->note();
   if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
-  noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), felt_)};
+  noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), haptic_forces_)};
 }
 
 void ProbeTrail::forget_note() {
@@ -170,7 +170,7 @@ ProbeTrail::Keeping ProbeTrail::keep_line() {
     return Keeping::kKept;
   }
   if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
-  return keep(curve_->line(), forces_along(curve_->line(), felt_));
+  return keep(curve_->line(), forces_along(curve_->line(), haptic_forces_));
 }
 
 ProbeTrail::Keeping ProbeTrail::keep_noted_line() {

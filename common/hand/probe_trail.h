@@ -92,9 +92,9 @@ class ProbeTrail {
   std::optional<FollowedCurve> curve_;
   bool follows_surface_ = false;
   std::shared_ptr<ProbePath> path_;
-  std::vector<HapticForce> felt_;  ///< since the line was caught
-  bool other_line_ = false;        ///< it was let go, or another one caught, since then
-  bool held_before_ = false;       ///< something has held this hand since it took the probe
+  std::vector<HapticForce> haptic_forces_;  ///< since the line was caught
+  bool other_line_ = false;                 ///< it was let go, or another one caught, since then
+  bool held_before_ = false;                ///< something has held this hand since it took the probe
   bool growing_ = false;
   std::optional<NotedLine> noted_;
   std::optional<TractDrawing> drawing_;  ///< where there are tensors

@@ -54,43 +54,43 @@ constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{{"uint
 
 }  // namespace
 
-RawLayout parse_raw_layout(const RawSpec& words) {
+RawLayout parse_raw_layout(const RawSpec& spec) {
   RawLayout layout;
-  if (words.size.empty() || words.type.empty())
+  if (spec.size.empty() || spec.type.empty())
     throw usage_error(
         "voxels without a header need --raw-size and --raw-type, such as 256x256x178 and uint16");
   std::array<int, 3> size{};
-  if (!parse_three(words.size, 'x', size) || *std::min_element(size.begin(), size.end()) < 1) {
-    throw usage_error("--raw-size " + words.size +
+  if (!parse_three(spec.size, 'x', size) || *std::min_element(size.begin(), size.end()) < 1) {
+    throw usage_error("--raw-size " + spec.size +
                       ": voxels along three axes are expected, such as 256x256x178");
   }
   layout.size = {size[0], size[1], size[2]};
-  const auto* const type = std::find_if(kTypes.begin(), kTypes.end(),
-                                        [&](const auto& known) { return known.first == words.type; });
+  const auto* const type =
+      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& known) { return known.first == spec.type; });
   if (type == kTypes.end()) {
     throw usage_error(
-        "--raw-type " + words.type +
+        "--raw-type " + spec.type +
         ": known are uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64");
   }
   layout.type = type->second;
-  if (!words.endian.empty() && words.endian != "little" && words.endian != "big")
-    throw usage_error("--raw-endian " + words.endian + ": little or big is expected");
-  layout.big_endian = words.endian == "big";
-  if (!words.spacing.empty()) {
+  if (!spec.endian.empty() && spec.endian != "little" && spec.endian != "big")
+    throw usage_error("--raw-endian " + spec.endian + ": little or big is expected");
+  layout.big_endian = spec.endian == "big";
+  if (!spec.spacing.empty()) {
     constexpr const char* kExpected = "three steps above zero are expected, such as 0.5,0.5,1";
-    layout.spacing = parse_vector(words.spacing, "--raw-spacing", kExpected);
+    layout.spacing = parse_vector(spec.spacing, "--raw-spacing", kExpected);
     if (!(std::min({layout.spacing.x, layout.spacing.y, layout.spacing.z}) > 0.0))
-      throw usage_error("--raw-spacing " + words.spacing + ": " + kExpected);
+      throw usage_error("--raw-spacing " + spec.spacing + ": " + kExpected);
   }
-  if (!words.origin.empty()) {
+  if (!spec.origin.empty()) {
     layout.origin =
-        parse_vector(words.origin, "--raw-origin", "the place of the first voxel is expected, such as 0,0,0");
+        parse_vector(spec.origin, "--raw-origin", "the place of the first voxel is expected, such as 0,0,0");
   }
   constexpr std::uint64_t kMostSkipped = std::uint64_t{1} << 46;
-  if (!words.skip.empty()) {
-    const auto skip = parsed<std::uint64_t>(words.skip);
+  if (!spec.skip.empty()) {
+    const auto skip = parsed<std::uint64_t>(spec.skip);
     if (!skip || *skip > kMostSkipped)
-      throw usage_error("--raw-skip " + words.skip + ": a count of bytes is expected");
+      throw usage_error("--raw-skip " + spec.skip + ": a count of bytes is expected");
     layout.skip = *skip;
   }
   return layout;

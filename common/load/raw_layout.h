@@ -34,7 +34,7 @@ struct RawSpec {
 };
 
 /// @throws Error (usage) that names the word as an option of the command line (`--raw-size`).
-[[nodiscard]] RawLayout parse_raw_layout(const RawSpec& words);
+[[nodiscard]] RawLayout parse_raw_layout(const RawSpec& spec);
 
 /// Bytes of the voxels; 2^64 - 1 where they would be more than any file has.
 [[nodiscard]] std::uint64_t byte_count(const RawLayout& layout) noexcept;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kWorthKeeping = 0.5;      // [s]
 constexpr std::size_t kDigestDigits = 64;  // hexadecimal
-static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "numbers are cached as they lie in memory");
 
 }  // namespace
 
@@ -78,7 +78,7 @@ bool CachedFile::wants(double seconds) {
   std::error_code ignored;
   if (!file_.empty()) std::filesystem::create_directories(file_.parent_path(), ignored);
   if (!file_.empty() && may_cache_beside(file_)) return true;
-  notes_.push_back(std::string(kind_.what) + " not kept for the next opening: " +
+  notes_.push_back(std::string(kind_.what) + " not cached for the next opening: " +
                    (file_.empty() ? "the user has no folder for it"
                                   : "the folder of " + file_.string() + " is read-only"));
   return false;
@@ -96,10 +96,10 @@ void CachedFile::keep(const std::string& key, std::string_view body) {
     OutputFile out(file_, true);
     out.write(text);
     out.finish();
-    notes_.push_back(std::string(kind_.what) + " kept in " + file_.string() + " for the next opening (" +
+    notes_.push_back(std::string(kind_.what) + " cached in " + file_.string() + " for the next opening (" +
                      bytes_text(text.size()) + ")");
   } catch (const Error& error) {
-    notes_.push_back(std::string(kind_.what) + " not kept for the next opening: " + error.what());
+    notes_.push_back(std::string(kind_.what) + " not cached for the next opening: " + error.what());
   }
 }
 

@@ -228,7 +228,7 @@ void Input::part_fields() {
 
 void Input::open_files(Progress* progress) {
   LoadRequest request = spec_;
-  request.raw = raw_layout_of(spec_.files.front(), spec_.raw_words, raw_note_);
+  request.raw = raw_layout_of(spec_.files.front(), spec_.raw_spec, raw_note_);
   request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
   if (spec_.kind == FieldKind::kTensor) {
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};

@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kLargestSidecar = std::size_t{64} << 10;
 
 /// The option behind a usage error's words is a key of the sidecar.
-RawLayout parse_sidecar(const RawSpec& words, const std::string& sidecar) {
+RawLayout parse_sidecar(const RawSpec& spec, const std::string& sidecar) {
   try {
-    return parse_raw_layout(words);
+    return parse_raw_layout(spec);
   } catch (const Error& error) {
     throw input_error({sidecar, "[raw]", error.what()});
   }
@@ -36,17 +36,17 @@ RawSpec read_sidecar(const std::string& sidecar) {
   const toml::table* raw = parsed["raw"].as_table();
   if (raw == nullptr)
     throw input_error({sidecar, "", "has no table [raw]", "size, type and so on there", ""});
-  RawSpec words;
+  RawSpec spec;
   for (const auto& [key, value] : *raw) {
     const std::string_view name = key.str();
     const auto text = value.value<std::string>();
     const auto count = value.value_exact<std::int64_t>();
-    std::string* const word = name == "size"      ? &words.size
-                              : name == "type"    ? &words.type
-                              : name == "endian"  ? &words.endian
-                              : name == "spacing" ? &words.spacing
-                              : name == "origin"  ? &words.origin
-                              : name == "skip"    ? &words.skip
+    std::string* const word = name == "size"      ? &spec.size
+                              : name == "type"    ? &spec.type
+                              : name == "endian"  ? &spec.endian
+                              : name == "spacing" ? &spec.spacing
+                              : name == "origin"  ? &spec.origin
+                              : name == "skip"    ? &spec.skip
                                                   : nullptr;
     if (word == nullptr || (!text && !count)) {
       throw input_error({sidecar, "[raw]", "'" + std::string(name) + "' is not known, or is no text",
@@ -54,7 +54,7 @@ RawSpec read_sidecar(const std::string& sidecar) {
     }
     *word = text ? *text : std::to_string(*count);
   }
-  return words;
+  return spec;
 }
 
 }  // namespace
@@ -68,18 +68,18 @@ std::optional<RawLayout> raw_layout_of(const std::filesystem::path& file, const 
     note = "layout of the voxels from " + sidecar;
     return parse_sidecar(read_sidecar(sidecar), sidecar);
   }
-  const RawSpec words = raw_spec_of_name(file.filename().string());
+  const RawSpec spec = raw_spec_of_name(file.filename().string());
   const auto bytes = std::filesystem::file_size(file, ignored);
-  if (words.empty() || ignored) return std::nullopt;
+  if (spec.empty() || ignored) return std::nullopt;
   const RawLayout layout = [&] {
     try {
-      return parse_raw_layout(words);
+      return parse_raw_layout(spec);
     } catch (const Error&) {
       return RawLayout{};  // "tour_1x2x3_map.raw" is just a name
     }
   }();
   if (layout.size.x < 1 || byte_count(layout) != bytes) return std::nullopt;
-  note = "layout of the voxels from the file's name: " + words.size + " of " + words.type + ", little endian";
+  note = "layout of the voxels from the file's name: " + spec.size + " of " + spec.type + ", little endian";
   return layout;
 }
 

@@ -64,7 +64,7 @@ Vec3 LinkedDevice::newest() noexcept {
 void LinkedDevice::work(const std::stop_token& stop) {
   ForceEnd::leave_signals_to_others();
   request_real_time_priority(kLinkPriority);
-  LinkPhase told = LinkPhase::kAbsent;
+  LinkPhase reported = LinkPhase::kAbsent;
   double reported_at = 0.0;
   const double begun = now_seconds();
   while (!stop.stop_requested()) {
@@ -79,10 +79,10 @@ void LinkedDevice::work(const std::stop_token& stop) {
     // For people: when something has changed, and now and then. Whoever looks at it is not waited for.
     constexpr double kPause = 0.1;  // [s]
     const LinkStatus& status = link_->status();
-    if (status.phase == told && now - reported_at < kPause) continue;
+    if (status.phase == reported && now - reported_at < kPause) continue;
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) continue;
-    told = status.phase;
+    reported = status.phase;
     reported_at = now;
     status_ = status;
     // Words allocate. While there is force the device is well, and what was said before holds.

@@ -66,12 +66,12 @@ bool PlacedDevice::steer(double now, const DeviceAtoms& atoms, DeviceSample& sam
 }
 
 void PlacedDevice::command(const Vec3& force) noexcept {
-  Vec3 felt = force * placement_.axes;  // row vector times R is R^T times column
+  Vec3 in_hand = force * placement_.axes;  // row vector times R is R^T times column
   if (placement_.surface) {
     const Vec3 n{*placement_.surface};
-    felt -= glm::dot(n, felt) * n;
+    in_hand -= glm::dot(n, in_hand) * n;
   }
-  device_.command(felt / std::max(1.0, placement_.scale));  // (2)
+  device_.command(in_hand / std::max(1.0, placement_.scale));  // (2)
 }
 
 }  // namespace palpate

@@ -9,7 +9,7 @@
 #include "common/haptics/constraint/half_space.h"
 #include "common/haptics/constraint/shape.h"
 #include "common/haptics/constraint/streamline.h"
-#include "common/study/study_look.h"
+#include "common/study/study_appearance.h"
 
 namespace palpate {
 namespace {
@@ -218,17 +218,17 @@ double PathTrial::error() const {
 SceneView PathTrial::view(const Vec3* cursor, double aspect) const {
   SceneView view = study_view(stimulus_->bounds, stimulus_->view, stimulus_->flat, aspect);
   view.lines = stimulus_->lines;
-  StudyLook look(view);
+  StudyAppearance appearance(view);
   const Vec3 end = stimulus_->path.back();
-  if (stimulus_->goal == PathGoal::kCircle) look.circle(start(), glm::distance(start(), end));
-  if (stimulus_->goal == PathGoal::kPlane) look.ground(stimulus_->bounds, end.z);
-  if (stimulus_->shown) look.ribbon(stimulus_->path, StudyLook::kRed, false);
-  look.disc(start(), StudyLook::kBlue);
+  if (stimulus_->goal == PathGoal::kCircle) appearance.circle(start(), glm::distance(start(), end));
+  if (stimulus_->goal == PathGoal::kPlane) appearance.ground(stimulus_->bounds, end.z);
+  if (stimulus_->shown) appearance.ribbon(stimulus_->path, StudyAppearance::kRed, false);
+  appearance.disc(start(), StudyAppearance::kBlue);
   if (cursor == nullptr) return view;
   const Vec3 x = seen(*cursor);
   if (!stimulus_->shown)
-    look.ribbon(indicator_from(*stimulus_->field, x, kIndicator), StudyLook::kDark, true);
-  look.crosshair(x);
+    appearance.ribbon(indicator_from(*stimulus_->field, x, kIndicator), StudyAppearance::kDark, true);
+  appearance.crosshair(x);
   return view;
 }
 

@@ -273,7 +273,7 @@ void StudyFolder::write(const TrialRecord& record, const std::string& recording,
   const std::string start = stem(record.participant, record.task, record.run).string();
   if (!std::isfinite(record.outcome.seconds) || !std::isfinite(record.outcome.error) || steps.empty())
     throw work_error(start +
-                     "beh.json: the trial has no steps, or its time or error is no number; it is not kept");
+                     "beh.json: the trial has no steps, or its time or error is no number; it is not saved");
   write_safely(start + kRecordingFile, packed(recording));
   write_safely(start + kMotionFile, packed(motion_table(steps)));
   const TrialOutcome& o = record.outcome;

@@ -60,13 +60,13 @@ TrialFlaws flaws_of(const std::vector<HandStep>& steps, std::uint64_t lost) noex
   return flaws;
 }
 
-std::string chain_text(const ChainWords& words) {
-  return "trial " + words.task + " " + std::to_string(words.stimulus) + " " +
-         std::string(condition_name(words.guided)) + " " + exact_number(words.guidance) + " " +
-         exact_number(words.most_stiffness);
+std::string chain_text(const ChainSpec& spec) {
+  return "trial " + spec.task + " " + std::to_string(spec.stimulus) + " " +
+         std::string(condition_name(spec.guided)) + " " + exact_number(spec.guidance) + " " +
+         exact_number(spec.most_stiffness);
 }
 
-ChainWords chain_words(const std::string& text) {
+ChainSpec chain_spec(const std::string& text) {
   const std::vector<std::string_view> parts = words(text);
   if (parts.size() == 6 && parts[0] == "trial") {
     const auto stimulus = parsed<int>(parts[2]);
@@ -88,22 +88,22 @@ std::unique_ptr<ProxyChain> chain_of(const StudyTrial& trial, const std::string&
   if (parts.size() == 2 && parts[0] == "start") {
     if (const auto most = number(parts[1]); most && *most >= 0.0) return start_chain(trial.start(), *most);
   }
-  const ChainWords words = chain_words(text);
-  return bounded(trial.chain(words.guided, words.guidance), words.most_stiffness);
+  const ChainSpec spec = chain_spec(text);
+  return bounded(trial.chain(spec.guided, spec.guidance), spec.most_stiffness);
 }
 
-TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
+TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainSpec& spec,
                         const ParticipantTraits& traits, const RandomStream& random,
                         const RecordingHeader* header) {
   const Vec3 start = trial.start();
   const DeviceProfile profile = find_profile("premium3");
   SimulatedArm arm(profile, traits.hand, 0.0, start);
-  HandStepper stepper(chain_of(trial, start_text(words.most_stiffness)),
+  HandStepper stepper(chain_of(trial, start_text(spec.most_stiffness)),
                       header != nullptr ? header->limits : DeviceLimits{});
   ParticipantModel model(traits, trial.view_axes(), info.flat, start, random);
   RecordingText text;
   if (header != nullptr) text.header(*header);
-  text.chain(0, start_text(words.most_stiffness));
+  text.chain(0, start_text(spec.most_stiffness));
   TrialRun run;
   constexpr std::uint64_t kSettle = 300;  // steps that the hand rests at the start
   const std::uint64_t most =
@@ -112,8 +112,8 @@ TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const Chai
   for (std::uint64_t n = 0; n < most; ++n) {
     const double time = ParticipantModel::kStep * static_cast<double>(n);
     if (n == kSettle) {
-      (void)stepper.exchange_chain(chain_of(trial, chain_text(words)));
-      text.chain(n, chain_text(words));
+      (void)stepper.exchange_chain(chain_of(trial, chain_text(spec)));
+      text.chain(n, chain_text(spec));
       text.event(n, 0, kBeginEvent);
       run.outcome.begin = n;
     }
@@ -157,7 +157,7 @@ TrialReplay replay_trial(StudyTrial& trial, Recording recording) {
   }
   if (!ended) throw input_error({"recording", "", "no end of the trial", "", "the trial was not completed"});
   ReplaySource source(std::move(recording), [&](const std::string& text) {
-    if (text.starts_with("trial ")) out.words = chain_words(text);
+    if (text.starts_with("trial ")) out.spec = chain_spec(text);
     return chain_of(trial, text);
   });
   trial.begin();

@@ -46,18 +46,18 @@ struct TrialRun {
 };
 
 /// Which trial a chain belongs to, as recordings have it: "trial advection2d 7 ANISO 1 inf".
-struct ChainWords {
+struct ChainSpec {
   std::string task;
   int stimulus = 0;
   bool guided = false;
   double guidance = 1.0;
   double most_stiffness = HUGE_VAL;  ///< [N/m] which the device bears: no chain is stiffer
 
-  bool operator==(const ChainWords&) const = default;
+  bool operator==(const ChainSpec&) const = default;
 };
-[[nodiscard]] std::string chain_text(const ChainWords& words);
+[[nodiscard]] std::string chain_text(const ChainSpec& spec);
 /// @throws Error (bad input) for words that say no chain.
-[[nodiscard]] ChainWords chain_words(const std::string& text);
+[[nodiscard]] ChainSpec chain_spec(const std::string& text);
 
 /// The chain that pulls the hand to the start of a trial before it begins, as recordings have it: "start inf".
 [[nodiscard]] std::string start_text(double most_stiffness);
@@ -66,14 +66,14 @@ struct ChainWords {
 
 /// Runs the trial on a simulated arm of the reference's class, a step a millisecond.
 /// @param header of the recording; null: none is made.
-[[nodiscard]] TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainWords& words,
+[[nodiscard]] TrialRun simulate_trial(StudyTrial& trial, const StudyTaskInfo& info, const ChainSpec& spec,
                                       const ParticipantTraits& traits, const RandomStream& random,
                                       const RecordingHeader* header);
 
 /// Plays a recording of this trial back. @throws Error (bad input) where it has no trial, or none to its end.
 struct TrialReplay {
   TrialOutcome outcome;
-  ChainWords words;        ///< of the chain in use during the trial
+  ChainSpec spec;          ///< of the chain in use during the trial
   std::string verdict;     ///< verdict_text()
   bool identical = false;  ///< all proxies and forces, as far as recorded
 };

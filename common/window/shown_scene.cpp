@@ -48,9 +48,9 @@ void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
     }
     const bool gone = field_before > 0 && lens.field == 0;
     if (lens.own_transfer && !gone) continue;
-    const Lens look = scene.look(lens.field);
-    lens.transfer = look.transfer;
-    lens.regions = look.regions;
+    const Lens appearance = scene.appearance(lens.field);
+    lens.transfer = appearance.transfer;
+    lens.regions = appearance.regions;
     lens.own_transfer = false;
   }
 }

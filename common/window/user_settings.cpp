@@ -65,10 +65,10 @@ void write_table(const std::filesystem::path& path, const toml::table& table) {
 }
 
 toml::table settings_table(const UserSettings& settings) {
-  toml::table look;
-  for (const auto& [name, text] : settings.look) look.insert_or_assign(name, text);
+  toml::table appearance;
+  for (const auto& [name, text] : settings.appearance) appearance.insert_or_assign(name, text);
   return toml::table{{"window", toml::table{{"width", settings.width}, {"height", settings.height}}},
-                     {"look", std::move(look)}};
+                     {"appearance", std::move(appearance)}};
 }
 
 toml::table recent_table(const UserSettings& settings) {
@@ -136,9 +136,9 @@ UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>
   const toml::table table = read_table(files.settings, notes);
   read_edge(table["window"]["width"], settings.width);
   read_edge(table["window"]["height"], settings.height);
-  if (const toml::table* look = table["look"].as_table()) {
-    for (const auto& [name, value] : *look) {
-      if (const auto text = value.value<std::string>()) settings.look.emplace_back(name.str(), *text);
+  if (const toml::table* appearance = table["appearance"].as_table()) {
+    for (const auto& [name, value] : *appearance) {
+      if (const auto text = value.value<std::string>()) settings.appearance.emplace_back(name.str(), *text);
     }
   }
 
@@ -152,8 +152,8 @@ UserSettings load_user_settings(const UserFiles& files, std::vector<std::string>
 }
 
 void save_user_settings(const UserFiles& files, const UserSettings& settings, const UserSettings& before) {
-  const bool same_settings =
-      settings.width == before.width && settings.height == before.height && settings.look == before.look;
+  const bool same_settings = settings.width == before.width && settings.height == before.height &&
+                             settings.appearance == before.appearance;
   if (!same_settings) write_table(files.settings, settings_table(settings));
   if (settings.recent != before.recent) write_table(files.recent, recent_table(settings));
 }

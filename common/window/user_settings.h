@@ -33,7 +33,7 @@ struct UserSettings {
   static constexpr std::size_t kMostRecent = 10;
 
   int width = 1440, height = 900;  ///< [screen coordinates]
-  Preferences look;
+  Preferences appearance;
   std::vector<InputFiles> recent;  ///< newest first, each once
 
   bool operator==(const UserSettings&) const = default;

@@ -10,17 +10,19 @@ WindowResult run_user_window(WindowModel& model, WindowOptions options, const Do
                              const std::function<void(const std::string&)>& note) {
   const auto files = user_files(options.program);
   if (!files) return run_window(model, options);
-  std::vector<std::string> told;  // by prefer()
-  const UserSettings before = load_user_settings(*files, told);
+  std::vector<std::string> reported;  // by prefer()
+  const UserSettings before = load_user_settings(*files, reported);
   options.width = before.width;
   options.height = before.height;
   options.recent = before.recent;
   options.thumbnails = files->thumbnails;
   options.touch.fault_folder = files->recent.parent_path();
   WindowResult result = run_window(model, options);
-  UserSettings after{
-      .width = result.width, .height = result.height, .look = before.look, .recent = result.recent};
-  if (result.shown) note_preferences(given, result.document, after.look);
+  UserSettings after{.width = result.width,
+                     .height = result.height,
+                     .appearance = before.appearance,
+                     .recent = result.recent};
+  if (result.shown) note_preferences(given, result.document, after.appearance);
   try {
     save_user_settings(*files, after, before);
   } catch (const Error& error) {
@@ -34,7 +36,7 @@ void prefer(const std::string& program, Document& document,
   const auto files = user_files(program);
   if (!files) return;
   std::vector<std::string> notes;
-  take_preferences(load_user_settings(*files, notes).look, document);
+  take_preferences(load_user_settings(*files, notes).appearance, document);
   for (const std::string& line : notes) note(line);
 }
 

@@ -259,7 +259,7 @@ void ExplorerWindow::run_command(Command command) {
       break;
     case Command::kLayout:
       if (!scene_ || !view_.volume || !scene_->is_volume_alone()) {
-        state_.say("S shows slices beside a volume: there is none, or something else is shown in it");
+        state_.say("S shows slices next to a volume: there is none, or something else is shown in it");
       } else {
         next_layout(*view_.volume, state_.histogram.of(view_.volume->image));
       }

@@ -264,7 +264,7 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   VolumeView kept = given;
   kept.cache_picture = true;
   const auto pixel_count = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels);
-  measure("kept while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
+  measure("cached while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
 
   // Against the converged picture of the last place.
   std::vector<VolumeView> places = moved_planes(given, camera);
@@ -278,7 +278,7 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
     }
     for (const VolumeView& view : places) times.push_back(picture.draw_alone(view, camera));
     const FloatImage image = picture.draw(places.back(), camera);
-    quality.rows.push_back({slabs ? "plane moves, slabs kept" : "plane moves, no slabs kept",
+    quality.rows.push_back({slabs ? "plane moves, slabs cached" : "plane moves, no slabs cached",
                             given.samples_per_voxel, rms_difference(image, cut), worst_difference(image, cut),
                             median(times)});
   }

@@ -48,7 +48,7 @@ ReportSection error_section(const VolumeQuality& quality) {
         "that shows the same as the rest, a fifth of the diagonal in radius.");
   }
   section.paragraphs.push_back(
-      "A plane that moves cuts the volume across, about its middle; with its slabs kept, what lies behind it "
+      "A plane that moves cuts the volume across, about its middle; with its slabs cached, what lies behind it "
       "is not cast again.");
   section.plots.push_back(plot_of(quality));
   section.csv = {"volume_error.csv", csv_of(quality.rows)};

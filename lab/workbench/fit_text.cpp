@@ -43,7 +43,7 @@ std::string fit_text(const FitReport& report) {
       out += "  " + padded(p.name, 12) + padded(short_number(p.value), 14) + "+- " +
              three_digits(p.deviation) + " " + p.unit + "\n";
   }
-  for (const std::string& weak : report.weak) out += "  hardly told apart: " + weak + "\n";
+  for (const std::string& weak : report.weak) out += "  hardly distinguished: " + weak + "\n";
   for (const std::string& advice : report.advice) out += "  next: " + advice + "\n";
   constexpr std::size_t kMostRowsNamed = 10;
   if (!report.outliers.empty()) {

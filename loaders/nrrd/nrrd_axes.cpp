@@ -61,7 +61,7 @@ double first_of(const NrrdAxisInfo& axis, double spacing) {
 
 /// Where more than three axes without directions may be of space: those of which three are so by what else the header
 /// says. None where nothing tells them apart.
-std::vector<unsigned> told_apart(const Nrrd& nrrd, const std::vector<unsigned>& axes) {
+std::vector<unsigned> distinguishable(const Nrrd& nrrd, const std::vector<unsigned>& axes) {
   const auto those = [&](auto&& good) {
     std::vector<unsigned> some;
     std::copy_if(axes.begin(), axes.end(), std::back_inserter(some),
@@ -106,7 +106,7 @@ NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string&
     }
   }
   if (!directed && spatial.size() > 3) {
-    const std::vector<unsigned> space = told_apart(nrrd, spatial);
+    const std::vector<unsigned> space = distinguishable(nrrd, spatial);
     if (space.empty()) {
       throw input_error({file, "", "has " + std::to_string(spatial.size()) + " axes that may be of space",
                          "three that kinds, space directions or spacings tell from the others",

@@ -422,7 +422,7 @@ LegacyScan scan_legacy(std::string_view text) {
   scan.not_finite = walk.not_finite();
   if (scan.problem.empty() && walk.ambiguous() && !scan.not_finite.empty())
     scan.problem =
-        "holds NaN or infinity together with 1.2764e37, 1.2874e37 or 1.2984e37: these are not told apart";
+        "holds NaN or infinity together with 1.2764e37, 1.2874e37 or 1.2984e37: these cannot be distinguished";
   return scan;
 }
 

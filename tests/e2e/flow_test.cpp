@@ -376,7 +376,7 @@ TEST_F(Flow, StopsWithinASecondOfCtrlC) {
   const ProgramResult result = program.finish(30.0);
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_LT(result.seconds - before, 1.5);  // a second, and slack for a busy machine
-  EXPECT_NE(result.err.find("nothing was kept"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nothing was saved"), std::string::npos) << result.err;
   EXPECT_TRUE(files().empty());
 }
 
@@ -395,7 +395,7 @@ TEST_F(Flow, StopsAReportWithinASecondOfCtrlCAndLeavesNothing) {
   const ProgramResult result = program.finish(30.0);
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_LT(result.seconds - before, 1.5);  // a second, and slack for a busy machine
-  EXPECT_NE(result.err.find("nothing was kept"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("nothing was saved"), std::string::npos) << result.err;
   EXPECT_EQ(files(), std::vector<std::string>{"r"});
   EXPECT_EQ(read_file(folder_.path("r/index.html")), page);
 }

@@ -161,7 +161,7 @@ TEST(VectorFrames, AreMendedByTheAdvice) {
           EXPECT_FALSE(made.orientation.suspicious) << made.orientation.advice;
           continue;
         }
-        ASSERT_TRUE(made.orientation.suspicious) << asked << ' ' << turn.words();
+        ASSERT_TRUE(made.orientation.suspicious) << asked << ' ' << turn.text();
         const TensorImage mended =
             read_image(folder.path("x_V1.nii"), following(made.orientation.advice, words));
         EXPECT_LT(helix.degrees_off(mended), 0.01) << asked << ": " << made.orientation.advice;

@@ -12,7 +12,7 @@
 #include "common/render/camera.h"
 #include "common/study/path_trial.h"
 #include "common/study/random_stream.h"
-#include "common/study/study_look.h"
+#include "common/study/study_appearance.h"
 
 namespace palpate {
 namespace {
@@ -89,15 +89,16 @@ class PlaneTrial final : public StudyTrial {
   [[nodiscard]] SceneView view(const Vec3* cursor, double aspect) const override {
     SceneView view = study_view({Vec3{0.0}, Vec3{kSide}}, stimulus_.view, false, aspect);
     view.show_outline = true;
-    StudyLook look(view);
-    look.disc(stimulus_.start, StudyLook::kBlue);
+    StudyAppearance appearance(view);
+    appearance.disc(stimulus_.start, StudyAppearance::kBlue);
     for (std::size_t i = 0; i < stimulus_.points.size(); ++i)
-      look.disc(stimulus_.points[i], i == marks_.size() ? StudyLook::kRed : StudyLook::kDark);
-    for (const Vec3& x : marks_) look.disc(x, StudyLook::kWhite);
+      appearance.disc(stimulus_.points[i],
+                      i == marks_.size() ? StudyAppearance::kRed : StudyAppearance::kDark);
+    for (const Vec3& x : marks_) appearance.disc(x, StudyAppearance::kWhite);
     std::vector<Vec3> edges = marks_;
     if (reached()) edges.push_back(marks_.front());
-    look.ribbon(edges, StudyLook::kWhite, false);
-    if (cursor != nullptr) look.crosshair(*cursor);
+    appearance.ribbon(edges, StudyAppearance::kWhite, false);
+    if (cursor != nullptr) appearance.crosshair(*cursor);
     return view;
   }
 

@@ -139,7 +139,7 @@ std::string tract_fit_json(const TractFitSummary& summary) {
                   {"inside", fit.inside},
                   {"angle", fit.angle},
                   {"score", fit.score},
-                  {"best_turn", fit.best.words()},
+                  {"best_turn", fit.best.text()},
                   {"turn_gain", std::isfinite(fit.gain) ? Json(fit.gain) : Json(nullptr)},
                   {"suspicious", fit.suspicious},
                   {"notes", summary.notes},

@@ -63,7 +63,7 @@ double CoincidentPoints::jump(std::uint32_t a, std::uint32_t b) const {
 }
 
 PointsAgree CoincidentPoints::agree() const {
-  if (!told_apart()) return {};
+  if (!distinguishable()) return {};
   return [this](std::uint32_t a, std::uint32_t b) {
     const double step = jump(a, b);
     if (step == 0.0 || !std::isfinite(step)) return step == 0.0;
@@ -99,7 +99,7 @@ void CoincidentPoints::find(const TetMesh& mesh, std::span<const std::uint32_t> 
     if (!(spacing[p] > 0.0) || input_of_[p] == kNoPoint) continue;
     const auto block = static_cast<std::uint32_t>(block_of(input_of_[p]));
     candidates_.push_back({static_cast<std::uint32_t>(p), spacing[p], block, true});
-    if (!told_apart()) continue;
+    if (!distinguishable()) continue;
     const double size = glm::length(value(input_of_[p]));
     if (std::isfinite(size)) largest_ = std::max(largest_, size);
   }
@@ -113,14 +113,14 @@ std::vector<std::uint32_t> CoincidentPoints::first_of(const TetMesh& mesh,
   const auto at_wall = [&](std::size_t p) { return !apart.empty() && apart[p] != 0; };
   for (MergeCandidate& p : candidates_) p.within_block = !at_wall(p.point);
   std::vector<std::uint32_t> joined = place_;
-  if (told_apart()) {
+  if (distinguishable()) {
     for (std::size_t p = 0; p < points.size(); ++p) {
       if (place_[p] == p || at_wall(p)) continue;
       const double size = jump(input_of_[p], input_of_[place_[p]]);
       if (size > widest_ && std::isfinite(size)) widest_ = size;
     }
   }
-  if (told_apart() || !apart.empty()) {
+  if (distinguishable() || !apart.empty()) {
     const PointsAgree alike = agree();
     const PointsAgree points_agree = [&](std::uint32_t a, std::uint32_t b) {
       return !alike || alike(input_of_[a], input_of_[b]);

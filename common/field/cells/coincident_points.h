@@ -74,7 +74,7 @@ class CoincidentPoints {
 
  private:
   [[nodiscard]] std::size_t block_of(std::uint32_t input) const;
-  [[nodiscard]] bool told_apart() const noexcept { return static_cast<bool>(value_); }
+  [[nodiscard]] bool distinguishable() const noexcept { return static_cast<bool>(value_); }
   [[nodiscard]] double jump(std::uint32_t a, std::uint32_t b) const;
 
   std::span<const DataSet> blocks_;

@@ -332,7 +332,7 @@ void ThinWalls::note(FieldNotes& notes) const {
   }
   if (own_points_ > 0) {
     notes.lines.emplace_back(
-        "cells with points of their own: a thin wall (baffle) among them could not be told from their other faces");
+        "cells with points of their own: a thin wall (baffle) among them could not be distinguished from their other faces");
   }
 }
 

@@ -40,7 +40,7 @@ Mat3 AxisTurn::matrix() const noexcept {
 
 bool AxisTurn::is_identity() const noexcept { return matrix() == Mat3{1.0}; }
 
-std::string AxisTurn::words() const {
+std::string AxisTurn::text() const {
   std::string permute, flip;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     permute += kAxisNames[from[axis]];
@@ -294,7 +294,7 @@ std::vector<Orientation> answers_to(VectorFrame taken) {
 /// "--vectors scanner --flip k"; the frame is left out where it is the one that was taken.
 std::string words_of(const Orientation& answer, VectorFrame taken) {
   std::string text = answer.frame == taken ? "" : "--vectors " + std::string(name_of(answer.frame));
-  const std::string turned = answer.turn.words();
+  const std::string turned = answer.turn.text();
   if (!text.empty() && !turned.empty()) text += ' ';
   return text + turned;
 }

@@ -37,7 +37,7 @@ struct AxisTurn {
   [[nodiscard]] Mat3 matrix() const noexcept;
   [[nodiscard]] bool is_identity() const noexcept;
   /// As options: "--permute jik --flip k"; empty for the identity.
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] std::string text() const;
 };
 
 /// The 24 turns that differ for directions without sign: six permutations, each with no or one flip. The

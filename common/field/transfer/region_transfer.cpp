@@ -185,10 +185,10 @@ std::string parse_region(std::string_view row, TransferRegion& region) {
   }
   for (std::size_t i = 0; i < region.corner_count(); ++i)
     region.corners[i] = {numbers[2 * i], numbers[2 * i + 1]};
-  const double* look = numbers.data() + places;
-  region.color = {look[0], look[1], look[2]};
-  region.opacity = look[3];
-  region.soft = look[4];
+  const double* appearance = numbers.data() + places;
+  region.color = {appearance[0], appearance[1], appearance[2]};
+  region.opacity = appearance[3];
+  region.soft = appearance[4];
   try {
     (void)RegionTransfer({region});
   } catch (const Error& error) {

@@ -45,7 +45,7 @@ DrawnLines::Entry entry_of(int number, DrawnTract line) {
 
 }  // namespace
 
-std::vector<double> forces_along(const Line& line, std::span<const HapticForce> felt) {
+std::vector<double> forces_along(const Line& line, std::span<const HapticForce> haptic) {
   std::vector<double> forces(line.points.size(), std::numeric_limits<double>::quiet_NaN());
   if (line.points.empty()) return forces;
   const auto distance = [&](std::size_t i, const Vec3& x) {
@@ -54,7 +54,7 @@ std::vector<double> forces_along(const Line& line, std::span<const HapticForce> 
   std::size_t at = 0;
   bool found = false;
   std::size_t before = 0;
-  for (const HapticForce& place : felt) {
+  for (const HapticForce& place : haptic) {
     if (!found) {
       for (std::size_t i = 1; i < line.points.size(); ++i) {
         if (distance(i, place.position) < distance(at, place.position)) at = i;

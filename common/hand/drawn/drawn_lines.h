@@ -23,7 +23,7 @@ struct HapticForce {
 
 /// The force felt last at each point of `line`; NaN at points that the hand did not pass. The places lie on
 /// the line, in the order of time.
-[[nodiscard]] std::vector<double> forces_along(const Line& line, std::span<const HapticForce> felt);
+[[nodiscard]] std::vector<double> forces_along(const Line& line, std::span<const HapticForce> haptic);
 
 class DrawnLines {
  public:

@@ -302,41 +302,41 @@ HapticChain make_plane_widget(const HapticScene& scene) {
   return made;
 }
 
-GridAxisSettings grid_settings(const GridSpec& words) {
+GridAxisSettings grid_settings(const GridSpec& spec) {
   GridAxisSettings settings;
-  check_read(read_text(words.frame, settings.frame), "--grid-frame");
-  check_read(read_text(words.marks, settings.marks), "--grid-marks");
-  settings.spacing = spacing_of(words.spacing);
+  check_read(read_text(spec.frame, settings.frame), "--grid-frame");
+  check_read(read_text(spec.marks, settings.marks), "--grid-marks");
+  settings.spacing = spacing_of(spec.spacing);
   bool known = false;
   for (int i = 0; i < kGridSwitchCount && !known; ++i) {
     settings.switch_at = static_cast<GridSwitch>(i);
-    known = words.switch_at == name_of(settings.switch_at);
+    known = spec.switch_at == name_of(settings.switch_at);
   }
-  if (!known) throw usage_error("--grid-switch: nodes or marks is expected, found '" + words.switch_at + "'");
-  settings.peaks = words.peaks;
-  if (words.peaks < 0 || words.peaks > GridAxisSettings::kMostPeaks) {
+  if (!known) throw usage_error("--grid-switch: nodes or marks is expected, found '" + spec.switch_at + "'");
+  settings.peaks = spec.peaks;
+  if (spec.peaks < 0 || spec.peaks > GridAxisSettings::kMostPeaks) {
     throw usage_error("--grid-peaks: a number from 0 to " + std::to_string(GridAxisSettings::kMostPeaks) +
                       " is expected");
   }
-  settings.threshold = millimetres(words.pull, "--grid-pull");
-  if (!std::isfinite(words.notch) || words.notch < 0.0)
+  settings.threshold = millimetres(spec.pull, "--grid-pull");
+  if (!std::isfinite(spec.notch) || spec.notch < 0.0)
     throw usage_error("--grid-notch: a distance of zero or more in mm is expected");
-  settings.notch = kMetresPerMillimetre * words.notch;
-  settings.detents = words.detents;
-  if (!(words.detents >= 0.0 && words.detents <= 1.0))
+  settings.notch = kMetresPerMillimetre * spec.notch;
+  settings.detents = spec.detents;
+  if (!(spec.detents >= 0.0 && spec.detents <= 1.0))
     throw usage_error("--grid-detents: a number from 0 to 1 is expected");
   return settings;
 }
 
-PlaneWidgetSettings plane_settings(const PlaneSpec& words) {
+PlaneWidgetSettings plane_settings(const PlaneSpec& spec) {
   PlaneWidgetSettings settings;
-  check_read(read_text(words.planes, settings.poses), "--planes");
+  check_read(read_text(spec.planes, settings.poses), "--planes");
   constexpr double kMostDetent = 90.0;
-  if (!(words.detent >= 0.0 && words.detent <= kMostDetent))
+  if (!(spec.detent >= 0.0 && spec.detent <= kMostDetent))
     throw usage_error("--detent: an angle from 0 to 90 degrees is expected");
-  settings.detent = words.detent;
-  settings.radius = millimetres(words.sphere, "--plane-sphere");
-  settings.reach = millimetres(words.reach, "--plane-reach");
+  settings.detent = spec.detent;
+  settings.radius = millimetres(spec.sphere, "--plane-sphere");
+  settings.reach = millimetres(spec.reach, "--plane-reach");
   return settings;
 }
 
@@ -360,15 +360,15 @@ PlaneSpec plane_text(const PlaneWidgetSettings& settings) {
 }
 
 std::vector<std::pair<std::string, std::string>> grid_options(const GridAxisSettings& settings) {
-  const GridSpec words = grid_text(settings);
-  std::vector<std::pair<std::string, std::string>> options{{"grid-frame", words.frame},
-                                                           {"grid-switch", words.switch_at},
-                                                           {"grid-peaks", std::to_string(words.peaks)},
-                                                           {"grid-pull", exact_number(words.pull)},
-                                                           {"grid-notch", exact_number(words.notch)},
-                                                           {"grid-detents", exact_number(words.detents)}};
-  if (!words.spacing.empty()) options.emplace_back("grid-spacing", words.spacing);
-  if (!words.marks.empty()) options.emplace_back("grid-marks", words.marks);
+  const GridSpec spec = grid_text(settings);
+  std::vector<std::pair<std::string, std::string>> options{{"grid-frame", spec.frame},
+                                                           {"grid-switch", spec.switch_at},
+                                                           {"grid-peaks", std::to_string(spec.peaks)},
+                                                           {"grid-pull", exact_number(spec.pull)},
+                                                           {"grid-notch", exact_number(spec.notch)},
+                                                           {"grid-detents", exact_number(spec.detents)}};
+  if (!spec.spacing.empty()) options.emplace_back("grid-spacing", spec.spacing);
+  if (!spec.marks.empty()) options.emplace_back("grid-marks", spec.marks);
   return options;
 }
 

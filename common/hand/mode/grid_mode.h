@@ -18,10 +18,10 @@
 namespace palpate {
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
-[[nodiscard]] GridAxisSettings grid_settings(const GridSpec& words);
-[[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneSpec& words);
+[[nodiscard]] GridAxisSettings grid_settings(const GridSpec& spec);
+[[nodiscard]] PlaneWidgetSettings plane_settings(const PlaneSpec& spec);
 
-/// The same as words, lengths to rounding.
+/// The same as spec, lengths to rounding.
 [[nodiscard]] GridSpec grid_text(const GridAxisSettings& settings);
 [[nodiscard]] PlaneSpec plane_text(const PlaneWidgetSettings& settings);
 /// Those of a grid as options, names without dashes.
@@ -33,7 +33,7 @@ namespace palpate {
 [[nodiscard]] std::array<GridMark, 3> marks_at(const GridFrame& frame, const LocalFrame& local,
                                                const Vec3& x);
 
-/// What nodes of the grid are not points of the data, in words; empty where they are, or the user has asked for others.
+/// What nodes of the grid are not points of the data, in spec; empty where they are, or the user has asked for others.
 [[nodiscard]] std::string grid_note(const ScalarField& field, const GridAxisSettings& settings);
 
 /// Positions along `axes[axis]` (e . x, data units, from the origin of the coordinates) of the most prominent

@@ -39,14 +39,14 @@ std::array<double, 2> part_inside(const Box& box, const Vec3& a, const Vec3& b) 
 
 }  // namespace
 
-std::optional<Vec3> first_surface_between(const HapticLevels& felt, const Vec3& from, const Vec3& to) {
-  if (!felt.field || !is_finite(from) || !is_finite(to)) return std::nullopt;
-  const auto [first, last] = part_inside(felt.field->bounds(), from, to);
+std::optional<Vec3> first_surface_between(const HapticLevels& levels, const Vec3& from, const Vec3& to) {
+  if (!levels.field || !is_finite(from) || !is_finite(to)) return std::nullopt;
+  const auto [first, last] = part_inside(levels.field->bounds(), from, to);
   if (!(first < last)) return std::nullopt;
   CellHint hint;
   const auto at = [&](double part) { return from + part * (to - from); };
   const auto value = [&](double part) {
-    const ScalarSample sample = felt.field->sample(at(part), hint);
+    const ScalarSample sample = levels.field->sample(at(part), hint);
     return sample.status == SampleStatus::kOk ? sample.value : std::nan("");
   };
   constexpr int kSamples = 2048, kBisections = 50;
@@ -54,8 +54,8 @@ std::optional<Vec3> first_surface_between(const HapticLevels& felt, const Vec3& 
   for (int n = 0; n <= kSamples; ++n) {
     double part = first + (last - first) * n / kSamples;
     const double here = value(part);
-    for (int l = 0; l < felt.isovalues.count && std::isfinite(before) && std::isfinite(here); ++l) {
-      const double level = felt.isovalues.value[as_size(l)];
+    for (int l = 0; l < levels.isovalues.count && std::isfinite(before) && std::isfinite(here); ++l) {
+      const double level = levels.isovalues.value[as_size(l)];
       if ((before >= level) == (here >= level)) continue;
       double low = part_before;
       for (int i = 0; i < kBisections; ++i) {
@@ -70,13 +70,13 @@ std::optional<Vec3> first_surface_between(const HapticLevels& felt, const Vec3& 
   return std::nullopt;
 }
 
-std::optional<double> haptic_level(const HapticLevels& felt, double value) {
+std::optional<double> haptic_level(const HapticLevels& levels, double value) {
   // Proxies are on their surface to rounding; a level next to it is far farther away.
   constexpr double kOnSurface = 1e-6;
-  if (!felt.field) return std::nullopt;
-  const double near = kOnSurface * (felt.field->highest() - felt.field->lowest());
-  for (int l = 0; l < felt.isovalues.count; ++l) {
-    const double level = felt.isovalues.value[as_size(l)];
+  if (!levels.field) return std::nullopt;
+  const double near = kOnSurface * (levels.field->highest() - levels.field->lowest());
+  for (int l = 0; l < levels.isovalues.count; ++l) {
+    const double level = levels.isovalues.value[as_size(l)];
     if (std::abs(value - level) <= near) return level;
   }
   return std::nullopt;
@@ -107,16 +107,16 @@ HapticSurfaces::~HapticSurfaces() {
   if (progress_) progress_->cancel();
 }
 
-void HapticSurfaces::request(const HapticLevels& felt) {
-  if (felt == asked_) return;
-  asked_ = felt;
+void HapticSurfaces::request(const HapticLevels& levels) {
+  if (levels == asked_) return;
+  asked_ = levels;
   const std::lock_guard lock(mutex_);
-  const bool other_field = felt.field != wanted_levels_.field;
+  const bool other_field = levels.field != wanted_levels_.field;
   if (progress_ && (other_field || progress_->seconds_in_stage() > kPatience)) progress_->cancel();
   if (other_field) made_ = {};
-  wanted_levels_ = felt;
+  wanted_levels_ = levels;
   waiting_.reset();
-  if (felt.field) waiting_ = felt;
+  if (levels.field) waiting_ = levels;
   wanted_.notify_one();
 }
 
@@ -131,14 +131,14 @@ std::optional<double> HapticSurfaces::fraction() const {
   return std::clamp(progress_->fraction(), 0.0, 1.0);
 }
 
-HapticSurfaces::Made HapticSurfaces::make(const HapticLevels& felt, const Made& before,
+HapticSurfaces::Made HapticSurfaces::make(const HapticLevels& levels, const Made& before,
                                           Progress& progress) const {
   Made made{.histogram = before.histogram};
-  if (!made.histogram && felt.field->lowest() <= felt.field->highest()) {
-    made.histogram = std::make_shared<const ValueHistogram>(value_histogram(*felt.field));
+  if (!made.histogram && levels.field->lowest() <= levels.field->highest()) {
+    made.histogram = std::make_shared<const ValueHistogram>(value_histogram(*levels.field));
   }
-  for (int i = 0; i < felt.isovalues.count; ++i) {
-    const double level = felt.isovalues.value[as_size(i)];
+  for (int i = 0; i < levels.isovalues.count; ++i) {
+    const double level = levels.isovalues.value[as_size(i)];
     const auto known = std::find_if(before.meshes.begin(), before.meshes.end(),
                                     [&](const auto& mesh) { return mesh && mesh->level == level; });
     if (known != before.meshes.end()) {
@@ -147,31 +147,31 @@ HapticSurfaces::Made HapticSurfaces::make(const HapticLevels& felt, const Made& 
     }
     try {
       made.meshes.push_back(std::make_shared<const IsosurfaceMesh>(
-          make_isosurface_mesh(*felt.field, level, kMostTriangles, &progress)));
+          make_isosurface_mesh(*levels.field, level, kMostTriangles, &progress)));
     } catch (const Error& error) {
       made.meshes.push_back(nullptr);
       made.problem = error.what();
     }
   }
-  if (made.problem.empty()) made.problem = beyond_values(*felt.field, felt.isovalues);
+  if (made.problem.empty()) made.problem = beyond_values(*levels.field, levels.isovalues);
   return made;
 }
 
 void HapticSurfaces::run(const std::stop_token& stop) {
   for (;;) {
-    HapticLevels felt;
+    HapticLevels levels;
     Made before;
     std::shared_ptr<Progress> progress;
     {
       std::unique_lock lock(mutex_);
       if (!wanted_.wait(lock, stop, [this] { return waiting_.has_value(); })) return;
-      felt = *std::exchange(waiting_, std::nullopt);
+      levels = *std::exchange(waiting_, std::nullopt);
       before = made_;
       progress = progress_ = std::make_shared<Progress>();
     }
     std::optional<Made> made;
     try {
-      made = make(felt, before, *progress);
+      made = make(levels, before, *progress);
     } catch (const Cancelled&) {
       made.reset();  // another request has come
     } catch (const std::exception& error) {
@@ -180,7 +180,7 @@ void HapticSurfaces::run(const std::stop_token& stop) {
     {
       const std::lock_guard lock(mutex_);
       progress_.reset();
-      if (made && wanted_levels_.field == felt.field) made_ = std::move(*made);
+      if (made && wanted_levels_.field == levels.field) made_ = std::move(*made);
     }
     wake_();
   }

@@ -30,11 +30,11 @@ struct HapticLevels {
 /// The first place where the straight way from `from` to `to` (data coordinates) changes its side of a level:
 /// sampled at 2048 places of its part inside the bounds, then bisected, on the side of `from`. What is
 /// crossed twice between two samples is missed.
-[[nodiscard]] std::optional<Vec3> first_surface_between(const HapticLevels& felt, const Vec3& from,
+[[nodiscard]] std::optional<Vec3> first_surface_between(const HapticLevels& levels, const Vec3& from,
                                                         const Vec3& to);
 
 /// The isovalue on whose surface a proxy is where the field has that value; none where it is on none.
-[[nodiscard]] std::optional<double> haptic_level(const HapticLevels& felt, double value);
+[[nodiscard]] std::optional<double> haptic_level(const HapticLevels& levels, double value);
 
 /// Says which isovalues lie outside the values of `field`, where no surface is; empty where none does.
 [[nodiscard]] std::string beyond_values(const ScalarField& field, const Isovalues& isovalues);
@@ -49,7 +49,7 @@ class HapticSurfaces {
 
   /// The latest request wins; the same one again costs nothing. Isovalues that stay are not made again; what
   /// takes longer than a moment makes way for the next.
-  void request(const HapticLevels& felt);
+  void request(const HapticLevels& levels);
 
   /// What was made last of the field that is wanted now.
   struct Made {
@@ -63,7 +63,7 @@ class HapticSurfaces {
 
  private:
   void run(const std::stop_token& stop);
-  [[nodiscard]] Made make(const HapticLevels& felt, const Made& before, Progress& progress) const;
+  [[nodiscard]] Made make(const HapticLevels& levels, const Made& before, Progress& progress) const;
 
   std::function<void()> wake_;
   HapticLevels asked_;        ///< the owner's

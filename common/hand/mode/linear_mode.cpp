@@ -121,18 +121,18 @@ HapticChain make_linear(const HapticScene& scene) {
       std::make_unique<LinearConstraint>(make_frame(scene), std::array{measures, measures, measures}), scene);
 }
 
-LinearSettings linear_settings(const LinearSpec& words) {
+LinearSettings linear_settings(const LinearSpec& spec) {
   LinearSettings settings;
-  settings.reference = named<LinearReference>(words.reference, kLinearReferenceCount, "--reference");
-  settings.measure = named<LinearMeasure>(words.measure, kLinearMeasureCount, "--measure");
-  const std::vector<std::string_view> rules = split(words.axes, ',');
+  settings.reference = named<LinearReference>(spec.reference, kLinearReferenceCount, "--reference");
+  settings.measure = named<LinearMeasure>(spec.measure, kLinearMeasureCount, "--measure");
+  const std::vector<std::string_view> rules = split(spec.axes, ',');
   if (rules.size() != settings.axes.size()) {
     throw usage_error(
         "--axis-rules: three rules with commas between are expected, such as free,drag,drag; found '" +
-        words.axes + "'");
+        spec.axes + "'");
   }
-  const auto tau = curves(words.tau, "--tau", kMetresPerMillimetre);
-  const auto kappa = curves(words.kappa, "--kappa", 1.0);
+  const auto tau = curves(spec.tau, "--tau", kMetresPerMillimetre);
+  const auto kappa = curves(spec.kappa, "--kappa", 1.0);
   for (std::size_t a = 0; a < settings.axes.size(); ++a) {
     LinearAxis& axis = settings.axes[a];
     axis.rule = named<AxisRule>(std::string(trimmed(rules[a])), kAxisRuleCount, "--axis-rules");
@@ -144,11 +144,11 @@ LinearSettings linear_settings(const LinearSpec& words) {
     }
   }
   if (leaves_axes_open(settings.reference) && !(settings.axes[1] == settings.axes[2])) {
-    throw usage_error("--reference " + words.reference +
+    throw usage_error("--reference " + spec.reference +
                       " leaves the second and third axis open: give both the same rule, tau and kappa, or "
                       "take curvature or axes");
   }
-  settings.friction = words.friction;
+  settings.friction = spec.friction;
   if (!std::isfinite(settings.friction) || settings.friction < 0.0) {
     throw usage_error("--friction: a number of zero or more is expected");
   }
@@ -166,10 +166,10 @@ LinearSpec linear_text(const LinearSettings& settings) {
 }
 
 std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings) {
-  const LinearSpec words = linear_text(settings);
+  const LinearSpec spec = linear_text(settings);
   return {
-      {"reference", words.reference}, {"axis-rules", words.axes}, {"tau", words.tau},
-      {"kappa", words.kappa},         {"measure", words.measure}, {"friction", exact_number(words.friction)}};
+      {"reference", spec.reference}, {"axis-rules", spec.axes}, {"tau", spec.tau},
+      {"kappa", spec.kappa},         {"measure", spec.measure}, {"friction", exact_number(spec.friction)}};
 }
 
 }  // namespace palpate

@@ -13,9 +13,9 @@
 namespace palpate {
 
 /// @throws Error (usage) that names the option, what it expects and what it found.
-[[nodiscard]] LinearSettings linear_settings(const LinearSpec& words);
+[[nodiscard]] LinearSettings linear_settings(const LinearSpec& spec);
 
-/// The same as words.
+/// The same as spec.
 [[nodiscard]] LinearSpec linear_text(const LinearSettings& settings);
 /// The settings as options, names without dashes: linear_settings() reads them back, thresholds to rounding.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> linear_options(const LinearSettings& settings);

@@ -29,10 +29,10 @@ HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& 
   return made;
 }
 
-TextureSettings texture_settings(const std::string& words) {
-  TextureSettings settings{.by_noise = words != "off"};
-  if (words == "off" || words == "on") return settings;
-  const auto problem = HapticTransferFunction::read(words, settings.grain, kMetresPerMillimetre);
+TextureSettings texture_settings(const std::string& text) {
+  TextureSettings settings{.by_noise = text != "off"};
+  if (text == "off" || text == "on") return settings;
+  const auto problem = HapticTransferFunction::read(text, settings.grain, kMetresPerMillimetre);
   if (problem)
     throw usage_error("--noise-texture: off, on, or a curve NOISE:MM,NOISE:MM is expected: " + *problem);
   if (!settings.valid()) throw usage_error("--noise-texture: grains of zero or more in mm are expected");

@@ -24,7 +24,7 @@ namespace palpate {
 
 /// What `--noise-texture` says: "off", "on", or the curve of the grain [mm].
 /// @throws Error (usage) that says what is expected.
-[[nodiscard]] TextureSettings texture_settings(const std::string& words);
+[[nodiscard]] TextureSettings texture_settings(const std::string& text);
 /// The inverse of texture_settings().
 [[nodiscard]] std::string texture_text(const TextureSettings& settings);
 

@@ -88,9 +88,9 @@ void VolumeVariant::update(const VolumeView& view, const SceneFrame& frame, cons
     program.reset();
     defines = std::move(wanted);
   }
-  VolumeBlock told = make_volume_block(view, frame, textures.field_bricks());
-  told.asks_tiles = 0.0F;  // rays of all pixels: the tiles are those of another picture
-  volume_block = volume_shader::make_block_buffer(told);
+  VolumeBlock filled = make_volume_block(view, frame, textures.field_bricks());
+  filled.asks_tiles = 0.0F;  // rays of all pixels: the tiles are those of another picture
+  volume_block = volume_shader::make_block_buffer(filled);
   shape_block = make_buffer(make_shape_block(view, frame, room));
 }
 

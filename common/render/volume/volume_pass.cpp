@@ -181,12 +181,12 @@ struct VolumePass::State {
 
   // What is shown and what is drawn again have one program where they are told the same.
   const GlProgram& program_again() {
-    std::vector<std::string> told = again->defines;
-    if (layers != nullptr) told.emplace_back(kLayersDefine);
-    if (told == defines) return program_of(Reach::kAll);
+    std::vector<std::string> all_defines = again->defines;
+    if (layers != nullptr) all_defines.emplace_back(kLayersDefine);
+    if (all_defines == defines) return program_of(Reach::kAll);
     if (!again->program) {
       const ShaderVariant shader = shader_of(Reach::kAll, variant);
-      again->program = compile_program("volume/volume.vert", shader, told);
+      again->program = compile_program("volume/volume.vert", shader, all_defines);
       label_object(GpuObject::Kind::kProgram, again->program.name(), shader.label() + ", again");
       ++cost.programs;
     }
@@ -379,9 +379,9 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.variant = variant_of(view);
   s.frame = frame;
   s.asks_tiles = asks_tiles(view);
-  VolumeBlock told = s.make_volume(view);
-  told.far = far_range(view, frame, block);
-  s.volume_block = volume_shader::make_block_buffer(told);
+  VolumeBlock filled = s.make_volume(view);
+  filled.far = far_range(view, frame, block);
+  s.volume_block = volume_shader::make_block_buffer(filled);
   s.shape_block = s.make_shapes(view);
   s.shown = view;
   if (!draws_context_alone(view)) {

@@ -14,14 +14,14 @@
 namespace palpate {
 
 /// What is chosen of what is opened, and what a reader's request is made of besides.
-struct InputWords {
+struct InputTexts {
   std::string example;  ///< in place of files
   /// Empty: the likeliest one. Of a volume several with commas between: the first, and those of `secondary`.
   std::string field;
   std::vector<std::string> secondary;   ///< scalars of the scene beside `field`, for lenses (volume_fields.h)
   std::string time;                     ///< first, last or a time; empty: the verb's default, the first
   FieldKind kind = FieldKind::kVector;  ///< what is taken from it: the program's own, no setting
-  RawSpec raw_words;  ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
+  RawSpec raw_spec;   ///< how voxels without a header lie; empty: a sidecar or the file's name may say it
   TensorSpec tensor;  ///< how tensors are read and fitted
   std::string cell_values = "recovered";      ///< of flows: recovered, constant
   std::string cell_directions = "recovered";  ///< recovered, constant: HeartChoice::constant_cells
@@ -35,7 +35,7 @@ struct InputWords {
 };
 
 /// What is opened. `raw`, `diffusion` and `left_handed` of the request are made from the words when it is.
-struct InputOptions : LoadRequest, InputWords {};
+struct InputOptions : LoadRequest, InputTexts {};
 
 /// Files, of which `kind` is taken.
 [[nodiscard]] inline InputOptions input_of(std::vector<std::filesystem::path> files,

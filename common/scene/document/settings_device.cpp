@@ -325,7 +325,7 @@ std::vector<Setting> device_rows() {
       {.name = "out",
        .place = kOutputAt<&OutputOptions::file>,
        .help =
-           "table, a row a step: with --path of what was felt, as the explorers' probe; of a menu what was "
+           "table, a row a step: with --path of the forces, as the explorers' probe; of a menu what was "
            "pointed at, chosen, set and picked",
        .value = "FILE.csv",
        .heading = "Output",

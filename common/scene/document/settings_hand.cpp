@@ -6,7 +6,7 @@ namespace {
 const Setting kHandRows[] = {
     {.name = "annotation",
      .place = kTouchAt<&TouchOptions::annotations>,
-     .help = "a place, length, angle (at the second place), curve or area in the data, with '=WORDS' behind "
+     .help = "a place, length, angle (at the second place), curve or area in the data, with '=TEXT' behind "
              "it for a label; may be repeated",
      .value = "point|length|angle|curve|area:x,y,z,...",
      .heading = "Annotations",
@@ -14,8 +14,8 @@ const Setting kHandRows[] = {
     {.name = "drawn-lines",
      .place = kTouchAt<&TouchOptions::drawn_lines>,
      .help =
-         "lines or tracts that a hand has kept, as a window saves them as .csv; with its session it saves "
-         "them beside that",
+         "lines or tracts that a hand has drawn, as a window saves them as .csv; with its session it saves "
+         "them next to that",
      .value = "FILE.csv",
      .heading = "Annotations",
      .groups = {Group::kNotes},
@@ -84,7 +84,7 @@ const Setting kHandRows[] = {
      .help = "show the data as the first screen of --workbench does to a head before it, which is there, is "
              "replayed, with 'hands' is that of --device hands:FILE.csv, or is seen by a tracker, named as "
              "for --device, at the head_station of the workbench; --screen all opens a window for each "
-             "screen, beside that of the desktop",
+             "screen, in addition to that of the desktop",
      .value = "x,y,z[,qw,qx,qy,qz]|replay:FILE.csv",
      .heading = "View",
      .groups = {Group::kRecord},

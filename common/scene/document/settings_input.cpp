@@ -228,7 +228,7 @@ const Setting kInputRows[] = {
     {.name = "cache",
      .place = kInputAt<&InputOptions::cache>,
      .help =
-         "keep solved layers and made meshes in the user's cache (~/.cache/palpate/hearts) for the next opening: auto, "
+         "cache solved layers and made meshes in the user's folder (~/.cache/palpate/hearts) for the next opening: auto, "
          "where they took more than half a second, always, off",
      .heading = "Input",
      .groups = {Group::kInput},
@@ -250,7 +250,7 @@ const Setting kInputRows[] = {
      .heading = "Tensors",
      .groups = {Group::kInput},
      .kinds = kTensors,
-     .otherwise = "beside FILE",
+     .otherwise = "next to FILE",
      .file = true},
     {.name = "bvec",
      .place = kTensorReadingAt<&TensorSpec::bvec>,
@@ -259,7 +259,7 @@ const Setting kInputRows[] = {
      .heading = "Tensors",
      .groups = {Group::kInput},
      .kinds = kTensors,
-     .otherwise = "beside FILE",
+     .otherwise = "next to FILE",
      .file = true},
     {.name = "vectors",
      .place = kTensorReadingAt<&TensorSpec::vectors>,
@@ -305,7 +305,7 @@ const Setting kInputRows[] = {
      .otherwise = "all"},
     {.name = "shell",
      .place = kTensorReadingAt<&TensorSpec::shell>,
-     .help = "b-values that the fit takes, to 5 %, beside the unweighted volumes",
+     .help = "b-values that the fit takes, to 5 %, with the unweighted volumes",
      .value = "B,...",
      .heading = "Tensors",
      .groups = {Group::kInput},

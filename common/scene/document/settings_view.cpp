@@ -73,7 +73,7 @@ const Setting kViewRows[] = {
     {.name = "background",
      .place = kViewAt<&ViewOptions::background>,
      .help =
-         "dark, light, or a colour, each part from 0 to 1; words, axes and outline have colours that stand "
+         "dark, light, or a colour, each part from 0 to 1; labels, axes and outline have colours that stand "
          "out from it",
      .value = "dark|light|R,G,B",
      .heading = "View",

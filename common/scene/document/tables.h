@@ -20,7 +20,7 @@ inline constexpr Place kCommonAt = kAt<&Document::common, M...>;
 template <auto... M>
 inline constexpr Place kInputAt = kAt<&Document::input, M...>;
 template <auto... M>
-inline constexpr Place kRawAt = kInputAt<&InputOptions::raw_words, M...>;
+inline constexpr Place kRawAt = kInputAt<&InputOptions::raw_spec, M...>;
 template <auto... M>
 inline constexpr Place kTensorReadingAt = kInputAt<&InputOptions::tensor, M...>;
 template <auto... M>

@@ -63,7 +63,7 @@ const UniformTopology& uniform(const DataSet& block, const TensorInput& input) {
 }
 
 std::string turn_text(const AxisTurn& turn) {
-  return turn.words() + ": tensors turned along the image's axes, as asked for";
+  return turn.text() + ": tensors turned along the image's axes, as asked for";
 }
 
 void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,

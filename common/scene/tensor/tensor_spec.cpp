@@ -25,20 +25,20 @@ T one_of(const char* option, const std::string& word,
 
 constexpr std::string_view kAxes = "ijk";
 
-AxisTurn turn_of(const TensorSpec& words) {
+AxisTurn turn_of(const TensorSpec& spec) {
   AxisTurn turn;
-  if (!words.permute.empty()) {
-    std::string sorted = words.permute;
+  if (!spec.permute.empty()) {
+    std::string sorted = spec.permute;
     std::sort(sorted.begin(), sorted.end());
     if (sorted != kAxes)
-      throw usage_error("--permute " + words.permute + ": the letters i, j, k in some order are expected");
+      throw usage_error("--permute " + spec.permute + ": the letters i, j, k in some order are expected");
     for (std::size_t axis = 0; axis < 3; ++axis)
-      turn.from[axis] = static_cast<int>(kAxes.find(words.permute[axis]));
+      turn.from[axis] = static_cast<int>(kAxes.find(spec.permute[axis]));
   }
-  for (const char letter : words.flip) {
+  for (const char letter : spec.flip) {
     const std::size_t axis = kAxes.find(letter);
     if (axis == std::string_view::npos)
-      throw usage_error("--flip " + words.flip + ": letters of the image's axes i, j, k are expected");
+      throw usage_error("--flip " + spec.flip + ": letters of the image's axes i, j, k are expected");
     turn.flipped[axis] = true;
   }
   return turn;
@@ -67,17 +67,17 @@ std::vector<std::size_t> parse_volumes(const std::string& text) {
   return volumes;
 }
 
-GradientChoice gradients_of(const TensorSpec& words) {
+GradientChoice gradients_of(const TensorSpec& spec) {
   GradientChoice choice;
   choice.scale_by_length =
-      one_of<bool, 2>("--bvec-length", words.bvec_length, {{{"scale", true}, {"ignore", false}}});
-  choice.left_out = parse_volumes(words.leave_out);
-  if (words.max_b) choice.max_weighting = *words.max_b;
-  if (words.shell.empty()) return choice;
-  for (const std::string_view word : split(words.shell, ',')) {
+      one_of<bool, 2>("--bvec-length", spec.bvec_length, {{{"scale", true}, {"ignore", false}}});
+  choice.left_out = parse_volumes(spec.leave_out);
+  if (spec.max_b) choice.max_weighting = *spec.max_b;
+  if (spec.shell.empty()) return choice;
+  for (const std::string_view word : split(spec.shell, ',')) {
     const std::optional<double> b = number(trimmed(word));
     if (!b || !(*b > 0.0) || !std::isfinite(*b))
-      throw usage_error("--shell " + words.shell + ": b-values above 0 are expected, such as 1000,2000");
+      throw usage_error("--shell " + spec.shell + ": b-values above 0 are expected, such as 1000,2000");
     choice.shells.push_back(*b);
   }
   return choice;
@@ -94,27 +94,27 @@ std::optional<VectorFrame> frame_of(const std::string& word) {
 
 }  // namespace
 
-TensorReading parse_tensor_spec(const TensorSpec& words) {
+TensorReading parse_tensor_spec(const TensorSpec& spec) {
   TensorReading reading;
-  reading.order = one_of<StoredOrder, 4>("--tensor-order", words.order,
+  reading.order = one_of<StoredOrder, 4>("--tensor-order", spec.order,
                                          {{{"auto", StoredOrder::kAuto},
                                            {"fsl", StoredOrder::kFsl},
                                            {"mrtrix", StoredOrder::kMrtrix},
                                            {"nifti", StoredOrder::kNifti}}});
   reading.fit.weights = one_of<FitWeights, 2>(
-      "--fit", words.fit, {{{"weighted", FitWeights::kSignal}, {"ordinary", FitWeights::kOrdinary}}});
+      "--fit", spec.fit, {{{"weighted", FitWeights::kSignal}, {"ordinary", FitWeights::kOrdinary}}});
   reading.fit.negative = one_of<NegativeEigenvalues, 2>(
-      "--negative", words.negative,
+      "--negative", spec.negative,
       {{{"keep", NegativeEigenvalues::kKept}, {"zero", NegativeEigenvalues::kZero}}});
-  reading.frame = frame_of(words.vectors);
+  reading.frame = frame_of(spec.vectors);
   reading.left_handed =
-      one_of<bool, 2>("--handedness", words.handedness, {{{"right", false}, {"left", true}}});
-  reading.gradients = gradients_of(words);
-  reading.masked = words.mask != "none";
-  if (reading.masked && words.mask != "auto") reading.mask_file = words.mask;
-  reading.turn = turn_of(words);
+      one_of<bool, 2>("--handedness", spec.handedness, {{{"right", false}, {"left", true}}});
+  reading.gradients = gradients_of(spec);
+  reading.masked = spec.mask != "none";
+  if (reading.masked && spec.mask != "auto") reading.mask_file = spec.mask;
+  reading.turn = turn_of(spec);
   reading.interpolation =
-      one_of<TensorInterpolation, 2>("--interpolation", words.interpolation,
+      one_of<TensorInterpolation, 2>("--interpolation", spec.interpolation,
                                      {{{"components", TensorInterpolation::kComponents},
                                        {"log-euclidean", TensorInterpolation::kLogEuclidean}}});
   return reading;

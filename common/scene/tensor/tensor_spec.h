@@ -1,4 +1,4 @@
-/// How tensors are read and fitted, in the words of the command line.
+/// How tensors are read and fitted, in the spec of the command line.
 #pragma once
 
 #include <filesystem>
@@ -46,7 +46,7 @@ struct TensorReading {
   TensorInterpolation interpolation = TensorInterpolation::kComponents;
 };
 
-/// @throws Error (usage) naming the option and the words that it knows.
-[[nodiscard]] TensorReading parse_tensor_spec(const TensorSpec& words);
+/// @throws Error (usage) naming the option and the spec that it knows.
+[[nodiscard]] TensorReading parse_tensor_spec(const TensorSpec& spec);
 
 }  // namespace palpate

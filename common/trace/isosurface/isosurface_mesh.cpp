@@ -402,7 +402,7 @@ IsosurfaceMesh make_isosurface_mesh(const ScalarField& field, double level, std:
     return mesh_of_tets(field, level, most_triangles, progress);
   } catch (const TooMany&) {
     throw work_error("the isosurface of " + field.name() + " has more than " +
-                     std::to_string(most_triangles) + " triangles: it can be felt, but is not drawn");
+                     std::to_string(most_triangles) + " triangles: it is haptic, but not drawn");
   }
 }
 

@@ -121,7 +121,7 @@ bool TractTurn::is_identity() const noexcept {
   return from == std::array<int, 3>{0, 1, 2} && flipped == std::array<bool, 3>{};
 }
 
-std::string TractTurn::words() const {
+std::string TractTurn::text() const {
   std::string text;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) text += ',';
@@ -131,15 +131,15 @@ std::string TractTurn::words() const {
   return text;
 }
 
-TractTurn parse_tract_turn(std::string_view words) {
-  const auto refuse = [&words] {
+TractTurn parse_tract_turn(std::string_view text) {
+  const auto refuse = [&text] {
     throw usage_error(
         "a turn of tracts is written i,-j,k (the image's axes, about its centre) or -x,-y,z (about "
         "the origin), each axis once; found '" +
-        std::string(words) + "'");
+        std::string(text) + "'");
   };
   TractTurn turn;
-  std::string_view left = words;
+  std::string_view left = text;
   unsigned seen = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) {
@@ -223,7 +223,7 @@ std::string fit_sentence(const TractFit& fit, const std::string& option) {
   return "WARNING: " + text + "; turned they fit " +
          (std::isfinite(fit.gain) ? short_number(std::round(100.0 * (fit.gain - 1.0))) + " % better"
                                   : "at all") +
-         ": the tracts may have other axes than the image; try " + option + "=" + fit.best.words();
+         ": the tracts may have other axes than the image; try " + option + "=" + fit.best.text();
 }
 
 }  // namespace palpate

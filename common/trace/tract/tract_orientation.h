@@ -31,11 +31,11 @@ struct TractTurn {
 
   [[nodiscard]] bool is_identity() const noexcept;
   /// "i,-j,k", "-x,-y,z": what parse_tract_turn() reads.
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] std::string text() const;
 };
 
 /// @throws Error (usage).
-[[nodiscard]] TractTurn parse_tract_turn(std::string_view words);
+[[nodiscard]] TractTurn parse_tract_turn(std::string_view text);
 
 /// x -> matrix x + shift.
 struct AffineMap {

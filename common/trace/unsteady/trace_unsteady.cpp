@@ -166,7 +166,7 @@ Run plan_run(std::span<const double> times, const UnsteadyOptions& options) {
 /// @param after called behind each interval with the time there.
 template <class After>
 void carry_all(std::vector<CarriedParticle>& particles, Steps& steps, const Run& run, int threads,
-               std::span<const double> last_ages, InTime& told, Progress* progress, const After& after) {
+               std::span<const double> last_ages, InTime& reported, Progress* progress, const After& after) {
   const std::size_t count = steps.intervals();
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t interval = run.sign > 0.0 ? n : count - 1 - n;
@@ -178,8 +178,8 @@ void carry_all(std::vector<CarriedParticle>& particles, Steps& steps, const Run&
     if (!(begin < end)) continue;
     const bool last = end == run.sign * run.until;
     const FlowInTime flow = steps.flow(interval);
-    told.moving_mesh = told.moving_mesh || flow.mesh() == FlowInTime::Mesh::kMoving;
-    told.other_meshes = told.other_meshes || flow.mesh() == FlowInTime::Mesh::kOther;
+    reported.moving_mesh = reported.moving_mesh || flow.mesh() == FlowInTime::Mesh::kMoving;
+    reported.other_meshes = reported.other_meshes || flow.mesh() == FlowInTime::Mesh::kOther;
     parallel_for(particles.size(), threads, [&](std::size_t from, std::size_t to) {
       for (std::size_t p = from; p < to; ++p) {
         if (progress != nullptr) progress->check();
@@ -234,7 +234,7 @@ Vec3 place_at(const Line& line, double age) {
 /// those that have ended.
 struct Chain {
   std::vector<Line>& lines;
-  InTime& told;
+  InTime& reported;
   double moment;
   Line line;
   bool torn = false;
@@ -247,7 +247,7 @@ struct Chain {
     if (!line.points.empty()) {
       const double step = glm::distance(point.position, line.points.back().position);
       point.arc = line.points.back().arc + step;
-      told.gap = std::max(told.gap, step);
+      reported.gap = std::max(reported.gap, step);
     }
     line.points.push_back(point);
   }
@@ -280,13 +280,13 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
   if (static_cast<double>(seeds.size()) * static_cast<double>(run.releases.size()) > kMostParticles)
     throw usage_error("more than 1e8 particles: raise --release-every, or take fewer seeds");
   UnsteadyResult result;
-  InTime& told = result.in_time;
-  told.from = run.from;
-  told.until = run.until;
-  told.releases = run.releases.size();
-  told.steps = run.steps.size();
+  InTime& reported = result.in_time;
+  reported.from = run.from;
+  reported.until = run.until;
+  reported.releases = run.releases.size();
+  reported.steps = run.steps.size();
   const std::vector<std::size_t> half = run.half(times);
-  told.sampling_known = !half.empty();
+  reported.sampling_known = !half.empty();
 
   Stopwatch watch;
   if (progress != nullptr) progress->begin("tracing in time", run.steps.size() + half.size());
@@ -317,7 +317,7 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
     return made;
   };
   std::vector<CarriedParticle> particles = make_particles();
-  carry_all(particles, steps, run, trace.threads, {}, told, progress, [](double) {});
+  carry_all(particles, steps, run, trace.threads, {}, reported, progress, [](double) {});
   for (CarriedParticle& particle : particles) {
     if (particle.alive()) particle.finish();
   }
@@ -328,7 +328,7 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
   for (std::size_t p = 0; p < pathline.size(); ++p) {
     if (particles[p].state() == CarriedParticle::State::kEnded) pathline[p] = particles[p].line();
   }
-  if (told.sampling_known) {
+  if (reported.sampling_known) {
     std::vector<double> last_ages;
     for (const CarriedParticle& particle : particles) last_ages.push_back(particle.now().time);
     std::vector<CarriedParticle> others = make_particles();
@@ -345,15 +345,16 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
       const double age = particles[p].now().time;
       if (particles[p].state() == CarriedParticle::State::kOutside || age == 0.0) continue;
       distances[p].add(age, glm::distance(others[p].now().position, particles[p].now().position));
-      told.sampling = std::max(told.sampling, std::min(distances[p].distance.back(), settings.diagonal));
+      reported.sampling =
+          std::max(reported.sampling, std::min(distances[p].distance.back(), settings.diagonal));
     }
   }
-  told.steps_in_memory = steps.most_in_memory();
+  reported.steps_in_memory = steps.most_in_memory();
 
   std::vector<Line>& lines = result.trace.lines;
   const std::size_t per_seed = run.releases.size();
   const auto with_sampling = [&](LinePoint point, std::size_t particle) {
-    told.integration = std::max(told.integration, point.error);
+    reported.integration = std::max(reported.integration, point.error);
     point.error = std::min(point.error + distances[particle].at(std::abs(point.time)), settings.diagonal);
     return point;
   };
@@ -369,7 +370,7 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
     const bool streak = options.kind == LineKind::kStreaklines;
     const std::size_t chains = streak ? seeds.size() : per_seed, links = streak ? per_seed : seeds.size();
     for (std::size_t c = 0; c < chains; ++c) {
-      Chain chain{.lines = lines, .told = told, .moment = run.until, .line = {}};
+      Chain chain{.lines = lines, .reported = reported, .moment = run.until, .line = {}};
       for (std::size_t i = 0; i < links; ++i) {
         const std::size_t seed = streak ? c : i;
         const std::size_t p = seed * per_seed + (streak ? per_seed - 1 - i : c);
@@ -380,7 +381,7 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
         }
       }
       chain.close(End::kEndOfTime, run.sign);
-      told.torn += chain.torn ? 1 : 0;
+      reported.torn += chain.torn ? 1 : 0;
     }
   }
 

@@ -114,7 +114,7 @@ bool SceneControls::handle_lens(const InputEvent& event, const ControlledScene& 
 std::string SceneControls::run_lens(Command command, const ControlledScene& on) {
   if (on.has_layer()) return color_lens_.run(command, on.view);
   lens_moved_ = true;
-  return lens_.run(command, pointer_.area(), on.view.camera, on.view.bounds, on.scene->look(0),
+  return lens_.run(command, pointer_.area(), on.view.camera, on.view.bounds, on.scene->appearance(0),
                    *on.view.volume);
 }
 

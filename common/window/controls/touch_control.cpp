@@ -123,7 +123,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
     if (const auto pick = pick_slice(*view.tensors, view.camera, size.width, size.height, mouse.x, mouse.y))
       return pick->position;
   }
-  if (const HapticLevels felt = session_.data().levels(); felt.field) {
+  if (const HapticLevels levels = session_.data().levels(); levels.field) {
     const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
     const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
     const Vec3 viewer =
@@ -132,7 +132,7 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
         view.camera.projection == Projection::kOrthographic
             ? middle - reach
             : viewer + (1.0 + view.bounds.diagonal() / distance(view.camera)) * 2.0 * (middle - viewer);
-    if (const auto place = first_surface_between(felt, viewer, away)) return *place;
+    if (const auto place = first_surface_between(levels, viewer, away)) return *place;
   }
   return start_of_probe(view, size_of(area), mouse);
 }
@@ -229,7 +229,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
     session_.servo().force_off();
     return "force off; switch it on again in the panel";
   }
-  if (!session_.available()) return "there is nothing to be felt here";
+  if (!session_.available()) return "there is nothing to touch here";
   const auto lock_or_free = [this](int axis) -> std::string {
     if (!grabbed_) return "grab the probe first (G)";
     lock(locked_axis() == axis ? std::nullopt : std::optional(axis));
@@ -252,7 +252,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
         return session_.data().has_tensors() ? "drag along a tract to draw it, or click to take the probe"
                : session_.data().has_flow()
                    ? "click on a line to grab the probe there"
-                   : "press on what is felt and drag along it, or click to take the probe";
+                   : "press on a haptic surface and drag along it, or click to take the probe";
       }
       grab(area, view, time);
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +

@@ -97,11 +97,11 @@ std::size_t SavedFiles::unsaved(const DrawnLines& lines) const {
       lines.entries(), [this](const DrawnLines::Entry& entry) { return !saved_.contains(entry.line); }));
 }
 
-std::filesystem::path SavedFiles::save_transfer(const std::string& name, const Lens& look) const {
+std::filesystem::path SavedFiles::save_transfer(const std::string& name, const Lens& appearance) const {
   std::filesystem::path path = folder_ / name;
   OutputFile file(path, false);
-  file.write(look.regions ? regions_text(*look.regions)
-                          : color_transfer_text(look.transfer.value_or(ColorTransfer())));
+  file.write(appearance.regions ? regions_text(*appearance.regions)
+                                : color_transfer_text(appearance.transfer.value_or(ColorTransfer())));
   file.finish();
   return path;
 }

@@ -35,7 +35,7 @@ class SavedFiles {
   /// How many of `lines` are in no file.
   [[nodiscard]] std::size_t unsaved(const DrawnLines& lines) const;
   /// Saves a lens's transfer function under `name`: as a table, or its regions.
-  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& look) const;
+  [[nodiscard]] std::filesystem::path save_transfer(const std::string& name, const Lens& appearance) const;
   /// Saves annotations as `annotations` and `ending`, .csv or .vtp, under the first number that is free.
   [[nodiscard]] std::filesystem::path save_annotations(std::span<const Annotation> annotations,
                                                        const std::string& ending) const;

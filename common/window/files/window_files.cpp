@@ -148,7 +148,7 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
     });
   }
   if (actions.save_focus && state_.scene != nullptr)
-    attempt([&] { return saved_.save_transfer(state_.focus_file, state_.scene->look(0)).string(); });
+    attempt([&] { return saved_.save_transfer(state_.focus_file, state_.scene->appearance(0)).string(); });
   if (!actions.touch.save_notes.empty()) attempt([&] { return write_notes(actions.touch.save_notes); });
   if (!actions.region.crop.empty()) {
     attempt([&] {

@@ -42,7 +42,7 @@ std::vector<SpaceItem> items_of(const SceneState& scene, const SceneView& view,
     items.push_back(std::move(mode));
   }
   items.push_back(
-      {.label = "Look",
+      {.label = "View",
        .behind = {entry_for("at all of it", Command::kResetCamera),
                   entry_for("along x", Command::kLookAlongX), entry_for("along y", Command::kLookAlongY),
                   entry_for("along z", Command::kLookAlongZ)}});

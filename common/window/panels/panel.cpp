@@ -75,7 +75,7 @@ void choose_background(Background& background) {
 }
 
 void draw_appearance(SceneView& view, PanelActions& actions) {
-  if (!section("LOOK")) return;
+  if (!section("APPEARANCE")) return;
   const bool lines = view.lines && !view.lines->empty();
   if (lines || (!view.volume && !view.tensors && !view.tracts)) draw_line_appearance(view.style);
   const float half = 0.5F * ImGui::GetContentRegionAvail().x;
@@ -99,7 +99,7 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
     if (button(axis, ImVec2{(size.x - 2.0F * gap) / 3.0F, 0.0F})) actions.look = command;
     ImGui::SameLine();
   }
-  ImGui::TextUnformatted("look along");
+  ImGui::TextUnformatted("view along");
   hint("an axis of the data; again: from the other side (F5, F6, F7)");
   actions.reset_camera |= button("Reset view", size);
   hint("all there is, from the first side (Enter)");
@@ -107,7 +107,7 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
   actions.save_picture |= button("Save picture", size);
   hint("as it is seen, under the next free number (P)");
   actions.save_session |= button("Save session", size);
-  hint("what is open, and how it is seen and felt (Ctrl+S; Ctrl+Shift+S: under another name)");
+  hint("what is open, and how it is drawn and touched (Ctrl+S; Ctrl+Shift+S: under another name)");
   ImGui::SameLine();
   actions.export_picture |= button("Export picture…", size);
   hint("in another size, on another background or none (Shift+P)");

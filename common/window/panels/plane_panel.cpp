@@ -262,7 +262,7 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
   ImGui::EndDisabled();
   if (cuts != nullptr && !cuts->empty() && room_for(cuts->size())) {
     const bool wanted = small_button("landmarks at cuts");
-    hint("a plane that can be felt in the place of each cut");
+    hint("a haptic plane in the place of each cut");
     for (const CuttingPlane& cut : wanted ? *cuts : std::vector<CuttingPlane>())
       add({.axis = 3, .normal = cut.kept.outward, .at = cut.kept.offset});
   }

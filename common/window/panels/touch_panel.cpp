@@ -153,16 +153,16 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   choose_mode(choice, session.modes());
   edit_settings(choice, session.modes()[choice.mode].name, session.data().has_flow());
   edit_curves(choice, session.modes()[choice.mode].name, session);
-  const HapticLevels felt = session.data().levels();
-  edit_isosurfaces(choice.settings.isosurface, felt, session.data().surfaces(),
+  const HapticLevels levels = session.data().levels();
+  edit_isosurfaces(choice.settings.isosurface, levels, session.data().surfaces(),
                    session.data().surfaces_fraction(), session.modes()[choice.mode].name,
                    session.data().has_flow());
   edit_texture(choice.settings.texture, session.modes()[choice.mode], session);
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
-  const char* const surfaces = layers ? "show felt layers" : "show isosurface";
-  choose_appearances(choice, half, session.data().has_flow(), felt.field ? surfaces : nullptr,
+  const char* const surfaces = layers ? "show haptic layers" : "show isosurface";
+  choose_appearances(choice, half, session.data().has_flow(), levels.field ? surfaces : nullptr,
                      choice.show_surface.value_or(!session.data().has_wall()));
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());

@@ -84,7 +84,7 @@ std::string cue_plot(const std::vector<RivalRun>& runs) {
   }
   return svg({.title = "What tells the hand of the depth",
               .x_label = "depth of the curve behind the surface [mm]",
-              .y_label = "stretch that is felt [mm]; it should be the depth",
+              .y_label = "haptic stretch [mm]; it should be the depth",
               .series = std::move(all),
               .diagonal = true});
 }
@@ -96,7 +96,7 @@ ReportSection chain_rivals_section(const std::vector<RivalRun>& runs) {
   section.title = "Chain, pipe and balance";
   section.plots = {
       {"chain_rivals.svg", "the hand, the surface and the proxies of each method", picture_of(runs)},
-      {"chain_cue.svg", "stretch that is felt against depth, log-log", cue_plot(runs)}};
+      {"chain_cue.svg", "haptic stretch against depth, log-log", cue_plot(runs)}};
   section.paragraphs = {
       "A hand goes along a streamline and on through an isosurface (Ikits 2006, figure 6.7), which is to let "
       "go "
@@ -115,7 +115,7 @@ ReportSection chain_rivals_section(const std::vector<RivalRun>& runs) {
       "limit without it."};
   section.columns = {
       "angle [deg]",    "method",          "off the curve [mm]",       "behind the surface [mm]",
-      "cue error [mm]", "lets go at [mm]", "off the curve after [mm]", "us a step"};
+      "cue error [mm]", "release distance [mm]", "off the curve after [mm]", "us a step"};
   constexpr double kMicro = 1e-6;
   for (const RivalRun& run : runs) {
     const std::string method(name_of(run.method));
@@ -133,7 +133,7 @@ ReportSection chain_rivals_section(const std::vector<RivalRun>& runs) {
     add(run.curve_drift, "largest distance from the curve / m");
     add(run.surface_drift, "largest depth behind the surface / m");
     add(run.cue_error, "largest error of the penetration cue / m");
-    if (let_go) add(std::abs(run.release_depth - kDepthLimit), "error of the depth where it lets go / m");
+    if (let_go) add(std::abs(run.release_depth - kDepthLimit), "error of the release distance / m");
   }
   return section;
 }

@@ -78,7 +78,7 @@ TEST(FlowModel, KeepsLinesAndVoxelsThatDoNotChange) {
   EXPECT_TRUE(first.info->resampled);
   ASSERT_TRUE(first.volume);
   EXPECT_EQ(first.volume_notes.size(), 2U);
-  EXPECT_EQ(first.looks.size(), 2U);
+  EXPECT_EQ(first.appearances.size(), 2U);
 
   Document document = first.document;
   document.volume.transfer = "mr";

@@ -38,10 +38,10 @@ TEST(InterruptGuard, CancelsTheJobOnASignalAndHoldsForcesMeanwhile) {
 TEST(InterruptGuard, SaysWhatWasKept) {
   Progress progress;
   InterruptGuard guard(progress, "test");
-  EXPECT_EQ(guard.kept(), "nothing was kept");
+  EXPECT_EQ(guard.saved(), "nothing was saved");
   guard.keep("a.vtp");
   guard.keep("b.vtp");
-  EXPECT_EQ(guard.kept(), "kept: a.vtp, b.vtp");
+  EXPECT_EQ(guard.saved(), "saved: a.vtp, b.vtp");
 }
 
 // A job that never looks at its progress: the guard ends the program and removes what was not finished.
@@ -66,7 +66,7 @@ TEST(InterruptGuardDeathTest, EndsAJobThatDoesNotNotice) {
         std::this_thread::sleep_for(std::chrono::seconds(5));
         std::filesystem::remove(half);  // not reached
       },
-      ::testing::ExitedWithCode(130), "test: interrupted; kept: a.vtp");
+      ::testing::ExitedWithCode(130), "test: interrupted; saved: a.vtp");
   EXPECT_TRUE(std::filesystem::is_empty(folder));
   unsetenv(kVariable);
 }

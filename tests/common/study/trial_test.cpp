@@ -182,7 +182,7 @@ TEST(SimulatedTrial, AnotherHandIsToldFromIt) {
   folder.write("run.txt.gz", packed(run.recording));
   const TrialReplay again = replay_trial(trial, read_packed_recording(folder.path("run.txt.gz").string()));
   EXPECT_FALSE(again.identical);
-  EXPECT_EQ(again.words.guidance, 0.5) << "it is told what the recording is of";
+  EXPECT_EQ(again.spec.guidance, 0.5) << "it is told what the recording is of";
 }
 
 /// A device that bears less than the trial asks for gets less: force over distance is its stiffness.
@@ -228,7 +228,7 @@ std::vector<double> errors_of(int people, std::uint64_t trials, bool guided, dou
   std::vector<double> out;
   for (int i = 0; i < people; ++i) {
     const RandomStream random({9, trials, static_cast<std::uint64_t>(i), guided ? 1U : 0U});
-    const ChainWords words{"made", 0, guided, guidance};
+    const ChainSpec words{"made", 0, guided, guidance};
     out.push_back(simulate_trial(trial, kInfo, words, draw_traits(trials, i), random, nullptr).outcome.error);
   }
   return out;
@@ -262,10 +262,10 @@ TEST(SimulatedTrial, WithoutForceThereIsNoEffect) {
   EXPECT_GT(test.p, 0.01);
 }
 
-TEST(ChainWords, ComeBackFromText) {
-  const ChainWords bounded{"tracing3d", 12, true, 0.1, 312.5};
-  EXPECT_EQ(chain_words(chain_text(bounded)), bounded);
-  const ChainWords words = chain_words(chain_text({"tracing3d", 12, true, 0.1}));
+TEST(ChainSpec, ComeBackFromText) {
+  const ChainSpec bounded{"tracing3d", 12, true, 0.1, 312.5};
+  EXPECT_EQ(chain_spec(chain_text(bounded)), bounded);
+  const ChainSpec words = chain_spec(chain_text({"tracing3d", 12, true, 0.1}));
   EXPECT_EQ(words.most_stiffness, HUGE_VAL);
   EXPECT_EQ(words.task, "tracing3d");
   EXPECT_EQ(words.stimulus, 12);
@@ -274,7 +274,7 @@ TEST(ChainWords, ComeBackFromText) {
   for (const char* bad : {"", "start", "trial a b ISO 1 inf", "trial a -1 ISO 1 inf", "trial a 1 ISO nan inf",
                           "trial a 1 ISO 1 nan", "trial a 1 ISO 1 -1", "trial a 1 ISO inf inf",
                           "trial a 1 NOISE 1 inf", "trial a 1 ISO 1"})
-    EXPECT_THROW((void)chain_words(bad), Error) << bad;
+    EXPECT_THROW((void)chain_spec(bad), Error) << bad;
 }
 
 }  // namespace

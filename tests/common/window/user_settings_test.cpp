@@ -38,7 +38,7 @@ TEST_F(UserSettingsTest, NothingThereMeansTheDefaultsAndNoNote) {
 
 TEST_F(UserSettingsTest, ComeBackAsTheyWereSaved) {
   UserSettings settings{.width = 801, .height = 602};
-  settings.look = {{"axes", "off"}, {"background", "0.25,0.5,1"}};  // by name
+  settings.appearance = {{"axes", "off"}, {"background", "0.25,0.5,1"}};  // by name
   remember(settings.recent, {{"/data/a b.vtk"}, {}});
   remember(settings.recent, {{"/data/grid \"1\".bin"}, "/data/q.bin"});
   save_user_settings(files_, settings, {});
@@ -66,11 +66,11 @@ TEST_F(UserSettingsTest, BrokenFileIsNamedAndWrongValuesAreLeftOut) {
   ASSERT_EQ(notes_.size(), 1U);
   EXPECT_NE(notes_[0].find(files_.settings.string() + ": line 2"), std::string::npos) << notes_[0];
 
-  write(files_.settings, "[window]\nwidth = -5\nheight = 'tall'\n[look]\naxes = 7\nhalos = 'off'\n");
+  write(files_.settings, "[window]\nwidth = -5\nheight = 'tall'\n[appearance]\naxes = 7\nhalos = 'off'\n");
   const UserSettings odd = load_user_settings(files_, notes_);
   EXPECT_EQ(odd.width, UserSettings{}.width);
   EXPECT_EQ(odd.height, UserSettings{}.height);
-  EXPECT_EQ(odd.look, (Preferences{{"halos", "off"}}));
+  EXPECT_EQ(odd.appearance, (Preferences{{"halos", "off"}}));
 }
 
 Document of_flow() {

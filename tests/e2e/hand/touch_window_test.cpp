@@ -146,7 +146,7 @@ TEST_F(TouchWindow, TheWindowRecordsAndReplays) {
   EXPECT_EQ(lived.exit_code, 130) << lived.err;
   const Recording recording = read_recording(file.string());
   EXPECT_TRUE(recording.ended) << "Ctrl-C ends it in order";
-  EXPECT_EQ(lived.err.find("nothing was kept"), std::string::npos) << lived.err;
+  EXPECT_EQ(lived.err.find("nothing was saved"), std::string::npos) << lived.err;
   EXPECT_FALSE(recording.header.build.empty());
   EXPECT_EQ(recording.header.values.front(), std::pair(std::string("example"), std::string("tornado")));
   EXPECT_EQ(json({"probe", "--example", "tornado", "--replay", "run.txt"})["replay_differs"], false);

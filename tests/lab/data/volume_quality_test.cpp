@@ -70,7 +70,7 @@ TEST_F(VolumeQualityOfBlobs, TellsWhatTablesBricksAndKeptPicturesAreWorth) {
   }
   const auto plain = std::find_if(tables.begin(), tables.end(),
                                   [](const VolumeQualityRow& row) { return row.parameter == 4.0; });
-  for (const char* method : {"voxels in bricks of so many cells", "kept while it stands still"}) {
+  for (const char* method : {"voxels in bricks of so many cells", "cached while it stands still"}) {
     const auto rows = rows_of(quality_, method);
     ASSERT_EQ(rows.size(), 1U) << method;
     EXPECT_NEAR(rows[0].rms, plain->rms, 1.0 / 255.0) << method;
@@ -98,8 +98,8 @@ TEST_F(VolumeQualityOfBlobs, MeasuresWhatIsSavedAroundLenses) {
 
 // Slabs change nothing that is seen, and the plane is in both pictures.
 TEST_F(VolumeQualityOfBlobs, MeasuresWhatSlabsAreWorthToAPlaneThatMoves) {
-  const auto kept = rows_of(quality_, "plane moves, slabs kept");
-  const auto anew = rows_of(quality_, "plane moves, no slabs kept");
+  const auto kept = rows_of(quality_, "plane moves, slabs cached");
+  const auto anew = rows_of(quality_, "plane moves, no slabs cached");
   ASSERT_EQ(kept.size(), 1U);
   ASSERT_EQ(anew.size(), 1U);
   EXPECT_LT(anew[0].rms, 1.0 / 255.0);

@@ -86,7 +86,7 @@ std::string Inverse3Link::advice() const {
                ? "the Inverse3 is not calibrated: put its arm as its manual says, until its light is steady"
                : "plug in the power supply of the Inverse3";
   }
-  if (status_.phase == LinkPhase::kReady && !grip_ && !felt_) {
+  if (status_.phase == LinkPhase::kReady && !grip_ && !forced_) {
     return "the Inverse3 has no grip, whose button gives it force: name another switch, such as enable=pedal";
   }
   if (status_.phase == LinkPhase::kReady || status_.phase == LinkPhase::kLoading) return {};
@@ -150,7 +150,7 @@ void Inverse3Link::meet() noexcept {
     device_ = state.device;
     alone_ = false;
     calibrated_ = powered_ = true;
-    grip_ = felt_ = false;
+    grip_ = forced_ = false;
     learn(state);
     return;
   }
@@ -175,7 +175,7 @@ bool Inverse3Link::exchange() noexcept {
     return false;
   }
   if (!heard) ++status_.lost;
-  felt_ = felt_ || (ready && force != Vec3{0.0});
+  forced_ = forced_ || (ready && force != Vec3{0.0});
   if (heard && take(state, now)) {
     if (!calibrated_ || !powered_) {
       // What it says of its position means nothing.

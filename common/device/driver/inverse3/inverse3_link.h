@@ -82,7 +82,7 @@ class Inverse3Link final : public DriverLink {
   int misses_ = 0;                           ///< in a row
   bool calibrated_ = true, powered_ = true;  ///< as the device's status has it; true: nothing is known
   bool grip_ = false;                        ///< a grip was seen
-  bool felt_ = false;                        ///< a force was asked for: something is held
+  bool forced_ = false;                      ///< a force was asked for: something is held
   std::string sent_, heard_;
 };
 

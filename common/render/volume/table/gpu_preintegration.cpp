@@ -122,9 +122,9 @@ void GpuPreintegration::fill(std::span<const OpticalEntry> entries, std::size_t 
   lengths_ = lengths;
 
   static_assert(sizeof(OpticalEntry) == 4 * sizeof(float), "the shader reads entries as vec4");
-  const GlBuffer told = make_buffer(entries);
+  const GlBuffer entry_buffer = make_buffer(entries);
   glUseProgram(program_.name());
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, told.name());
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEntries, entry_buffer.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kCellLengths, cell_lengths_.name());
   // As integers: how a driver rounds numbers of [0, 1] to 16 bits is its own affair.
   glBindImageTexture(kTable, table.name(), 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16UI);

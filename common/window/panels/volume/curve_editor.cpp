@@ -41,7 +41,7 @@ class Canvas {
   CurveRange range_;
 };
 
-std::string told(const Knot& knot, const HapticTransferFunction& function, const CurveLabels& labels) {
+std::string knot_text(const Knot& knot, const HapticTransferFunction& function, const CurveLabels& labels) {
   const std::string value =
       short_number(knot.value * labels.units) + (labels.unit.empty() ? "" : " ") + labels.unit;
   return function.constant() ? value : labels.measure + " " + short_number(knot.measure) + ": " + value;
@@ -110,12 +110,12 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
   const bool hovered = ImGui::IsItemHovered();
   draw(canvas, shown, function, dragged >= 0 ? dragged : hovered && near ? static_cast<int>(*near) : kNoKnot);
   if (hovered && near) {
-    ImGui::SetTooltip("%s", told(function.knots()[*near], function, labels).c_str());
+    ImGui::SetTooltip("%s", knot_text(function.knots()[*near], function, labels).c_str());
   } else if (hovered) {
     ImGui::SetTooltip("drag a knot; a double click adds one, a right click takes one out");
   }
   if (function.constant()) {
-    ImGui::TextDisabled("%s everywhere", told(function.knots()[0], function, labels).c_str());
+    ImGui::TextDisabled("%s everywhere", knot_text(function.knots()[0], function, labels).c_str());
   } else {
     ImGui::TextDisabled("%s %s to %s", labels.measure.c_str(), short_number(shown.low_measure).c_str(),
                         short_number(shown.high_measure).c_str());

@@ -52,9 +52,9 @@ void remove(Isovalues& isovalues, int index) {
 
 /// A slider each, and the buttons that add and remove one.
 /// @param what "isosurface", or the "layer" of a heart.
-Isovalues edit_values(const HapticLevels& felt, const std::string& what) {
-  Isovalues isovalues = felt.isovalues;
-  const double lowest = felt.field->lowest(), highest = felt.field->highest();
+Isovalues edit_values(const HapticLevels& levels, const std::string& what) {
+  Isovalues isovalues = levels.isovalues;
+  const double lowest = levels.field->lowest(), highest = levels.field->highest();
   int removed = -1;
   for (int i = 0; i < isovalues.count; ++i) {
     double& value = isovalues.value[static_cast<std::size_t>(i)];
@@ -69,7 +69,7 @@ Isovalues edit_values(const HapticLevels& felt, const std::string& what) {
       ImGui::TextUnformatted("isovalue");
     }
     ImGui::PopID();
-    if (!std::isfinite(value)) value = felt.isovalues.value[static_cast<std::size_t>(i)];
+    if (!std::isfinite(value)) value = levels.isovalues.value[static_cast<std::size_t>(i)];
   }
   if (removed >= 0) remove(isovalues, removed);
   if (isovalues.count < Isovalues::kMax && small_button(("+ " + what).c_str())) {
@@ -97,16 +97,16 @@ Isovalues with_another(const Isovalues& isovalues, double lowest, double highest
   return result;
 }
 
-void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& felt,
+void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& levels,
                       const HapticSurfaces::Made& made, std::optional<double> fraction,
                       const std::string& mode, bool flow) {
-  if (!felt.field) return;
+  if (!levels.field) return;
   // The layers of a heart hold as such.
   const bool chosen = mode == kIsosurfaceMode;
-  draw_histogram(chosen ? "histogram" : "depths", made.histogram.get(), *felt.field, felt.isovalues,
+  draw_histogram(chosen ? "histogram" : "depths", made.histogram.get(), *levels.field, levels.isovalues,
                  fraction);
-  const Isovalues edited = edit_values(felt, chosen ? "isosurface" : "layer");
-  if (!(edited == felt.isovalues)) settings.isovalues = edited;
+  const Isovalues edited = edit_values(levels, chosen ? "isosurface" : "layer");
+  if (!(edited == levels.isovalues)) settings.isovalues = edited;
   if (chosen) edit_setting("surface", settings.hold);
   edit_setting("depth", settings.depth, kMillimetres);
   if (!chosen || settings.hold == IsosurfaceHold::kLayer)

@@ -15,7 +15,7 @@ namespace palpate {
 /// @param felt what is felt now.  @param fraction as HapticSurfaces::fraction().
 /// @param mode by name: the isosurface mode alone lets its hold be chosen; layers hold as such.
 /// @param flow whether a streamline can lead to the surface.
-void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& felt,
+void edit_isosurfaces(IsosurfaceSettings& settings, const HapticLevels& levels,
                       const HapticSurfaces::Made& made, std::optional<double> fraction,
                       const std::string& mode, bool flow);
 

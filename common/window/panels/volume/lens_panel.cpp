@@ -29,17 +29,17 @@ std::optional<double> reach_of(const ConvexShape& shape) {
 
 enum class LensWish : std::uint8_t { kNone, kMove, kRemove };
 
-/// Has the lens show what `look` does.
-void take_appearance(Lens& lens, const Lens& look) {
-  lens.transfer = look.transfer;
-  lens.regions = look.regions;
-  lens.colored = look.colored;
+/// Has the lens show what `appearance` does.
+void take_appearance(Lens& lens, const Lens& appearance) {
+  lens.transfer = appearance.transfer;
+  lens.regions = appearance.regions;
+  lens.colored = appearance.colored;
   lens.own_transfer = false;
 }
 
 /// Which field a lens shows, and whether by a transfer function of its own. An edit that would take more
 /// transfer functions than a picture can have is taken back.
-void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& looks,
+void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& appearances,
                 const std::string& context, CachedHistogram& histograms) {
   const Lens before = view.lenses[index];
   Lens& lens = view.lenses[index];
@@ -48,18 +48,18 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& lo
     if (begin_combo("shows", now.c_str())) {
       for (std::size_t field = 0; field <= view.fields.size(); ++field) {
         const std::string& name = field == 0 ? context : view.fields[field - 1].name;
-        if (!selectable(name.c_str(), lens.field == field) || field >= looks.size()) continue;
+        if (!selectable(name.c_str(), lens.field == field) || field >= appearances.size()) continue;
         lens.field = field;
-        take_appearance(lens, looks[field]);
+        take_appearance(lens, appearances[field]);
       }
       ImGui::EndCombo();
     }
     hint("the scalar that is seen in the lens");
   }
-  const Lens& look = looks[std::min(lens.field, looks.size() - 1)];
+  const Lens& appearance = appearances[std::min(lens.field, appearances.size() - 1)];
   const bool toggled = checkbox("own transfer function", &lens.own_transfer);
   hint("colours and opacities of this lens alone; else those of all lenses, below");
-  if (toggled && !lens.own_transfer) take_appearance(lens, look);
+  if (toggled && !lens.own_transfer) take_appearance(lens, appearance);
   if (lens.own_transfer) {
     EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
     if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
@@ -145,10 +145,10 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
 
 }  // namespace
 
-std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& looks,
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& appearances,
                                            const std::string& context, const Box& bounds,
                                            CachedHistogram& histograms) {
-  const Lens model = looks.empty() ? Lens() : looks.front();
+  const Lens model = appearances.empty() ? Lens() : appearances.front();
   std::optional<std::size_t> gone, taken;
   constexpr float kRows = 14.0F;
   const bool scrolls = begin_list("lenses", view.lenses.size(), kRows);
@@ -158,8 +158,8 @@ std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<L
     const LensWish wish = draw_lens(view.lenses[i], model, bounds, unfolded, view.context.level > 0);
     if (wish == LensWish::kMove) taken = i;
     if (wish == LensWish::kRemove) gone = i;
-    if (unfolded && !looks.empty() && !view.lenses[i].cut && !view.lenses[i].colored)
-      edit_shown(view, i, looks, context, histograms);
+    if (unfolded && !appearances.empty() && !view.lenses[i].cut && !view.lenses[i].colored)
+      edit_shown(view, i, appearances, context, histograms);
     ImGui::PopID();
   }
   if (scrolls) ImGui::EndChild();

@@ -167,7 +167,7 @@ bool edit_appearance(RegionTransfer& transfer, int chosen) {
 }  // namespace
 
 bool draw_region_editor(const char* id, const PlaceHistogram& histogram, RegionTransfer& transfer,
-                        std::optional<double> felt) {
+                        std::optional<double> isovalue) {
   ImGui::PushID(id);
   ImGuiStorage& kept = *ImGui::GetStateStorage();
   int& region = *kept.GetIntRef(ImGui::GetID("region"), kNoRegion);
@@ -192,8 +192,8 @@ bool draw_region_editor(const char* id, const PlaceHistogram& histogram, RegionT
   draw_places(canvas, histogram);
   for (std::size_t i = 0; i < transfer.regions().size(); ++i)
     draw_region(canvas, transfer.regions()[i], static_cast<int>(i) == chosen);
-  if (felt) {
-    list.AddLine(canvas.pixel({*felt, range.lower.y}), canvas.pixel({*felt, range.upper.y}),
+  if (isovalue) {
+    list.AddLine(canvas.pixel({*isovalue, range.lower.y}), canvas.pixel({*isovalue, range.upper.y}),
                  ImGui::GetColorU32(ImGuiCol_PlotLinesHovered), 1.5F);
   }
   list.PopClipRect();

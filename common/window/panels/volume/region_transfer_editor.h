@@ -15,6 +15,6 @@ namespace palpate {
 /// @param felt value at the probe, marked; none: no hand is there.
 /// @return whether `transfer` changed.
 bool draw_region_editor(const char* id, const PlaceHistogram& histogram, RegionTransfer& transfer,
-                        std::optional<double> felt = std::nullopt);
+                        std::optional<double> isovalue = std::nullopt);
 
 }  // namespace palpate

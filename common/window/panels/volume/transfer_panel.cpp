@@ -170,11 +170,11 @@ std::vector<std::string> preset_names() {
 
 /// The editor of the kind that `transfer` is. @return whether it changed.
 bool edit_either(EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
-                 CachedHistogram& histograms, std::optional<double> felt) {
+                 CachedHistogram& histograms, std::optional<double> isovalue) {
   if (transfer.regions)
-    return draw_region_editor("regions", histograms.places_of(image), *transfer.regions, felt);
+    return draw_region_editor("regions", histograms.places_of(image), *transfer.regions, isovalue);
   return draw_transfer_editor("points", {image->lowest, image->highest}, histograms.of(image),
-                              transfer.colors, felt);
+                              transfer.colors, isovalue);
 }
 
 }  // namespace
@@ -200,7 +200,7 @@ const PlaceHistogram& CachedHistogram::places_of(const std::shared_ptr<const Vol
 
 bool choose_transfer(const char* label, const char* setting_name, const char* automatic, std::string& words,
                      EditedTransfer& transfer, const std::shared_ptr<const VolumeImage>& image,
-                     CachedHistogram& histograms, std::string& file, std::optional<double> felt) {
+                     CachedHistogram& histograms, std::string& file, std::optional<double> isovalue) {
   const bool own = words.starts_with("points:") || words.starts_with("regions:");
   const std::string now = words.empty() ? automatic : own ? kOwnWords : words;
   ImGui::PushID(label);
@@ -212,7 +212,7 @@ bool choose_transfer(const char* label, const char* setting_name, const char* au
     ImGui::EndCombo();
   }
   explain(setting_name);
-  if (edit_either(transfer, image, histograms, felt))
+  if (edit_either(transfer, image, histograms, isovalue))
     words = transfer.regions ? region_text(*transfer.regions) : transfer_text(transfer.colors);
   input_text("##file", &file);
   hint("the file that load and save mean");
@@ -248,7 +248,7 @@ bool choose_own_transfer(const char* label, EditedTransfer& transfer,
 }
 
 bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,
-                          ColorTransfer& transfer, std::optional<double> felt) {
+                          ColorTransfer& transfer, std::optional<double> isovalue) {
   if (!(values.low < values.high)) return false;
   ImGui::PushID(id);
   int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), kNone);
@@ -262,7 +262,7 @@ bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHi
   bool changed = edit(canvas, span, transfer, dragged, chosen);
   const bool hovered = ImGui::IsItemHovered();
   draw(canvas, span, histogram, transfer, chosen);
-  if (felt) draw_mark(canvas, span, *felt);
+  if (isovalue) draw_mark(canvas, span, *isovalue);
   if (hovered) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     ImGui::SetTooltip("%s: opacity %.2f\ndrag a point; a double click adds one, a right click takes one out",

@@ -47,7 +47,7 @@ struct EditedTransfer {
                                    std::string& words, EditedTransfer& transfer,
                                    const std::shared_ptr<const VolumeImage>& image,
                                    CachedHistogram& histograms, std::string& file,
-                                   std::optional<double> felt = std::nullopt);
+                                   std::optional<double> isovalue = std::nullopt);
 
 /// The same of one lens, without words and files: what is chosen and edited goes into `transfer`.
 /// @return whether it changed.
@@ -59,6 +59,6 @@ bool choose_own_transfer(const char* label, EditedTransfer& transfer,
 /// @param id apart from other editors of the panel. @param histogram may be null. @param felt as above.
 /// @return whether `transfer` changed.
 bool draw_transfer_editor(const char* id, const ValueSpan& values, const ValueHistogram* histogram,
-                          ColorTransfer& transfer, std::optional<double> felt = std::nullopt);
+                          ColorTransfer& transfer, std::optional<double> isovalue = std::nullopt);
 
 }  // namespace palpate

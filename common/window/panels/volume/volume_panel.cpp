@@ -69,7 +69,7 @@ EditedTransfer focus_of(const VolumeView& volume, const SceneState& scene) {
   for (const Lens& lens : volume.lenses) {
     if (shows_shared(lens) && (lens.transfer || lens.regions)) return of(lens);
   }
-  return of(scene.look(0));
+  return of(scene.appearance(0));
 }
 
 void set_focus(VolumeView& volume, const EditedTransfer& focus) {
@@ -92,12 +92,12 @@ void draw_values_at_probe(const PanelState& state, const std::string& field, con
 
 void draw_volume_appearance(PanelState& state, const SceneState& scene, const std::string& field,
                             const std::vector<std::string>& fields, std::vector<std::string>& secondary,
-                            std::optional<double> felt, VolumeView& volume, PanelActions& actions) {
+                            std::optional<double> isovalue, VolumeView& volume, PanelActions& actions) {
   const ValueHistogram* const histogram = state.histogram.of(volume.image);
   EditedTransfer colors{volume.transfer, volume.regions};
   actions.save_transfer |=
       choose_transfer("colours", "transfer-function", "from the histogram", state.document.volume.transfer,
-                      colors, volume.image, state.histogram, state.transfer_file, felt);
+                      colors, volume.image, state.histogram, state.transfer_file, isovalue);
   volume.transfer = std::move(colors.colors);
   volume.regions = std::move(colors.regions);
   draw_rays(volume);
@@ -113,7 +113,7 @@ void draw_volume_appearance(PanelState& state, const SceneState& scene, const st
     if (section("REGION")) actions.region = edit_region(*state.region, *volume.image);
   }
   if (!section("LENSES")) return;
-  actions.lens = draw_lens_panel(volume, scene.looks, field, scene.info->bounds, state.histogram);
+  actions.lens = draw_lens_panel(volume, scene.appearances, field, scene.info->bounds, state.histogram);
   choose_secondary(secondary, field, fields);
   if (volume.lenses.empty()) return;
   EditedTransfer focus = focus_of(volume, scene);

@@ -17,7 +17,7 @@ void draw_volume(PanelContext& on);
 /// for lenses. @param felt value at the probe.
 void draw_volume_appearance(PanelState& state, const SceneState& scene, const std::string& field,
                             const std::vector<std::string>& fields, std::vector<std::string>& secondary,
-                            std::optional<double> felt, VolumeView& volume, PanelActions& actions);
+                            std::optional<double> isovalue, VolumeView& volume, PanelActions& actions);
 
 /// How rays are cast.
 void draw_rays(VolumeView& volume);

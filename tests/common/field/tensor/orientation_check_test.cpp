@@ -37,11 +37,11 @@ Made helix(const Mat3& turn) {
 
 TEST(AxisTurns, AreTwentyFourAndDifferForDirectionsWithoutSign) {
   std::set<std::string> words;
-  for (const AxisTurn& turn : axis_turns()) words.insert(turn.words());
+  for (const AxisTurn& turn : axis_turns()) words.insert(turn.text());
   EXPECT_EQ(words.size(), 24U);
   EXPECT_TRUE(axis_turns().front().is_identity());
   const AxisTurn turn{{1, 0, 2}, {false, false, true}};
-  EXPECT_EQ(turn.words(), "--permute jik --flip k");
+  EXPECT_EQ(turn.text(), "--permute jik --flip k");
   EXPECT_EQ(turn.matrix() * Vec3(1.0, 2.0, 3.0), Vec3(2.0, 1.0, -3.0));
 }
 
@@ -52,12 +52,12 @@ TEST(OrientationCheck, FindsTheWayBackFromWrongTurns) {
     const Made made = helix(wrong.matrix());
     const OrientationVerdict verdict =
         check_orientation(DirectionMap(made.tensors, made.topology, 2), made.topology, {}, 2);
-    EXPECT_EQ(verdict.suspicious, !wrong.is_identity()) << wrong.words() << " gain " << verdict.gain;
+    EXPECT_EQ(verdict.suspicious, !wrong.is_identity()) << wrong.text() << " gain " << verdict.gain;
     if (!verdict.suspicious) continue;
     // Up to the sign, both turns together change nothing.
     const Mat3 both = verdict.best.turn.matrix() * wrong.matrix();
     EXPECT_TRUE(both == Mat3{1.0} || both == Mat3{-1.0})
-        << wrong.words() << " is answered by " << verdict.advice << ", gain " << verdict.gain;
+        << wrong.text() << " is answered by " << verdict.advice << ", gain " << verdict.gain;
   }
 }
 

@@ -45,7 +45,7 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
         static_cast<const LoadRequest&>(document.input);
     expect("request", files, solution, refine, series, gaps, markers);
     const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, mesher, volume,
-                 remesher, cache] = static_cast<const InputWords&>(document.input);
+                 remesher, cache] = static_cast<const InputTexts&>(document.input);
     expect("input", example, field, time, cells, directions, mesher, volume, cache);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);

@@ -92,7 +92,7 @@ TEST_F(MeshCacheTest, TheMesherRunsOnceForAWall) {
     EXPECT_EQ(second.cells_volume, first.cells_volume);
     EXPECT_EQ(second.counts.outside, first.counts.outside);
     EXPECT_EQ(second.counts.shared, first.counts.shared);
-    EXPECT_NE(first.notes.back().find("mesh kept in"), std::string::npos) << first.notes.back();
+    EXPECT_NE(first.notes.back().find("mesh cached in"), std::string::npos) << first.notes.back();
     EXPECT_NE(second.notes.back().find("mesh taken from"), std::string::npos) << second.notes.back();
     // Nothing is kept for others, so they need the mesher.
     EXPECT_THROW((void)made(wall(2), options), Error);

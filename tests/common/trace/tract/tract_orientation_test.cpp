@@ -47,7 +47,7 @@ struct Bundle {
 TEST(TractTurn, IsReadAndWritten) {
   EXPECT_TRUE(parse_tract_turn("i,j,k").is_identity());
   for (const char* words : {"-i,j,k", "k,-i,j", "-x,-y,z", "y,x,-z"})
-    EXPECT_EQ(parse_tract_turn(words).words(), words);
+    EXPECT_EQ(parse_tract_turn(words).text(), words);
   for (const char* words : {"", "i", "i,j", "i,j,j", "i,y,k", "i,j,k,", "--i,j,k", "i;j;k"})
     EXPECT_THROW((void)parse_tract_turn(words), Error) << words;
 }
@@ -66,7 +66,7 @@ TEST(TractTurn, TurnsAboutTheCentreOfTheImageOrTheOrigin) {
 TEST(TractOrientation, IsSilentOnTractsThatFit) {
   const Bundle bundle;
   const TractFit fit = fit_of_tracts(*bundle.field, bundle.lines, 2);
-  EXPECT_FALSE(fit.suspicious) << fit.best.words() << " " << fit.gain;
+  EXPECT_FALSE(fit.suspicious) << fit.best.text() << " " << fit.gain;
   EXPECT_GT(fit.inside, 0.9);
   // Half a voxel off at a radius of eight: some four degrees.
   EXPECT_LT(fit.angle, 5.0);
@@ -81,11 +81,11 @@ TEST(TractOrientation, FindsTheWayBackFromWrongTurns) {
     turn_tracts(map_of(parse_tract_turn(words), *bundle.field->voxels()), wrong);
     const TractFit fit = fit_of_tracts(*bundle.field, wrong, 2);
     ASSERT_TRUE(fit.suspicious) << words << " gain " << fit.gain;
-    EXPECT_NE(fit_sentence(fit, "--turn").find("try --turn=" + fit.best.words()), std::string::npos);
+    EXPECT_NE(fit_sentence(fit, "--turn").find("try --turn=" + fit.best.text()), std::string::npos);
     turn_tracts(map_of(fit.best, *bundle.field->voxels()), wrong);
     for (std::size_t p = 0; p < wrong.points.size(); ++p) {
       ASSERT_LT(glm::distance(wrong.points[p], bundle.lines.points[p]), 1e-3F)
-          << words << " is answered by " << fit.best.words();
+          << words << " is answered by " << fit.best.text();
     }
   }
 }

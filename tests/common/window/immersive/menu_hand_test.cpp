@@ -67,7 +67,7 @@ class HeldLink final : public DriverLink {
 
 const PictureArea kArea{0.0, 0.0, 600.0, 400.0};
 constexpr double kStiffness = 200.0;  // [N/m]
-// Of the menu below, in entries: the slider of time steps 0 to 3, under "Touch", "Look", "Show" and "Undo".
+// Of the menu below, in entries: the slider of time steps 0 to 3, under "Touch", "View", "Show" and "Undo".
 constexpr double kLeft = 0.6, kLength = SpaceMenu::kColumn - 1.2, kDown = 4.0 + 1.05;
 
 class MenuHandTest : public testing::Test {

@@ -12,13 +12,13 @@ namespace palpate {
 [[nodiscard]] SceneView study_view(const Box& bounds, const Mat3& axes, bool flat, double aspect);
 
 /// Adds to the labels of a picture. Sizes are parts of the height of the view.
-class StudyLook {
+class StudyAppearance {
  public:
   static constexpr Vec3f kBlue{0.08F, 0.22F, 0.95F}, kRed{0.86F, 0.08F, 0.08F}, kDark{0.05F, 0.05F, 0.06F},
       kWhite{0.97F, 0.97F, 0.95F};
 
   /// `view` outlives it and has its camera.
-  explicit StudyLook(SceneView& view) : view_(view) {}
+  explicit StudyAppearance(SceneView& view) : view_(view) {}
 
   /// @param times larger than in a window, and before what is smaller: where the picture is small.
   void disc(const Vec3& center, const Vec3f& color, double times = 1.0);

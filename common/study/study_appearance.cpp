@@ -1,4 +1,4 @@
-#include "common/study/study_look.h"
+#include "common/study/study_appearance.h"
 
 #include <cmath>
 #include <numbers>
@@ -39,17 +39,17 @@ SceneView study_view(const Box& bounds, const Mat3& axes, bool flat, double aspe
   return view;
 }
 
-void StudyLook::add(const Vec3& origin, const Mat3& axes, std::vector<LabelShape> shapes) {
+void StudyAppearance::add(const Vec3& origin, const Mat3& axes, std::vector<LabelShape> shapes) {
   view_.labels.push_back({.origin = origin, .axes = axes, .shapes = std::move(shapes)});
 }
 
-void StudyLook::disc(const Vec3& center, const Vec3f& color, double times) {
+void StudyAppearance::disc(const Vec3& center, const Vec3f& color, double times) {
   constexpr int kCorners = 24;
   add(center + size(0.002 * times) * view_.camera.axes[2], view_.camera.axes,
       {{.corners = ring(size(0.011 * times), kCorners), .color = color}});
 }
 
-void StudyLook::ribbon(const std::vector<Vec3>& points, const Vec3f& color, bool arrow) {
+void StudyAppearance::ribbon(const std::vector<Vec3>& points, const Vec3f& color, bool arrow) {
   const Vec3 back = view_.camera.axes[2];
   const double half = size(0.003);
   // Just before what it covers, so that both do not fight for the same depth.
@@ -70,7 +70,7 @@ void StudyLook::ribbon(const std::vector<Vec3>& points, const Vec3f& color, bool
   }
 }
 
-void StudyLook::circle(const Vec3& center, double radius) {
+void StudyAppearance::circle(const Vec3& center, double radius) {
   constexpr int kCorners = 96;
   const double half = size(0.002);
   const std::vector<Vec2> inner = ring(radius - half, kCorners), outer = ring(radius + half, kCorners);
@@ -82,7 +82,7 @@ void StudyLook::circle(const Vec3& center, double radius) {
   add(center + size(0.001) * view_.camera.axes[2], view_.camera.axes, std::move(shapes));
 }
 
-void StudyLook::ground(const Box& bounds, double height) {
+void StudyAppearance::ground(const Box& bounds, double height) {
   constexpr int kFields = 8;
   const Vec3 step = bounds.size() / static_cast<double>(kFields);
   std::vector<LabelShape> shapes;
@@ -96,7 +96,7 @@ void StudyLook::ground(const Box& bounds, double height) {
   add({bounds.lower.x, bounds.lower.y, height}, Mat3{1.0}, std::move(shapes));
 }
 
-void StudyLook::crosshair(const Vec3& center) {
+void StudyAppearance::crosshair(const Vec3& center) {
   const double thin = size(0.0014), gap = size(0.004), arm = size(0.026);
   std::vector<LabelShape> shapes;
   // A light seam keeps it apart from dark lines behind it.
