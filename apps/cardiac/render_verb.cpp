@@ -27,9 +27,7 @@ void check(const Document& options) {
   (void)parse_cut(options.heart.cut);
   (void)lens_of(options.heart);
   if (!options.tracing.seeds.empty()) (void)parse_seeds(options.tracing.seeds);
-  if (!options.hand.path.empty()) (void)read_probe_path(options.hand.path.string());
-  (void)find_mode(modes_of(FieldKind::kFibre), options.touch.mode);
-  (void)touch_settings(options.touch);
+  check_hand(modes_of(FieldKind::kFibre), options);
 }
 
 /// @throws Error (usage) where what is asked for takes layers.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <span>
 #include <utility>
 
+#include "apps/dtmri/csv_row.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
 #include "common/base/text.h"
@@ -39,12 +39,6 @@ std::shared_ptr<const ScalarField> profiled_field(const Document& options, const
   block.topology = made.image.topology;
   block.arrays.push_back(make_array(options.output.measure, Association::kPoint, 1, std::move(values)));
   return make_scalar_field({block}, {options.output.measure}, title, threads);
-}
-
-void add_number(std::string& row, double value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  (row += ',').append(buffer.data(), result.ptr);
 }
 
 void write_profile(const std::filesystem::path& path, const BundleProfile& profile, bool overwrite) {

@@ -1,27 +1,18 @@
 #include "apps/dtmri/tract_table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/dtmri/csv_row.h"
 #include "common/base/files/output_file.h"
 #include "common/base/index.h"
 
 namespace palpate {
 namespace {
-
-/// The shortest text that reads back as the same number.
-template <typename T>
-void add_number(std::string& row, T value) {
-  std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  (row += ',').append(buffer.data(), result.ptr);
-}
 
 /// Lengths along the line from its seed, below zero before it.
 std::vector<double> lengths_from(const Vec3f& seed, std::span<const Vec3f> line) {

@@ -98,8 +98,8 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   if (!options.hand.path.empty()) {
     show_probe(drawn.view, read_probe_path(options.hand.path.string()), mode, options, scalar, field);
   }
-  const bool felt = surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty();
-  if (options.touch.fade_lines && felt) fade_lines(drawn.view);
+  const bool haptic = surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty();
+  if (options.touch.fade_lines && haptic) fade_lines(drawn.view);
   return drawn;
 }
 
@@ -118,9 +118,7 @@ Verb render_verb(std::vector<HapticMode> modes, std::vector<UsageExample> exampl
                       check_lines(given.tracing, view_seeds(given));
                       check_flow_volume(given.volume);
                       (void)trace_options(given, "both");
-                      if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
-                      (void)find_mode(modes, given.touch.mode);
-                      (void)touch_settings(given.touch);
+                      check_hand(modes, given);
                     },
                 .check_input = check_input,
                 .make = [&modes](Input& input, const Document& given, const VerbContext& where,

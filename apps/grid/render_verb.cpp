@@ -48,7 +48,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   volume.secondary = load_secondary(input, options.volume, &context.progress);
   const auto& image = volume.image;
   if (touched && !volume.field) {
-    throw input_error({input.title(), "", "is flat: it has no inside to be felt", "a volume", ""});
+    throw input_error({input.title(), "", "is flat: it has no inside to touch", "a volume", ""});
   }
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();
@@ -74,9 +74,7 @@ Verb volume_render_verb(std::vector<HapticMode> modes, std::vector<UsageExample>
                     [&modes](const Document& given) {
                       check_volume_options(given.volume);
                       (void)slice_panes_of(given.panes, Box());
-                      if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
-                      (void)find_mode(modes, given.touch.mode);
-                      (void)touch_settings(given.touch);
+                      check_hand(modes, given);
                     },
                 .check_input = check_input,
                 .make = [&modes](Input& input, const Document& given, const VerbContext& where,

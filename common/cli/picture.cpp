@@ -14,9 +14,11 @@
 #include "common/compose/line_view.h"
 #include "common/compose/slice_panes_text.h"
 #include "common/compose/stereo_text.h"
+#include "common/device/probe_path.h"
 #include "common/hand/drawn/annotation_list.h"
 #include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/technique/scene_pick.h"
+#include "common/hand/touch_options.h"
 #include "common/hand/workbench/head_view.h"
 #include "common/render/png.h"
 #include "common/render/render_panes.h"
@@ -132,6 +134,12 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
 }
 
 }  // namespace
+
+void check_hand(std::span<const HapticMode> modes, const Document& given) {
+  if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
+  (void)find_mode(modes, given.touch.mode);
+  (void)touch_settings(given.touch);
+}
 
 ExitCode draw_picture(const PictureMaker& maker, const Document& options, const VerbContext& context) {
   Console& console = context.console;

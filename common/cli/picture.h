@@ -3,12 +3,14 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "common/cli/explorer.h"
 #include "common/cli/summaries.h"
 #include "common/compose/resampled_volume.h"
+#include "common/hand/mode/haptic_mode.h"
 #include "common/render/scene_view.h"
 
 namespace palpate {
@@ -33,6 +35,9 @@ struct PictureMaker {
   /// @param aspect width / height. @throws Error, Cancelled.
   std::function<DrawnScene(Input&, const Document&, const VerbContext&, double aspect)> make;
 };
+
+/// Refuses a path of a hand, a mode and settings of touch that cannot be. @throws Error.
+void check_hand(std::span<const HapticMode> modes, const Document& given);
 
 /// Runs a verb that draws. @throws Error, Cancelled.
 ExitCode draw_picture(const PictureMaker& maker, const Document& options, const VerbContext& context);

@@ -48,7 +48,7 @@ std::string constraint_force_plot(const Report& report) {
        .y_label = "force error of the worst step [N]",
        .series = series_of(report.constraint, [](const ConstraintRow& r) { return r.force_error.max; }),
        .floor = report.constraint.release_force,
-       .floor_label = "force at which a line lets go"});
+       .floor_label = "force at the release distance of a line"});
 }
 
 std::string constraint_distance_plot(const Report& report) {
@@ -81,8 +81,8 @@ std::string constraint_section(const ConstraintSweep& sweep) {
       "without any limit of work. The distance of the proxy from that line and how far it lags behind along "
       "it are "
       "divided by the diagonal; the force error is the stiffness times its distance from where it should be. "
-      "A line "
-      "lets go at " +
+      "The release "
+      "force of a line is " +
       three_digits(sweep.release_force) + " N. Times are processor time of the thread and contain " +
       three_digits(sweep.clock_microseconds) + " us for reading the clock.");
   return out + table(sweep);

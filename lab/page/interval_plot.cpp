@@ -18,10 +18,6 @@ std::string attribute(const char* name, double value) {
   return std::string(" ") + name + "=\"" + svg_number(value) + "\"";
 }
 
-std::string label(double x, double y, const std::string& words, const char* more) {
-  return "<text" + attribute("x", x) + attribute("y", y) + " " + more + ">" + escaped(words) + "</text>\n";
-}
-
 std::string stroke(double x0, double y0, double x1, double y1, const char* more) {
   return "<line" + attribute("x1", x0) + attribute("y1", y0) + attribute("x2", x1) + attribute("y2", y1) +
          " " + more + "/>\n";
@@ -37,19 +33,21 @@ std::string svg(const IntervalPlot& plot) {
       if (std::isfinite(top)) upper = std::max(upper, top);
     }
   }
-  std::string body = label(kLeftEdge, 24.0, plot.title, "font-size=\"16\" font-weight=\"bold\"");
+  std::string body = svg_text(kLeftEdge, 24.0, plot.title, "font-size=\"16\" font-weight=\"bold\"");
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const double x = kLeftEdge + 110.0 * static_cast<double>(s);
     body += "<rect" + attribute("x", x) + attribute("y", 36.0) + " width=\"12\" height=\"12\" fill=\"" +
-            kFills[s % kFills.size()] + "\"/>\n" + label(x + 18.0, 47.0, plot.series[s], "font-size=\"13\"");
+            kFills[s % kFills.size()] + "\"/>\n" +
+            svg_text(x + 18.0, 47.0, plot.series[s], "font-size=\"13\"");
   }
   if (upper > 0.0) {
     const double step = tick_step(upper), most = step * std::ceil(upper / step * 1.02);
     const double bottom = kHigh - kBottomEdge, unit = (bottom - kTopEdge) / most;
     for (int i = 0; i * step <= most * (1.0 + 1e-9); ++i) {
       const double y = bottom - unit * i * step;
-      body += stroke(kLeftEdge, y, kWide - kRightEdge, y, "stroke=\"#ddd\"") +
-              label(kLeftEdge - 8.0, y + 4.0, short_number(i * step), "font-size=\"12\" text-anchor=\"end\"");
+      body +=
+          stroke(kLeftEdge, y, kWide - kRightEdge, y, "stroke=\"#ddd\"") +
+          svg_text(kLeftEdge - 8.0, y + 4.0, short_number(i * step), "font-size=\"12\" text-anchor=\"end\"");
     }
     const double room = (kWide - kLeftEdge - kRightEdge) / static_cast<double>(plot.groups.size());
     for (std::size_t g = 0; g < plot.groups.size(); ++g) {
@@ -70,14 +68,15 @@ std::string svg(const IntervalPlot& plot) {
                 stroke(middle - cap, y - half, middle + cap, y - half, ink) +
                 stroke(middle - cap, y + half, middle + cap, y + half, ink);
       }
-      body += label(left + 0.5 * room, bottom + 20.0, group.name, "font-size=\"13\" text-anchor=\"middle\"");
+      body +=
+          svg_text(left + 0.5 * room, bottom + 20.0, group.name, "font-size=\"13\" text-anchor=\"middle\"");
     }
     body += stroke(kLeftEdge, bottom, kWide - kRightEdge, bottom, "stroke=\"#333\"");
   } else {
     body +=
-        label(0.5 * kWide, 0.5 * kHigh, "nothing was measured", "font-size=\"14\" text-anchor=\"middle\"");
+        svg_text(0.5 * kWide, 0.5 * kHigh, "nothing was measured", "font-size=\"14\" text-anchor=\"middle\"");
   }
-  body += label(
+  body += svg_text(
       18.0, 0.5 * kHigh, plot.y_label,
       ("font-size=\"13\" text-anchor=\"middle\" transform=\"rotate(-90 18 " + svg_number(0.5 * kHigh) + ")\"")
           .c_str());

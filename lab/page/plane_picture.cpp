@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "lab/page/plot.h"
 
@@ -19,11 +18,6 @@ const char* color_of(std::size_t index) {
   constexpr std::array<const char*, 6> kColors{"#777777", "#0072b2", "#d55e00",
                                                "#009e73", "#cc79a7", "#e69f00"};
   return kColors[index % kColors.size()];
-}
-
-std::string text_at(double x, double y, const std::string& text, int size, const char* more = "") {
-  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" font-size=\"" + std::to_string(size) +
-         "\"" + more + ">" + escaped(text) + "</text>\n";
 }
 
 /// Where the plane lies in one panel.
@@ -79,7 +73,7 @@ std::string svg(const PlanePicture& picture) {
     const std::string box = "x=\"" + svg_number(panel.x) + "\" y=\"" + svg_number(panel.y) + "\" width=\"" +
                             svg_number(kPanelWidth) + "\" height=\"" + svg_number(height) + "\"";
     const std::string clip = "panel" + std::to_string(n);
-    body += text_at(panel.x, panel.y - 8.0, content.title, 14);
+    body += svg_text(panel.x, panel.y - 8.0, content.title, "font-size=\"14\"");
     body.append("<clipPath id=\"").append(clip).append("\"><rect ").append(box);
     body.append("/></clipPath>\n<g clip-path=\"url(#").append(clip).append(")\">\n");
     for (const PictureCurve& curve : content.curves) body += drawn(curve, panel, color_of(index_of(curve)));
@@ -88,7 +82,7 @@ std::string svg(const PlanePicture& picture) {
     body += "<line x1=\"" + svg_number(bar_x) + "\" y1=\"" + svg_number(bar_y) + "\" x2=\"" +
             svg_number(bar_x + panel.scale * picture.bar) + "\" y2=\"" + svg_number(bar_y) +
             "\" stroke=\"#222\" stroke-width=\"2.5\"/>\n" +
-            text_at(bar_x, bar_y - 5.0, picture.bar_label, 11);
+            svg_text(bar_x, bar_y - 5.0, picture.bar_label, "font-size=\"11\"");
   }
   double x = kGap;
   const double y = total - kLegend + 14.0;
@@ -97,7 +91,7 @@ std::string svg(const PlanePicture& picture) {
     PictureCurve sample = *legend[i];
     sample.points = sample.marks ? std::vector{Vec2{4.0, 4.0}, Vec2{12.0, 4.0}, Vec2{20.0, 4.0}}
                                  : std::vector{Vec2{0.0, 4.0}, Vec2{24.0, 4.0}};
-    body += drawn(sample, key, color_of(i)) + text_at(x + 30.0, y, sample.name, 12);
+    body += drawn(sample, key, color_of(i)) + svg_text(x + 30.0, y, sample.name, "font-size=\"12\"");
     constexpr double kPerLetter = 6.6;
     x += 44.0 + kPerLetter * static_cast<double>(sample.name.size());
   }
@@ -105,7 +99,7 @@ std::string svg(const PlanePicture& picture) {
          svg_number(total) + "\" width=\"" + svg_number(width) + "\" height=\"" + svg_number(total) +
          "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" "
          "fill=\"#fff\"/>\n" +
-         text_at(kGap, 26.0, picture.title, 16, " font-weight=\"bold\"") + body + "</svg>\n";
+         svg_text(kGap, 26.0, picture.title, "font-size=\"16\" font-weight=\"bold\"") + body + "</svg>\n";
 }
 
 }  // namespace palpate

@@ -71,10 +71,10 @@ std::string marker(std::size_t series, double x, double y, const std::string& co
   }
 }
 
-std::string text_at(double x, double y, const std::string& anchor, const std::string& text, int size = 13,
-                    const std::string& more = "") {
-  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" text-anchor=\"" + anchor +
-         "\" font-size=\"" + std::to_string(size) + "\"" + more + ">" + escaped(text) + "</text>\n";
+std::string anchored(double x, double y, const std::string& anchor, const std::string& text, int size = 13,
+                     const std::string& more = "") {
+  return svg_text(x, y, text,
+                  "text-anchor=\"" + anchor + "\" font-size=\"" + std::to_string(size) + "\"" + more);
 }
 
 std::string line_between(double x0, double y0, double x1, double y1, const std::string& style) {
@@ -105,18 +105,18 @@ std::string frame_of(const LogLogPlot& plot, const Axes& axes) {
   const std::string grid = "stroke=\"#ddd\" stroke-width=\"1\"";
   for (const Tick& tick : ticks(axes.x, true, kMaxTicks)) {
     out += line_between(axes.px(tick.value), kTop, axes.px(tick.value), kBottom, grid);
-    out += text_at(axes.px(tick.value), kBottom + 18, "middle", tick.text);
+    out += anchored(axes.px(tick.value), kBottom + 18, "middle", tick.text);
   }
   for (const Tick& tick : ticks(axes.y, true, kMaxTicks)) {
     out += line_between(kLeft, axes.py(tick.value), kRight, axes.py(tick.value), grid);
-    out += text_at(kLeft - 8, axes.py(tick.value) + 4, "end", tick.text);
+    out += anchored(kLeft - 8, axes.py(tick.value) + 4, "end", tick.text);
   }
   out += "<rect x=\"" + svg_number(kLeft) + "\" y=\"" + svg_number(kTop) + "\" width=\"" +
          svg_number(kRight - kLeft) + "\" height=\"" + svg_number(kBottom - kTop) +
          "\" fill=\"none\" stroke=\"#444\"/>\n";
-  out += text_at(0.5 * (kLeft + kRight), kBottom + 42, "middle", plot.x_label, 14);
-  out += text_at(22, 0.5 * (kTop + kBottom), "middle", plot.y_label, 14,
-                 " transform=\"rotate(-90 22 " + svg_number(0.5 * (kTop + kBottom)) + ")\"");
+  out += anchored(0.5 * (kLeft + kRight), kBottom + 42, "middle", plot.x_label, 14);
+  out += anchored(22, 0.5 * (kTop + kBottom), "middle", plot.y_label, 14,
+                  " transform=\"rotate(-90 22 " + svg_number(0.5 * (kTop + kBottom)) + ")\"");
   return out;
 }
 
@@ -180,8 +180,8 @@ std::string svg(const LogLogPlot& plot) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svg_number(width) + " " +
       svg_number(kHeight) + "\" width=\"" + svg_number(width) + "\" height=\"" + svg_number(kHeight) +
       "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
-  out += text_at(kLeft, 28, "start", plot.title, 16, " font-weight=\"bold\"");
-  if (!(highest_x > 0.0)) return out + text_at(kLeft, 80, "start", "nothing to draw") + "</svg>\n";
+  out += anchored(kLeft, 28, "start", plot.title, 16, " font-weight=\"bold\"");
+  if (!(highest_x > 0.0)) return out + anchored(kLeft, 80, "start", "nothing to draw") + "</svg>\n";
 
   const bool has_floor = std::isfinite(plot.floor) && plot.floor > 0.0;
   if (has_floor) {
@@ -193,7 +193,7 @@ std::string svg(const LogLogPlot& plot) {
   if (has_floor) {
     const double y = axes.py(plot.floor);
     out += line_between(kLeft, y, kRight, y, "stroke=\"#777\" stroke-width=\"1.4\" stroke-dasharray=\"7 5\"");
-    out += text_at(kRight - 6, y - 6, "end", plot.floor_label, 12);
+    out += anchored(kRight - 6, y - 6, "end", plot.floor_label, 12);
   }
   if (plot.diagonal) {
     const double low = std::max(axes.x.lower, axes.y.lower);
@@ -209,7 +209,7 @@ std::string svg(const LogLogPlot& plot) {
     out += line_between(kLegendX, legend_y, kLegendX + 26, legend_y,
                         "stroke=\"" + color_of(s) + "\" stroke-width=\"1.8\"");
     out += marker(s, kLegendX + 13, legend_y, color_of(s)) + "\n";
-    out += text_at(kLegendX + kLegendText, legend_y + 4, "start", plot.series[s].name);
+    out += anchored(kLegendX + kLegendText, legend_y + 4, "start", plot.series[s].name);
     legend_y += kLegendStep;
   }
   return out + "</svg>\n";
@@ -221,6 +221,11 @@ double tick_step(double largest) {
     if (factor * power >= rough) return factor * power;
   }
   return 10.0 * power;
+}
+
+std::string svg_text(double x, double y, const std::string& text, const std::string& attributes) {
+  return "<text x=\"" + svg_number(x) + "\" y=\"" + svg_number(y) + "\" " + attributes + ">" + escaped(text) +
+         "</text>\n";
 }
 
 std::string svg_number(double value) {

@@ -32,6 +32,9 @@ struct LogLogPlot {
 
 /// A place in an SVG, to two decimals.
 [[nodiscard]] std::string svg_number(double value);
+/// A text element. @param attributes such as `font-size="12" text-anchor="end"`.
+[[nodiscard]] std::string svg_text(double x, double y, const std::string& text,
+                                   const std::string& attributes);
 /// 1, 2 or 5 times a power of ten: about five ticks up to `largest`.
 [[nodiscard]] double tick_step(double largest);
 

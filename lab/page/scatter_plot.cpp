@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
@@ -17,16 +16,6 @@ constexpr double kMark = 3.0;
 // Dark enough on white paper, and told apart by most eyes (Okabe and Ito 2008).
 constexpr std::array<const char*, 3> kColors{"#d55e00", "#0072b2", "#009e73"};
 
-std::string at(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2f", value);
-  return text.data();
-}
-
-std::string words(double x, double y, const std::string& text, const char* more) {
-  return "<text x=\"" + at(x) + "\" y=\"" + at(y) + "\" " + more + ">" + escaped(text) + "</text>\n";
-}
-
 }  // namespace
 
 std::string svg(const ScatterPlot& plot) {
@@ -36,53 +25,54 @@ std::string svg(const ScatterPlot& plot) {
       if (std::isfinite(p.x) && std::isfinite(p.y)) upper = glm::max(upper, p);
     }
   }
-  std::string body = words(kLeft, 24.0, plot.title, "font-size=\"16\" font-weight=\"bold\"");
+  std::string body = svg_text(kLeft, 24.0, plot.title, "font-size=\"16\" font-weight=\"bold\"");
   if (upper.x > 0.0 && upper.y > 0.0) {
     const Vec2 step{tick_step(upper.x), tick_step(upper.y)};
     const Vec2 end = glm::ceil(upper / step) * step;
     const Vec2 scale = Vec2{kWidth - kLeft - kRight, kHeight - kTop - kBottom} / end;
     const double floor = kHeight - kBottom;
     const auto grid = [](double x1, double y1, double x2, double y2) {
-      return "<line x1=\"" + at(x1) + "\" y1=\"" + at(y1) + "\" x2=\"" + at(x2) + "\" y2=\"" + at(y2) +
-             "\" stroke=\"#ddd\"/>\n";
+      return "<line x1=\"" + svg_number(x1) + "\" y1=\"" + svg_number(y1) + "\" x2=\"" + svg_number(x2) +
+             "\" y2=\"" + svg_number(y2) + "\" stroke=\"#ddd\"/>\n";
     };
     for (int i = 0; i * step.x <= end.x * 1.0001; ++i) {
       const double x = kLeft + i * step.x * scale.x;
       body += grid(x, kTop, x, floor) +
-              words(x, floor + 18.0, three_digits(i * step.x), "font-size=\"12\" text-anchor=\"middle\"");
+              svg_text(x, floor + 18.0, three_digits(i * step.x), "font-size=\"12\" text-anchor=\"middle\"");
     }
     for (int i = 0; i * step.y <= end.y * 1.0001; ++i) {
       const double y = floor - i * step.y * scale.y;
-      body += grid(kLeft, y, kWidth - kRight, y) +
-              words(kLeft - 8.0, y + 4.0, three_digits(i * step.y), "font-size=\"12\" text-anchor=\"end\"");
+      body += grid(kLeft, y, kWidth - kRight, y) + svg_text(kLeft - 8.0, y + 4.0, three_digits(i * step.y),
+                                                            "font-size=\"12\" text-anchor=\"end\"");
     }
     double key = kLeft;
     for (std::size_t s = 0; s < plot.series.size(); ++s) {
       // Rings and discs stay apart without colour.
-      const std::string looks = s == 0 ? std::string("fill=\"none\" stroke=\"") + kColors[0] + "\""
+      const std::string paint = s == 0 ? std::string("fill=\"none\" stroke=\"") + kColors[0] + "\""
                                        : std::string("fill=\"") + kColors[s % kColors.size()] + "\"";
       const auto mark = [&](double x, double y) {
-        return "<circle cx=\"" + at(x) + "\" cy=\"" + at(y) + "\" r=\"" + at(kMark) + "\" " + looks + "/>\n";
+        return "<circle cx=\"" + svg_number(x) + "\" cy=\"" + svg_number(y) + "\" r=\"" + svg_number(kMark) +
+               "\" " + paint + "/>\n";
       };
       for (const Vec2& p : plot.series[s].points) {
         if (std::isfinite(p.x) && std::isfinite(p.y))
           body += mark(kLeft + p.x * scale.x, floor - p.y * scale.y);
       }
-      body += mark(key, 42.0) + words(key + 10.0, 46.0, plot.series[s].name, "font-size=\"12\"");
+      body += mark(key, 42.0) + svg_text(key + 10.0, 46.0, plot.series[s].name, "font-size=\"12\"");
       constexpr double kPerLetter = 7.0;
       key += 40.0 + kPerLetter * static_cast<double>(plot.series[s].name.size());
     }
   } else {
-    body += words(kLeft, kHeight / 2.0, "no points", "font-size=\"14\"");
+    body += svg_text(kLeft, kHeight / 2.0, "no points", "font-size=\"14\"");
   }
-  body += words((kLeft + kWidth - kRight) / 2.0, kHeight - 14.0, plot.x_label,
-                "font-size=\"13\" text-anchor=\"middle\"");
-  const std::string middle = at((kTop + kHeight - kBottom) / 2.0);
+  body += svg_text((kLeft + kWidth - kRight) / 2.0, kHeight - 14.0, plot.x_label,
+                   "font-size=\"13\" text-anchor=\"middle\"");
+  const std::string middle = svg_number((kTop + kHeight - kBottom) / 2.0);
   body += "<text x=\"18\" y=\"" + middle +
           "\" font-size=\"13\" text-anchor=\"middle\" transform=\"rotate(-90 18 " + middle + ")\">" +
           escaped(plot.y_label) + "</text>\n";
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + at(kWidth) + " " + at(kHeight) +
-         "\" width=\"" + at(kWidth) + "\" height=\"" + at(kHeight) +
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svg_number(kWidth) + " " +
+         svg_number(kHeight) + "\" width=\"" + svg_number(kWidth) + "\" height=\"" + svg_number(kHeight) +
          "\" font-family=\"sans-serif\" fill=\"#222\">\n<rect width=\"100%\" height=\"100%\" "
          "fill=\"#fff\"/>\n" +
          body + "</svg>\n";

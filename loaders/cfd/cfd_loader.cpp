@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
+#include "common/load/helper/chosen_loader.h"
 #include "loaders/cfd/cfd_check.h"
 #include "loaders/vtk/one_reader.h"
 
@@ -91,25 +92,15 @@ class StarCdReader : public OneReader {
   void select(const std::set<std::string>*) override {}
 };
 
-class CfdLoader : public Loader {
- public:
-  FileInfo open(const LoadRequest& request, Format format) override {
-    if (format == Format::kFluent) reader_ = std::make_unique<FluentReader>();
-    if (format == Format::kGambit) reader_ = std::make_unique<GambitReader>();
-    if (format == Format::kStarCd) reader_ = std::make_unique<StarCdReader>();
-    if (!reader_)
-      throw input_error(
-          {request.files.front().string(), "", "is of another format", "Fluent, GAMBIT or STAR-CD"});
-    reader_->on_progress = on_progress;
-    return reader_->open(request, format);
+class CfdLoader : public ChosenLoader {
+ protected:
+  std::unique_ptr<Loader> choose(const LoadRequest& request, Format format) override {
+    if (format == Format::kFluent) return std::make_unique<FluentReader>();
+    if (format == Format::kGambit) return std::make_unique<GambitReader>();
+    if (format == Format::kStarCd) return std::make_unique<StarCdReader>();
+    throw input_error(
+        {request.files.front().string(), "", "is of another format", "Fluent, GAMBIT or STAR-CD"});
   }
-  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
-    if (!reader_) throw work_error("nothing was opened");
-    return reader_->read(names, step);
-  }
-
- private:
-  std::unique_ptr<Loader> reader_;
 };
 
 }  // namespace

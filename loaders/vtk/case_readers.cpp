@@ -17,6 +17,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
+#include "common/load/helper/chosen_loader.h"
 #include "common/load/step_times.h"
 #include "loaders/vtk/ensight/ensight_check.h"
 #include "loaders/vtk/ensight/ensight_times.h"
@@ -386,36 +387,29 @@ class CaseReader : public Loader {
 };
 
 /// An OpenFOAM case, whole or in the folders of processors.
-class OpenFoamReader : public Loader {
+class OpenFoamReader : public ChosenLoader {
  public:
   FileInfo open(const LoadRequest& request, Format format) override {
-    const auto make_case = [] { return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam); };
-    const std::string file = request.files.front().string();
-    std::vector<std::string> notes;
-    FoamProcessors processors = foam_processors(foam_folder(file), notes);
-    if (processors.folders.empty() || request.files.size() > 1) {
-      reader_ = make_case();
-    } else if (processors.collated) {
-      collated_ = std::make_unique<FoamCollated>(processors.folders);
-      notes.push_back("collated processor folders are parted into temporary files");
-      reader_ = make_decomposed_reader(collated_->folders(), make_case);
-    } else {
-      reader_ = make_decomposed_reader(std::move(processors.folders), make_case);
-    }
-    reader_->on_progress = on_progress;
-    FileInfo info = reader_->open(request, format);
-    info.notes.insert(info.notes.begin(), notes.begin(), notes.end());
+    FileInfo info = ChosenLoader::open(request, format);
+    info.notes.insert(info.notes.begin(), notes_.begin(), notes_.end());
     return info;
   }
 
-  std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
-    if (!reader_) throw work_error("nothing was opened");
-    return reader_->read(names, step);
+ protected:
+  std::unique_ptr<Loader> choose(const LoadRequest& request, Format) override {
+    const auto make_case = [] { return std::make_unique<CaseReader<OpenFoamCase>>(Format::kOpenFoam); };
+    const std::string file = request.files.front().string();
+    FoamProcessors processors = foam_processors(foam_folder(file), notes_);
+    if (processors.folders.empty() || request.files.size() > 1) return make_case();
+    if (!processors.collated) return make_decomposed_reader(std::move(processors.folders), make_case);
+    collated_ = std::make_unique<FoamCollated>(processors.folders);
+    notes_.push_back("collated processor folders are parted into temporary files");
+    return make_decomposed_reader(collated_->folders(), make_case);
   }
 
  private:
+  std::vector<std::string> notes_;  ///< on the folders of processors
   std::unique_ptr<FoamCollated> collated_;
-  std::unique_ptr<Loader> reader_;
 };
 
 }  // namespace

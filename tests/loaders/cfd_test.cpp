@@ -13,6 +13,7 @@
 #include "common/base/text.h"
 #include "common/load/load.h"
 #include "loaders/cfd/cfd_check.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -118,17 +119,6 @@ TEST(Fluent, CasesAreReadWithTheirValues) {
     for (int cell = 0; cell < kCubes; ++cell)
       EXPECT_EQ(array->at(static_cast<std::size_t>(cell)), value_of(variable, cell));
   }
-}
-
-std::string refusal(const std::filesystem::path& file) {
-  try {
-    (void)Source::open({{file}, {}});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << file << " was accepted";
-  return {};
 }
 
 TEST(Fluent, WhatIsMissingOrClaimedIsSaid) {

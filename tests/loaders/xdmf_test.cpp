@@ -11,6 +11,7 @@
 #include "common/load/load.h"
 #include "loaders/xdmf/xdmf_text.h"
 #include "tests/loaders/hdf5_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -33,17 +34,6 @@ std::string words(const std::vector<Vec3>& all) {
   std::string out;
   for (const Vec3& v : all) out += words_of(v) + " ";
   return out;
-}
-
-std::string refusal(const std::filesystem::path& file) {
-  try {
-    (void)Source::open({{file}, {}});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << file << " was accepted";
-  return {};
 }
 
 /// A hexahedron and a tetrahedron on its top, as a mixed mesh in HDF5, at two times.

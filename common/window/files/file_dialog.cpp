@@ -294,7 +294,7 @@ std::optional<FileDialog::Paths> FileDialog::draw() {
   constexpr float kWidth = 46.0F, kHeight = 36.0F;  // heights of the text
   const float em = ImGui::GetFontSize();
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  center_next_window();
   ImGui::SetNextWindowSize(
       {std::min(kWidth * em, window.x - 2.0F * em), std::min(kHeight * em, window.y - 2.0F * em)});
   constexpr ImGuiWindowFlags kFlags =

@@ -309,6 +309,11 @@ bool edit_setting(const char* setting_name, std::string& word) {
   return true;
 }
 
+void center_next_window() {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
+}
+
 bool section(const char* name) {
   Drawn& all = drawn();
   all.section = name;

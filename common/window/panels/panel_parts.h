@@ -97,6 +97,9 @@ bool edit_setting(const char* setting_name, Enum& value) {
 /// Millimetres a metre: lengths of the workspace are shown in these.
 inline constexpr double kMillimetres = 1e3;
 
+/// Puts the next window of ImGui into the middle of the window.
+void center_next_window();
+
 /// The heading of a part of the panel; a click folds and unfolds the part.
 /// @return whether its controls are to be drawn.
 [[nodiscard]] bool section(const char* name);

@@ -43,8 +43,7 @@ bool UnsavedQuestion::handle(const InputEvent& event) {
 UnsavedQuestion::Answer UnsavedQuestion::draw() {
   if (!asking()) return Answer::kNone;
   if (!ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
-  const ImVec2 window = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
+  center_next_window();
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
   Answer answer = key_;
