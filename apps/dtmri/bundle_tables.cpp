@@ -88,7 +88,7 @@ void check_bundle_options(const Document& options) {
       throw usage_error("--profile " + output.profile.string() + ": a table ends in .csv");
     if (output.profiled.empty() && !has_one_number(output.measure))
       throw usage_error("--measure " + output.measure +
-                        ": a profile is of one number: fa, md, cl, cp, cs or mode");
+                        ": a profile is of one number: fa, md, cl, cp, cs, mode or v1-cone");
     (void)westin_from_name(output.westin);
     OutputFile(output.profile, options.common.force);
   }

@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
+#include "apps/dtmri/region_text.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/compose/view_keep.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
 
@@ -24,18 +28,16 @@ std::shared_ptr<const SceneInfo> info_of(const Input& input, const SceneView& vi
 
 /// Whether both trace or read the same tracts.
 bool same_tracts(const Document& a, const Document& b) {
-  return a.input.field == b.input.field && a.input.time == b.input.time &&
+  return a.input.field == b.input.field && a.input.time == b.input.time && a.input.tensor == b.input.tensor &&
          a.tract_appearance.file == b.tract_appearance.file && a.tracts == b.tracts;
 }
 
 /// Tracts of a file, or traced from seeds: those of `before` where these are the same.
 /// @param document with the input in its role. @param shown that of `before`, likewise.
 void show_tracts(const Document& document, const SceneState* before, const Document& shown,
-                 Progress& progress, SceneState& state) {
+                 const DataArray* cones, Progress& progress, SceneState& state) {
   const auto show = [&](const std::shared_ptr<const TractBundle>& bundle) {
-    state.tracts = TractView{.bundle = bundle,
-                             .width = document.tract_appearance.width,
-                             .opacity = document.tract_appearance.opacity};
+    state.tracts = make_tract_view(bundle, document.tract_appearance);
   };
   if (document.tracts.seeds.empty() && document.tract_appearance.file.empty()) return;
   if (before != nullptr && before->tracts && same_tracts(document, shown)) {
@@ -52,7 +54,7 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
   } else if (!state.tensors) {
     throw usage_error("there are no tensors to trace tracts through");
   } else {
-    const ViewTracts traced = trace_view_tracts(document, *state.tensors->image, &progress);
+    const ViewTracts traced = trace_view_tracts(document, *state.tensors->image, cones, &progress);
     show(traced.bundle);
     state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
     state.seeds = traced.seeds;
@@ -60,6 +62,23 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
     if (traced.bundle->order.empty()) state.notes.push_back("no tract: " + traced.why_none);
     if (!traced.left_out.empty()) state.notes.push_back(traced.left_out);
   }
+}
+
+/// What the verdict advises, where nothing was turned by hand yet: two turns together are none that a button can say.
+void add_fix(const OrientationVerdict& verdict, const Document& document, SceneState& state) {
+  const TensorSpec &asked = document.input.tensor, plain;
+  if (!verdict.suspicious || verdict.rotated || asked.flip != plain.flip || asked.permute != plain.permute)
+    return;
+  const auto note = std::ranges::find_if(state.notes, [&](const std::string& one) {
+    return one.find(verdict.advice) != std::string::npos && one.starts_with("WARNING");
+  });
+  if (note == state.notes.end()) return;
+  SceneFix fix{.note = *note, .settings = {}};
+  // "--vectors scanner --flip k"
+  const std::vector<std::string_view> words = split(verdict.advice, ' ');
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2)
+    fix.settings.emplace_back(words[i].substr(2), words[i + 1]);
+  state.fixes.push_back(std::move(fix));
 }
 
 }  // namespace
@@ -72,34 +91,41 @@ DtmriContent DtmriModel::read(Input& input, const Document& document, Progress& 
     (void)with_input_role(document, input);  // refuses what cannot be shown
     SceneState state = begin_state(input, {});
     state.info = std::make_shared<const SceneInfo>(describe_open_input(input));
-    return std::make_shared<const SceneState>(std::move(state));
+    return std::make_shared<const DtmriScene>(DtmriScene{.state = std::move(state), .cones = {}});
   }
-  auto field = input.load_tensor(document.common.threads, &progress);
+  TensorImage made;
+  auto field = input.load_tensor(document.common.threads, &progress, &made);
   progress.begin("colouring the voxels", 0);
   const auto voxels = make_tensor_voxels(field, input.title(), document.common.threads);
   SceneView view = make_tensor_scene(
-      input, {.tensors = make_tensor_view(voxels, document.tensors), .tracts = {}}, document, 1.0);
+      input, {.tensors = make_tensor_view(voxels, document.tensors), .tracts = {}, .made = &made}, document, 1.0);
   SceneState state = begin_state(input, {});
   state.info = info_of(input, view);
   state.volume = std::move(view.volume);
   state.volume_label = view.volume_label;
   state.tensors = std::move(view.tensors);
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
-  return std::make_shared<const SceneState>(std::move(state));
+  add_fix(made.orientation, document, state);
+  const DataArray* const cones = made.image.find(std::string(kConeArray), Association::kPoint);
+  return std::make_shared<const DtmriScene>(
+      DtmriScene{.state = std::move(state), .cones = cones != nullptr ? std::optional(*cones) : std::nullopt});
 }
 
 SceneState DtmriModel::present(Input& input, const DtmriContent& content, const Document& document,
                                const SceneState* before, Progress& progress) const {
   const Document with = with_input_role(document, input);
   const Document shown = before != nullptr ? with_input_role(before->document, input) : Document();
-  SceneState state = *content;
+  const SceneState& made = content->state;
+  SceneState state = made;
   state.document = document;
-  if (content->tensors) {
-    state.tensors = make_tensor_view(content->tensors->image, document.tensors);
-    state.volume = make_tensor_volume(content->volume->image, document);
+  state.regions = region_views(document.tracts);
+  if (made.tensors) {
+    state.tensors = make_tensor_view(made.tensors->image, document.tensors);
+    state.volume = make_tensor_volume(made.volume->image, document);
+    state.volume->slice_images = made.volume->slice_images;
     state.appearances = {direction_lens(document.volume, *state.volume->image)};
   }
-  show_tracts(with, before, shown, progress, state);
+  show_tracts(with, before, shown, content->cones ? &*content->cones : nullptr, progress, state);
   if (const std::string& file = with.tensors.underlay; !file.empty()) {
     const bool read = before != nullptr && before->tensors && before->tensors->underlay &&
                       shown.tensors.underlay == file &&
@@ -113,7 +139,10 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
     for (std::string& note : show_underlay(underlay, with, state.tensors))
       state.notes.push_back(std::move(note));
   }
-  if (content->tensors) return state;
+  if (made.tensors) {
+    complete_panes(document.panes, *state.tensors, *state.volume);
+    return state;
+  }
   // Where there are no tensors, the scene is as large as what is shown in their place.
   const SceneView view =
       make_tensor_scene(input, {.tensors = state.tensors, .tracts = state.tracts}, document, 1.0);
@@ -147,6 +176,7 @@ void DtmriModel::keep(const SceneView& view, Document& document) const {
   if (view.tracts) {
     document.tract_appearance.width = view.tracts->width;
     document.tract_appearance.opacity = view.tracts->opacity;
+    document.tract_appearance.slab = view.tracts->slab_thickness;
   }
   if (view.tensors) {
     TensorOptions& kept = document.tensors;

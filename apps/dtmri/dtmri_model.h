@@ -14,7 +14,11 @@ namespace palpate {
 
 /// The scene of one tensor image, all but the user's settings; without tensors where the input is something
 /// else that is shown.
-using DtmriContent = std::shared_ptr<const SceneState>;
+struct DtmriScene {
+  SceneState state;
+  std::optional<DataArray> cones;  ///< of the voxels [degrees]; none: the tensors were not fitted
+};
+using DtmriContent = std::shared_ptr<const DtmriScene>;
 
 class DtmriModel final : public InputModel<DtmriContent> {
  public:

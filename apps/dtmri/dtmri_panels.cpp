@@ -8,8 +8,11 @@
 #include <imgui.h>
 
 #include "apps/dtmri/dtmri_model.h"
+#include "apps/dtmri/regions_panel.h"
+#include "apps/dtmri/slice_images.h"
 #include "common/base/text.h"
 #include "common/window/panels/panel_parts.h"
+#include "common/window/panels/panes_panel.h"
 #include "common/window/panels/time_panel.h"
 #include "common/window/panels/volume/lens_panel.h"
 #include "common/window/panels/volume/region_transfer_editor.h"
@@ -17,6 +20,48 @@
 
 namespace palpate {
 namespace {
+
+/// The words of a setting of tracts, whose name other settings of the program have as well.
+void edit_word(const char* setting_name, const char* label, std::string& word) {
+  const Setting* const row = find_setting(setting_name, FieldKind::kTensor);
+  std::vector<std::string> words;
+  for (const std::string_view one : row->word_list()) words.emplace_back(one);
+  choose_word(label, word, words);
+  explain_setting(*row);
+}
+
+/// A text that counts when its field is left: each one is read and fitted anew.
+struct TypedText {
+  std::string text;
+  bool typing = false;
+};
+struct ReadingTexts {
+  TypedText mask, leave_out;
+};
+
+void edit_text(const char* label, const char* setting_name, TypedText& typed, std::string& text) {
+  if (!typed.typing) typed.text = text;
+  input_text(label, &typed.text);
+  if (ImGui::IsItemDeactivatedAfterEdit()) text = typed.text;
+  typed.typing = ImGui::IsItemActive();
+  explain_setting(*find_setting(setting_name, FieldKind::kTensor));
+}
+
+/// Along which axes directions are, and which volumes and voxels are fitted: a change reads the image again.
+void draw_reading(ReadingTexts& texts, TensorSpec& reading) {
+  if (!section("AXES AND FIT")) return;
+  edit_word("vectors", "axes of directions", reading.vectors);
+  const auto choose_turn = [](const char* label, const char* name, std::string& turn,
+                              const std::vector<std::string>& words) {
+    std::string word = turn.empty() ? "none" : turn;
+    if (choose_word(label, word, words)) turn = word == "none" ? std::string() : word;
+    explain_setting(*find_setting(name, FieldKind::kTensor));
+  };
+  choose_turn("flip axes", "flip", reading.flip, {"none", "i", "j", "k", "ij", "ik", "jk", "ijk"});
+  choose_turn("permute axes", "permute", reading.permute, {"none", "ikj", "jik", "jki", "kij", "kji"});
+  edit_text("mask of the fit", "mask", texts.mask, reading.mask);
+  edit_text("leave out volumes", "leave-out", texts.leave_out, reading.leave_out);
+}
 
 /// Where tracts start, as the panel edits it.
 struct TractSeedChoice {
@@ -125,6 +170,47 @@ void draw_tract_appearance(TractView& appearance) {
   edit_setting("tract-opacity", appearance.opacity);
 }
 
+/// A length that may stand for a choice by the program, which zero does.
+void edit_length(const char* setting_name, double& value, double most) {
+  slider(setting(setting_name).label().c_str(), value, 0.0, most, value > 0.0 ? "%.4g" : "auto");
+  explain(setting_name);
+}
+
+/// Tracts that are shown are traced again with these, in the background.
+void edit_tracing(TractTracingOptions& tracts, const TensorView& tensors) {
+  constexpr double kVoxels = 4.0;
+  const double edge = shortest_edge(*tensors.image), diagonal = tensors.image->bounds().diagonal();
+  edit_setting("seeds-per-voxel", tracts.seeds_per_voxel);
+  edit_word("measure", "cutoff measure", tracts.measure);
+  edit_setting("cutoff", tracts.cutoff);
+  slider("max angle", tracts.max_angle, 0.0, 90.0, tracts.max_angle > 0.0 ? "%.3g" : "by radius");
+  explain("max-angle");
+  edit_length("min-radius", tracts.min_radius, kVoxels * edge);
+  if (tensors.image->field && tracts.max_cone) {
+    slider("max cone", *tracts.max_cone, 0.1, 90.0, "%.3g");
+    explain("max-cone");
+  }
+  bool by_cone = tracts.max_cone.has_value();
+  if (checkbox("end where directions are unsure", &by_cone)) {
+    constexpr double kUsual = 20.0;
+    tracts.max_cone = by_cone ? std::optional(kUsual) : std::nullopt;
+  }
+  explain("max-cone", false);
+  edit_length("min-length", tracts.min_length, diagonal);
+  edit_length("max-length", tracts.max_length, 2.0 * diagonal);
+  edit_setting("direction", tracts.direction);
+  edit_word("integrator", "steps", tracts.integrator);
+  if (tracts.integrator == "dp54") {
+    constexpr int kFine = -8, kCoarse = -1;  // decades
+    (void)decade_slider("tolerance", tracts.tolerance, kFine, kCoarse);
+    explain("tolerance");
+  }
+  edit_length("step", tracts.step, kVoxels * edge);
+  auto steps = static_cast<int>(std::min<std::int64_t>(tracts.max_steps, 1'000'000));
+  if (slider_int("max steps", &steps, 1, 1'000'000, "%d", ImGuiSliderFlags_Logarithmic)) tracts.max_steps = steps;
+  explain("max-steps");
+}
+
 void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorView& tensors,
                       std::optional<TractView>& appearance) {
   constexpr std::array<const char*, 2> kWhere{"a ball at the crosshair", "all of high FA"};
@@ -144,9 +230,7 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
     slider("FA above", choice.least_fa, 0.0, 1.0, "%.2f");
     hint("fractional anisotropy of the voxels at which tracts begin");
   }
-  // Tracts that are shown are traced again with these.
-  edit_setting("seeds-per-voxel", document.tracts.seeds_per_voxel);
-  edit_setting("cutoff", document.tracts.cutoff);
+  edit_tracing(document.tracts, tensors);
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
   const bool traces = button("Trace", size);
@@ -169,14 +253,37 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   ImGui::EndDisabled();
 }
 
-void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& choice, TensorView& tensors,
-                  std::optional<TractView>& tracts) {
+/// Which tracts are drawn over slices.
+void draw_tract_slab(TractView& look, const TensorVoxels& voxels) {
+  constexpr double kUsual = 2.0;  // voxels, where none is said
+  double thickness = look.slab_thickness.value_or(kUsual * shortest_edge(voxels));
+  if (slider("tracts over slices", thickness, 0.0, voxels.bounds().diagonal(), "%.3g",
+             ImGuiSliderFlags_Logarithmic))
+    look.slab_thickness = thickness;
+  explain("tract-slab", false);
+}
+
+/// How sure the fit is of the direction at the hand.
+void draw_cone(const PanelState& state, const SceneView& view) {
+  if (state.touch == nullptr || !state.touch->readout().held || !view.volume) return;
+  const SliceImage* const cones = find_slice_image(view.volume->slice_images, "cone");
+  if (cones == nullptr) return;
+  const double degrees = cones->image->value_at(state.touch->readout().proxy);
+  ReadoutRows rows("cone");
+  rows.add("95 % cone", std::isfinite(degrees) ? "%.1f degrees" : "not known here", degrees);
+  rows.finish();
+}
+
+void draw_tensors(PanelState& state, const SceneState& scene, TractSeedChoice& choice, SceneView& view) {
+  TensorView& tensors = *view.tensors;
+  std::optional<TractView>& tracts = view.tracts;
   const bool field = tensors.image->field != nullptr;
   if (section(field ? "TENSORS" : "SLICES")) {
     if (field) {
       choose_word("field", state.document.input.field, scene.info->fields);
       explain("field", false);
       draw_time(state, scene.info->times);
+      draw_cone(state, view);
     }
     draw_tensor_panel(tensors, scene.info->anatomical);
   }
@@ -218,10 +325,17 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
 }  // namespace
 
 std::vector<PanelPart> dtmri_panels() {
-  return {[choice = TractSeedChoice()](PanelContext& on) mutable {
+  return {[choice = TractSeedChoice(), regions = RegionsPanel(), texts = ReadingTexts()](PanelContext& on) mutable {
     if (on.scene.tensors && on.view.tensors) {
-      draw_tensors(on.state, on.scene, choice, *on.view.tensors, on.view.tracts);
+      draw_tensors(on.state, on.scene, choice, on.view);
+      if (on.view.tensors->image->field) draw_reading(texts, on.state.document.input.tensor);
+      if (on.view.volume) {
+        edit_panes(*on.view.volume, nullptr, on.view.anatomical);
+        if (on.view.tracts && on.view.volume->panes.layout > 1)
+          draw_tract_slab(*on.view.tracts, *on.view.tensors->image);
+      }
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
+      if (on.view.tensors->image->field) draw_regions(regions, on);
     } else if (on.view.tracts) {
       if (section("TRACTS")) draw_tract_appearance(*on.view.tracts);
     }

@@ -11,6 +11,8 @@ namespace palpate {
 [[nodiscard]] Verb trace_tracts_verb(std::vector<UsageExample> examples);
 /// A picture.
 [[nodiscard]] Verb tensor_render_verb(std::vector<UsageExample> examples);
+/// Slices side by side: what a window shows in panes, in a picture.
+[[nodiscard]] Verb tensor_slice_verb(std::vector<UsageExample> examples);
 /// Fits tensors to diffusion-weighted volumes and writes them: `fit DWI --out tensor.nii.gz`.
 [[nodiscard]] Verb fit_verb(std::vector<UsageExample> examples);
 /// Writes images of what tensors measure: `measure FILE --measure fa --out fa.nii.gz`.

@@ -149,7 +149,8 @@ ExitCode run_measure(const Document& options, const VerbContext& context) {
   const WestinScale westin = westin_from_name(options.output.westin);
   check_request(options, "measure", options.output.measure + ".nii.gz");
   Input input = open_input(options, context);
-  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
+  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress,
+                                                   measure == TensorMeasure::kCone);
   const Stopwatch watch;
   std::vector<float> values =
       measure_tensors(made.image, made.choice, measure, options.common.threads, westin);

@@ -36,6 +36,12 @@ int main(int argc, char** argv) {
                     "an axial slice with glyphs, seen from above"},
                    {"dtmri render tensors.nii.gz --color fa --voxels linear --out fa.png",
                     "fractional anisotropy"}}),
+              tensor_slice_verb(
+                  {{"dtmri slice dwi.nii.gz --seeds fa:0.5 --out slices.png",
+                    "three slices with tracts over them, and the scene"},
+                   {"dtmri slice dwi.nii.gz --layout 2 --pane coronal --slice-show fa --tracts bundle.trk "
+                    "--tract-slab 8 --out coronal.png",
+                    "tracts within 4 mm of a slice of anisotropy"}}),
               study_verb([] { return StudyTasks{make_bundle_task()}; },
                          {{"dtmri study make trial-study",
                            "an experiment in which people trace bundles, with guidance and without"},

@@ -6,6 +6,7 @@
 #include "apps/dtmri/tract_request.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/files/open_window.h"
 
@@ -15,7 +16,7 @@ Verb open_tensors_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",
-       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kTouch, Group::kRecord, Group::kReplay,
+       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kTouch, Group::kRecord, Group::kReplay,
                   Group::kNotes},
        .window = user_window(dtmri_panels()),
        .modes = modes_of(FieldKind::kTensor),
@@ -25,6 +26,7 @@ Verb open_tensors_verb(std::vector<UsageExample> examples) {
            [](const Document& options) {
              check_tensor_options(options);
              check_view_tracts(options.tracts, options.tract_appearance);
+             (void)slice_panes_of(options.panes, Box());
            },
        .model = [](const Document& options,
                    const std::string& program) { return std::make_unique<DtmriModel>(options, program); }},

@@ -1,13 +1,18 @@
+#include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
+#include "common/base/error.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
+#include "common/compose/slice_panes_text.h"
+#include "common/field/tensor/tensor_measure.h"
 
 namespace palpate {
 namespace {
@@ -17,12 +22,13 @@ void check_input(const Document& options, const Input& input) {
 }
 
 ViewTracts tracts_of(const Document& options, const VerbContext& context,
-                     const std::optional<TensorView>& tensors) {
+                     const std::optional<TensorView>& tensors, const TensorImage& made) {
   if (!options.tract_appearance.file.empty()) {
     const TensorField* const field = tensors ? tensors->image->field.get() : nullptr;
     return read_view_tracts(options.tract_appearance, field, options.common.threads, &context.progress);
   }
-  ViewTracts tracts = trace_view_tracts(options, *tensors->image, &context.progress);
+  ViewTracts tracts = trace_view_tracts(
+      options, *tensors->image, made.image.find(std::string(kConeArray), Association::kPoint), &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
   return tracts;
 }
@@ -31,8 +37,11 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   const Document options = with_input_role(given, input);
   DrawnScene drawn;
   TensorSceneParts parts;
+  TensorImage made;
   if (role_of(input) == FileRole::kTensors) {
-    auto field = input.load_tensor(options.common.threads, &context.progress);
+    const bool details = options.panes.layout != PanesOptions{}.layout || options.tracts.max_cone;
+    auto field = input.load_tensor(options.common.threads, &context.progress, details ? &made : nullptr);
+    if (details) parts.made = &made;
     for (const std::string& line : field->notes().lines) context.console.note(line);
     auto voxels = make_tensor_voxels(std::move(field), input.title(), options.common.threads);
     drawn.field = input.field_label();
@@ -41,16 +50,14 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
     parts.tensors = make_tensor_view(std::move(voxels), options.tensors);
   }
   if (!options.tract_appearance.file.empty() || !options.tracts.seeds.empty()) {
-    const ViewTracts tracts = tracts_of(options, context, parts.tensors);
+    const ViewTracts tracts = tracts_of(options, context, parts.tensors, made);
     for (const std::string& note : tracts.notes) context.console.note(note);
     if (!tracts.left_out.empty()) context.console.note(tracts.left_out);
     drawn.lines = tracts.bundle->order.size();
     drawn.points = tracts.bundle->lines->points.size();
     drawn.seconds_trace = tracts.seconds;
     drawn.what += (drawn.what.empty() ? "" : ", ") + counted(drawn.lines, "tract");
-    parts.tracts = TractView{.bundle = tracts.bundle,
-                             .width = options.tract_appearance.width,
-                             .opacity = options.tract_appearance.opacity};
+    parts.tracts = make_tract_view(tracts.bundle, options.tract_appearance);
   }
   if (!options.tensors.underlay.empty()) {
     const Underlay underlay = load_underlay(options, &context.progress);
@@ -62,22 +69,42 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   return drawn;
 }
 
+ExitCode run_render(const Document& options, const VerbContext& context) {
+  const PictureMaker maker{.check =
+                               [](const Document& given) {
+                                 check_tensor_options(given);
+                                 check_view_tracts(given.tracts, given.tract_appearance);
+                                 (void)slice_panes_of(given.panes, Box());
+                               },
+                           .check_input = check_input,
+                           .make = make_scene};
+  return draw_picture(maker, options, context);
+}
+
 }  // namespace
 
 Verb tensor_render_verb(std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the tensors, with or without a display",
-          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kOut, Group::kPicture, Group::kNotes},
+          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kOut, Group::kPicture,
+                     Group::kNotes},
           .examples = std::move(examples),
-          .run = [](const Document& options, const VerbContext& context) {
-            const PictureMaker maker{.check =
-                                         [](const Document& given) {
-                                           check_tensor_options(given);
-                                           check_view_tracts(given.tracts, given.tract_appearance);
-                                         },
-                                     .check_input = check_input,
-                                     .make = make_scene};
-            return draw_picture(maker, options, context);
+          .run = run_render};
+}
+
+Verb tensor_slice_verb(std::vector<UsageExample> examples) {
+  return {.name = "slice",
+          .summary = "draw slices of the tensors, with tracts over them, side by side",
+          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kOut, Group::kPicture,
+                     Group::kNotes},
+          .examples = std::move(examples),
+          .run = [](const Document& given, const VerbContext& context) {
+            Document options = given;
+            const bool said = std::ranges::find(given.given, "layout") != given.given.end();
+            if (!said) options.panes.layout = "4";
+            if (options.panes.layout == "1")
+              throw usage_error("slice draws slices: --layout 2 or 4; layout 1, the picture alone, is what render draws");
+            return run_render(options, context);
           }};
 }
 

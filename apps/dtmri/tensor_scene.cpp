@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/dtmri/region_text.h"
+#include "apps/dtmri/slice_images.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
@@ -187,6 +189,24 @@ VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy, con
   return volume;
 }
 
+TractView make_tract_view(std::shared_ptr<const TractBundle> bundle, const TractAppearance& look) {
+  return {.bundle = std::move(bundle),
+          .width = look.width,
+          .opacity = look.opacity,
+          .slab_thickness = look.slab};
+}
+
+void complete_panes(const PanesOptions& options, TensorView& tensors, VolumeView& volume) {
+  if (tensors.underlay) volume.slice_images.push_back(slice_image_of(*tensors.underlay));
+  const Vec3& cross = volume.panes.cross;
+  const bool asked = !options.cross.empty() && tensors.image->contains(tensors.image->grid_coordinates(cross));
+  if (volume.panes.layout > 1 && asked) {
+    tensors.position = cross;
+  } else if (options.cross.empty()) {
+    volume.panes.cross = tensors.position;
+  }
+}
+
 TensorView make_tensor_view(std::shared_ptr<const TensorVoxels> voxels, const TensorOptions& options) {
   const SliceChoice choice = parse_slices(options.slices);
   TensorView view;
@@ -232,6 +252,10 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Do
     if (voxels.field) {
       view.subtitle.insert(0, input.field_label() + ", ");
       view.volume = make_tensor_volume(make_anisotropy_volume(parts.tensors->image), options);
+      if (parts.made != nullptr)
+        view.volume->slice_images =
+            slice_images_of(*parts.made, view.volume->image, input.title(), options.common.threads);
+      complete_panes(options.panes, *parts.tensors, *view.volume);
       view.volume_label = "FA";
     }
   } else if (parts.tracts) {
@@ -247,6 +271,7 @@ SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Do
   view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
   view.tensors = std::move(parts.tensors);
   view.tracts = std::move(parts.tracts);
+  view.regions = region_views(options.tracts);
   return view;
 }
 

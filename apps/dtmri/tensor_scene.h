@@ -87,7 +87,15 @@ std::vector<std::string> show_underlay(const Underlay& underlay, const Document&
 struct TensorSceneParts {
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;
+  const TensorImage* made = nullptr;  ///< that the tensors are of, for slices beside the picture; may be null
 };
+
+/// Tracts of `bundle` as the options say.
+[[nodiscard]] TractView make_tract_view(std::shared_ptr<const TractBundle> bundle,
+                                        const TractAppearance& look);
+
+/// Lets slices show the underlay, and puts crosshair and slices to the same place: that of --cross, or of --slices.
+void complete_panes(const PanesOptions& options, TensorView& tensors, VolumeView& volume);
 /// The scene seen by the camera that `options` name. The anisotropy of tensors is there as a volume.
 /// @param aspect width / height of the picture.
 [[nodiscard]] SceneView make_tensor_scene(const Input& input, TensorSceneParts parts, const Document& options,

@@ -13,6 +13,7 @@
 #include "common/cli/verbs.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/scene/tensor/tensor_spec.h"
 
 namespace palpate {
@@ -122,8 +123,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   TractSummary summary;
   Stopwatch regions;
   const bool left_handed = parse_tensor_spec(options.input.tensor).left_handed;
-  const TractRequest request = tract_request(options.tracts, left_handed, threads, &context.progress);
-  summary.options = request.options;
+  TractRequest request = tract_request(options.tracts, left_handed, threads, &context.progress);
   const double seconds_regions = regions.seconds();
 
   Input input = open_input(options, context);
@@ -132,7 +132,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.output = options.output.file.string();
   summary.threads = resolve_threads(threads);
 
-  const TensorImage image = input.load_tensor_image(threads, &context.progress);
+  const TensorImage image = input.load_tensor_image(threads, &context.progress, options.tracts.max_cone.has_value());
   for (const std::string& note : image.notes) console.note(input.title() + ": " + note);
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   const Stopwatch prepare;
@@ -140,9 +140,13 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   summary.field = input.field_label();
   std::vector<std::string> of_masks = check_regions(request, image.image);
-  const std::vector<Vec3> seeds = tract_seeds(options.tracts, left_handed, options.common.seed, *field,
+  std::vector<Vec3> seeds = tract_seeds(options.tracts, left_handed, options.common.seed, *field,
                                               image.image, of_masks, &context.progress);
+  if (options.tracts.max_cone)
+    stop_where_unsure(options.tracts, field->voxels().value_or(UniformTopology()),
+                      image.image.find(std::string(kConeArray), Association::kPoint), request, seeds, of_masks);
   for (const std::string& note : of_masks) console.note(note);
+  summary.options = request.options;
   summary.seeds = seeds.size();
   summary.seconds_prepare = seconds_regions + prepare.seconds();
 

@@ -1,5 +1,6 @@
 #include "apps/dtmri/tract_request.h"
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
@@ -8,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/dtmri/region_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/load/read_tractogram.h"
@@ -20,21 +22,16 @@
 namespace palpate {
 namespace {
 
-constexpr const char* kRegionGrammar = "a region is mask:FILE or sphere:x,y,z,r";
+constexpr const char* kRegionGrammar =
+    "a region is mask:FILE, sphere:x,y,z,r, box:x,y,z,x,y,z, beyond:nx,ny,nz,d or brush:r,x,y,z,x,y,z,…";
 constexpr const char* kSeedGrammar =
     "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, grid:nx,ny,nz, random:n, fa:T, "
-    "cl:T, mask:FILE or sphere:x,y,z,r";
+    "cl:T, or a region (mask:, sphere:, box:, beyond:, brush:)";
 constexpr std::size_t kMostSeeds = 100'000'000;
 
 /// What stands behind "kind:", or empty where `text` is of another kind.
 std::string_view after(std::string_view text, std::string_view kind) {
   return text.starts_with(kind) ? text.substr(kind.size()) : std::string_view();
-}
-
-Sphere parse_sphere(std::string_view numbers, const std::string& grammar) {
-  const auto v = parse_numbers(numbers, 4, grammar);
-  if (!(v[3] > 0.0)) throw usage_error("sphere:" + std::string(numbers) + ": the radius must be above zero");
-  return {.center = {v[0], v[1], v[2]}, .radius = v[3]};
 }
 
 std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, const std::string& option,
@@ -43,13 +40,12 @@ std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, co
   for (const std::string& text : texts) {
     std::string refusal = option;
     refusal.append(" ").append(text).append(": ").append(kRegionGrammar);
-    if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
-      regions.emplace_back(parse_sphere(numbers, refusal));
-    } else if (const auto file = after(text, "mask:"); !file.empty()) {
-      masks.push_back(read_mask(file, progress, left_handed));
+    const RegionShape shape = parse_region(text, refusal);
+    if (const auto* const file = std::get_if<std::string>(&shape)) {
+      masks.push_back(read_mask(*file, progress, left_handed));
       regions.emplace_back(masks.back().mask);
     } else {
-      throw usage_error(refusal);
+      regions.push_back(tract_region(shape));
     }
   }
   return regions;
@@ -148,17 +144,19 @@ ViewTracts read_view_tracts(const TractAppearance& appearance, const TensorField
   return tracts;
 }
 
-ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels, Progress* progress) {
+ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels,
+                             const DataArray* cones, Progress* progress) {
   const TractTracingOptions& options = document.tracts;
   const bool left_handed = parse_tensor_spec(document.input.tensor).left_handed;
-  const TractRequest request = tract_request(options, left_handed, document.common.threads, progress);
+  TractRequest request = tract_request(options, left_handed, document.common.threads, progress);
   const TractOptions& how = request.options;
   // Seeds are laid over the voxels; what these hold is asked of the field.
   DataSet lattice;
   lattice.topology = UniformTopology{voxels.points, voxels.origin, voxels.axes};
   std::vector<std::string> notes = check_regions(request, lattice);
-  const std::vector<Vec3> seeds =
+  std::vector<Vec3> seeds =
       tract_seeds(options, left_handed, document.common.seed, *voxels.field, lattice, notes, progress);
+  stop_where_unsure(options, std::get<UniformTopology>(lattice.topology), cones, request, seeds, notes);
   TractResult result = trace_tracts(*voxels.field, seeds, how, progress);
   ViewTracts tracts;
   tracts.seeds = seeds.size();
@@ -168,6 +166,32 @@ ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxel
   tracts.bundle = make_tract_bundle(std::make_shared<const Tractogram>(std::move(result.lines)));
   tracts.left_out = tracts_left_out(*tracts.bundle);
   return tracts;
+}
+
+void stop_where_unsure(const TractTracingOptions& options, const UniformTopology& image,
+                       const DataArray* cones, TractRequest& request, std::vector<Vec3>& seeds,
+                       std::vector<std::string>& notes) {
+  if (!options.max_cone) return;
+  if (cones == nullptr)
+    throw usage_error(
+        "--max-cone: how sure directions are follows from a fit: it needs the diffusion-weighted volumes, not tensors");
+  std::vector<float> unsure(cones->tuples);
+  std::size_t unknown = 0;
+  for (std::size_t p = 0; p < unsure.size(); ++p) {
+    const double cone = cones->at(p);
+    unsure[p] = cone > *options.max_cone ? 1.0F : 0.0F;
+    unknown += std::isnan(cone) ? 1 : 0;
+  }
+  if (unknown == unsure.size())
+    throw usage_error(
+        "--max-cone: seven volumes determine a tensor and nothing of its noise: no cone is known, more are needed");
+  const auto mask = std::make_shared<const VoxelMask>(
+      image, make_array("unsure", Association::kPoint, 1, std::move(unsure)));
+  request.options.stop.emplace_back(mask);
+  const std::size_t left_out = std::erase_if(seeds, [&](const Vec3& x) { return mask->contains(x); });
+  if (left_out > 0)
+    notes.push_back(counted(left_out, "seed") + " left out where the cone is wider than --max-cone " +
+                    short_number(*options.max_cone));
 }
 
 TractRequest tract_request(const TractTracingOptions& options, bool left_handed, int threads,
@@ -234,8 +258,8 @@ std::vector<Vec3> tract_seeds(const TractTracingOptions& options, bool left_hand
     const double least = parse_numbers(number, 1, "--seeds " + text + ": " + kSeedGrammar)[0];
     return seeds_in(voxels_of(image, text), above(field, measure, least));
   }
-  if (const auto numbers = after(text, "sphere:"); !numbers.empty()) {
-    const TractRegion region(parse_sphere(numbers, "--seeds " + text + ": " + kSeedGrammar));
+  if (is_region(text) && !text.starts_with("mask:")) {
+    const TractRegion region = tract_region(parse_region(text, "--seeds " + text + ": " + kSeedGrammar));
     return seeds_in(voxels_of(image, text), [&](const Vec3& x) { return region.contains(x); });
   }
   if (const auto file = after(text, "mask:"); !file.empty()) {

@@ -1,7 +1,6 @@
 /// What the options of tracts mean: seeds, regions and limits.
 ///
-///   region    mask:FILE          voxels of an image above 0.5 (voxel_mask.h)
-///             sphere:x,y,z,r     a ball
+///   region    region_text.h
 ///   seeds     a region, or fa:T, cl:T: the voxels that it takes the centres of; of a mask its own voxels
 ///             grid:, random: between the outer centres of an image's voxels
 ///             whatever parse_seeds() knows that does not depend on a field: file.csv, point:, line:, plane:
@@ -43,6 +42,13 @@ struct TractRequest {
                                             const DataSet& image, std::vector<std::string>& notes,
                                             Progress* progress = nullptr);
 
+/// Has lines end, and leaves out seeds, where TractTracingOptions::max_cone says, if it does.
+/// @param cones of the voxels of `image` [degrees]; null: its tensors were not fitted. @param notes appended.
+/// @throws Error (usage) where no cone is known.
+void stop_where_unsure(const TractTracingOptions& options, const UniformTopology& image,
+                       const DataArray* cones, TractRequest& request, std::vector<Vec3>& seeds,
+                       std::vector<std::string>& notes);
+
 /// Of tracing that gave no line: what became of its seeds and lines, and by which option.
 [[nodiscard]] std::string why_no_tract(const TractResult& result, const TractOptions& options);
 
@@ -66,9 +72,9 @@ void check_view_tracts(const TractTracingOptions& options, const TractAppearance
 [[nodiscard]] ViewTracts read_view_tracts(const TractAppearance& appearance, const TensorField* field,
                                           int threads, Progress* progress);
 
-/// Traces through `voxels` as the verb `trace` does. @pre document.tracts.seeds is not empty.
+/// Traces through `voxels` as the verb `trace` does. @param cones as stop_where_unsure(). @pre document.tracts.seeds is not empty.
 /// @throws Error (usage), (bad input) as tract_options() and tract_seeds(); Cancelled.
 [[nodiscard]] ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels,
-                                           Progress* progress);
+                                           const DataArray* cones, Progress* progress);
 
 }  // namespace palpate

@@ -8,6 +8,7 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
@@ -28,7 +29,9 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
 
   TractogramFile file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
-  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress);
+  const bool cones = options.output.measure == name_of(TensorMeasure::kCone);
+  const TensorImage made =
+      input.load_tensor_image(options.common.threads, &context.progress, cones && !options.output.profile.empty());
   const auto field =
       make_tensor_field(made.image, made.choice, input.title(), options.common.threads, made.notes);
   context.progress.begin("comparing", 0);

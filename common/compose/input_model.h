@@ -142,11 +142,11 @@ class InputModel : public WindowModel {
   /// @throws Error, Cancelled.
   virtual void complete(Document& /*document*/, Input& /*input*/, Progress& /*progress*/) const {}
 
-  /// Whether both mean the same fields, regions and surfaces at the same time.
+  /// Whether both mean the same fields, regions and surfaces at the same time, read in the same way.
   [[nodiscard]] static bool same_content(const Document& a, const Document& b) {
     return a.input.field == b.input.field && a.input.secondary == b.input.secondary &&
            a.input.regions == b.input.regions && a.input.paint == b.input.paint &&
-           a.input.time == b.input.time;
+           a.input.time == b.input.time && a.input.tensor == b.input.tensor;
   }
 
   /// What is open; null before start().
@@ -158,6 +158,7 @@ class InputModel : public WindowModel {
     input.set_secondary(document.input.secondary);
     input.set_regions(document.input.regions);
     input.set_paint(document.input.paint);
+    input.set_tensor_reading(document.input.tensor);
     if (!input.times().empty()) input.set_time_step(time_step_of(document, input.times()));
   }
 

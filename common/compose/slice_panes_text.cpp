@@ -53,6 +53,10 @@ SlicePanes slice_panes_of(const PanesOptions& options, const Box& bounds) {
   panes.rule = static_cast<SlabRule>(place_in(kSlabRuleNames, options.rule, "--slab-rule"));
   panes.radiological = options.side != "neurological";
   panes.blend = options.blend;
+  panes.shown = options.shown;
+  if (options.window.has_value() != options.level.has_value())
+    throw usage_error("--slice-window and --slice-level: give both, or neither");
+  if (options.window) panes.window = ValueWindow{.width = *options.window, .level = *options.level};
   return panes;
 }
 
@@ -76,6 +80,10 @@ std::string panes_note(const VolumeView& volume) {
     return "--cross lies outside the volume, which reaches from " + text(bounds.lower) + " to " +
            text(bounds.upper) + ": slices may show nothing";
   }
+  const std::vector<SliceImage>& images = volume.slice_images;
+  if (!images.empty() &&
+      std::ranges::none_of(images, [&](const SliceImage& one) { return one.name == panes.shown; }))
+    return "slices show anisotropy: there is no " + panes.shown + " of this image (--slice-show)";
   if (panes.blend > 0.0 && volume.fields.empty())
     return "--slice-blend has nothing to lay over the slices: name a second volume, as in --field scalars,pet.nii.gz";
   return {};
@@ -96,6 +104,13 @@ void keep_panes(const SlicePanes& panes, const Box& bounds, PanesOptions& option
   options.rule = kSlabRuleNames[as_size(panes.rule)];
   options.side = panes.radiological ? "radiological" : "neurological";
   options.blend = panes.blend;
+  options.shown = panes.shown;
+  options.window.reset();
+  options.level.reset();
+  if (panes.window) {
+    options.window = panes.window->width;
+    options.level = panes.window->level;
+  }
 }
 
 }  // namespace palpate

@@ -62,6 +62,12 @@ struct SceneInfo {
 };
 
 /// A scene with its lines, or its volume.
+/// Settings that mend what a note warns of, by name and text.
+struct SceneFix {
+  std::string note;
+  std::vector<std::pair<std::string, std::string>> settings;
+};
+
 struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   Document document;                                 ///< as used; what was left to a default is filled in
@@ -95,6 +101,8 @@ struct SceneState {
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
   std::vector<std::string> notes;  ///< what the user should know, one line each
+  std::vector<SceneFix> fixes;     ///< of some of them
+  std::vector<RegionView> regions;  ///< that tracts are traced by
 };
 
 /// Takes the tables of seeds and colours into `document`.

@@ -39,7 +39,7 @@ bool same_still_part(const SceneView& a, const SceneView& b) {
          same_box(a.bounds, b.bounds) && a.background == b.background && a.show_outline == b.show_outline &&
          a.outline == b.outline && a.surfaces == b.surfaces && a.color_lens == b.color_lens &&
          a.volume.has_value() == b.volume.has_value() && (!a.volume || same_picture(*a.volume, *b.volume)) &&
-         same_tensors(a, b) && a.tracts == b.tracts && a.slice == b.slice;
+         same_tensors(a, b) && a.regions == b.regions && a.tracts == b.tracts && a.slice == b.slice;
 }
 
 bool shows_volume(const SceneView& view) { return view.volume && view.volume->shown; }

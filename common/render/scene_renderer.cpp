@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "common/render/gl/target.h"
 #include "common/render/glyph/probe_pass.h"
 #include "common/render/label/label_pass.h"
+#include "common/render/lens/shape_wire.h"
 #include "common/render/line/line_geometry.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/line/line_pass.h"
@@ -56,6 +58,7 @@ struct SceneRenderer::State {
   std::optional<LayeredLines> layered;  // what `layers` held in the last picture
   ColoredLines lines;
   LineSet outline;
+  std::vector<LineSet> regions;  // of each
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
@@ -80,6 +83,7 @@ struct SceneRenderer::State {
   std::shared_ptr<const TensorVoxels> shown_tensors;
   std::shared_ptr<const TractBundle> shown_tracts;
   std::vector<std::vector<Vec3>> shown_outline;
+  std::vector<RegionView> shown_regions;
   SceneFrame frame;
   FrameBlock block;  // of this picture
 
@@ -92,7 +96,7 @@ struct SceneRenderer::State {
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
-        shown_outline == view.outline && shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
+        shown_outline == view.outline && shown_regions == view.regions && shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
         shown_tracts == (view.tracts ? view.tracts->bundle : nullptr)) {
       return;
     }
@@ -101,6 +105,14 @@ struct SceneRenderer::State {
     lines.set_geometry(view.lines.get(), frame);
     outline.set_geometry(
         make_line_geometry(view.outline.empty() ? box_edges(view.bounds) : view.outline, frame));
+    regions.clear();
+    for (const RegionView& region : view.regions) {
+      std::vector<std::vector<Vec3>> wires;
+      for (const ConvexShape& shape : region.shapes)
+        std::ranges::move(shape_wire(shape, view.bounds), std::back_inserter(wires));
+      regions.emplace_back().set_geometry(make_line_geometry(wires, frame));
+    }
+    shown_regions = view.regions;
     shown_lines = view.lines;
     shown_bounds = view.bounds;
     shown_tensors = view.tensors ? view.tensors->image : nullptr;
@@ -149,6 +161,14 @@ struct SceneRenderer::State {
       how.color = palette_of(view.background).outline;
       how.min_width = how.width = std::max(1.0F, 1.3F * unit);
       outline.draw(how);
+    }
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      line_program.use(color_map_of(view.style));
+      LineDraw how = base;
+      how.coloring = LineDraw::Coloring::kUnlit;
+      how.color = view.regions[i].color;
+      how.min_width = how.width = std::max(1.0F, 1.8F * unit);
+      regions[i].draw(how);
     }
     if (view.tensors) {
       if (!tensors) tensors = std::make_unique<TensorPass>();
@@ -262,7 +282,15 @@ struct SceneRenderer::State {
       still_path = 0;
     }
     const bool grown = unseen && show_growing(other);
-    if (view.probe) still_path = probe->draw_settled_path(line_program, view, unit, still_path);
+    if (view.probe) {
+      // Over a slice nothing hides what is being drawn, tracts that have come since neither.
+      if (view.slice) {
+        if (tracts.share().milliseconds > 0.0) still_path = 0;
+        glDepthMask(GL_TRUE);
+        glClear(GL_DEPTH_BUFFER_BIT);
+      }
+      still_path = probe->draw_settled_path(line_program, view, unit, still_path);
+    }
     target.copy_still_to_scene();
     target.bind_scene();
     if (view.probe) {

@@ -17,7 +17,7 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
-         a.slice == b.slice && a.notes == b.notes && a.labels == b.labels &&
+         a.slice == b.slice && a.regions == b.regions && a.notes == b.notes && a.labels == b.labels &&
          a.volume_label == b.volume_label && a.anatomical == b.anatomical && a.surfaces == b.surfaces &&
          a.color_lens == b.color_lens;
 }

@@ -46,6 +46,14 @@ struct NoteView {
   bool operator==(const NoteView&) const = default;
 };
 
+/// A region that is outlined in slices and in the scene.
+struct RegionView {
+  std::vector<ConvexShape> shapes;  ///< it is all of them together
+  Rgb color;
+
+  bool operator==(const RegionView&) const = default;
+};
+
 /// A ball in which lines and coloured surfaces show another number than around it.
 struct ColorLens {
   Vec3 center{0.0};
@@ -80,6 +88,7 @@ struct SceneView {
   std::optional<TensorView> tensors;
   std::optional<TractView> tracts;
   std::vector<NoteView> notes;
+  std::vector<RegionView> regions;
   std::vector<LabelView> labels;  ///< menus and words in space
   std::string volume_label;       ///< what its values are, for the colour bar
   bool anatomical = false;        ///< data coordinates are RAS+: letters say where right, front and up are

@@ -513,7 +513,7 @@ std::shared_ptr<const ScalarField> Input::load_scalar(int threads, Progress* pro
   return field;
 }
 
-TensorImage Input::load_tensor_image(int threads, Progress* progress) {
+TensorImage Input::load_tensor_image(int threads, Progress* progress, bool details) {
   // Tensors of a single slice can be fitted and measured, though no line can be traced through them.
   const std::vector<BlockInfo>& blocks_of_file = file()->blocks;
   if (blocks_of_file.empty() || blocks_of_file.front().grid != "uniform") check_volume();
@@ -524,9 +524,11 @@ TensorImage Input::load_tensor_image(int threads, Progress* progress) {
   if (progress) progress->begin("preparing the tensors", 0);
   const Work work("tensor image", source.label);
   const std::string name = file_name();
+  TensorReading reading = parse_tensor_spec(spec_.tensor);
+  reading.fit.details = details;
   TensorImage image = make_tensor_image(
       std::move(blocks), {.source = source, .diffusion = file()->diffusion, .file = name, .measured = !made_},
-      parse_tensor_spec(spec_.tensor), threads, progress);
+      reading, threads, progress);
   seconds_field_ = watch.seconds();
   return image;
 }
@@ -563,13 +565,14 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   return heart;
 }
 
-std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* progress) {
+std::shared_ptr<const TensorField> Input::load_tensor(int threads, Progress* progress, TensorImage* image) {
   check_volume();
-  const TensorImage made = load_tensor_image(threads, progress);
+  TensorImage made = load_tensor_image(threads, progress, image != nullptr);
   const Stopwatch watch;
   const Work work("tensor field", "at any place");
   auto field = make_tensor_field(made.image, made.choice, file_name(), threads, made.notes);
   seconds_field_ += watch.seconds();
+  if (image != nullptr) *image = std::move(made);
   return field;
 }
 

@@ -84,6 +84,8 @@ class Input {
   /// The regions of a heart's mesh, chosen or not; none where it has no array of them. Read once.
   /// @throws Error, Cancelled.
   [[nodiscard]] const std::vector<RegionCount>& regions(Progress* progress = nullptr);
+  /// How tensors are read and fitted from now on; where their gradients and handedness come from was chosen by open().
+  void set_tensor_reading(TensorSpec reading) { spec_.tensor = std::move(reading); }
   /// Chooses what InputOptions::secondary has.
   void set_secondary(std::vector<std::string> names) { spec_.secondary = std::move(names); }
 
@@ -111,14 +113,18 @@ class Input {
   /// The same for the scalar field. @pre file().
   [[nodiscard]] std::shared_ptr<const ScalarField> load_scalar(int threads, Progress* progress = nullptr);
   /// The same for the tensor field. @pre file().
-  [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr);
+  /// @param image if not null, becomes what the field was made of, with the details of a fit.
+  [[nodiscard]] std::shared_ptr<const TensorField> load_tensor(int threads, Progress* progress = nullptr,
+                                                               TensorImage* image = nullptr);
   /// Fibres, sheets and layers of a heart. @pre file().
   /// @param value a scalar to come along as Heart::value (label_of() of scalar_choice.h); empty: none.
   /// @throws Error as make_heart(); Cancelled.
   [[nodiscard]] Heart load_heart(int threads, Progress* progress = nullptr, const std::string& value = {},
                                  LayersNeeded layers = LayersNeeded::kAlways);
   /// The image that load_tensor() makes its field of. @pre file().
-  [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr);
+  /// @param details FitOptions::details
+  [[nodiscard]] TensorImage load_tensor_image(int threads, Progress* progress = nullptr,
+                                              bool details = false);
   /// read() as a part of loading a field: seconds_read() is its time, seconds_field() 0.
   [[nodiscard]] std::vector<DataSet> read_timed(const std::vector<std::string>& names, Progress* progress);
   /// Reads topology and arrays by name at the chosen time step, with the cells of regions that are not chosen

@@ -21,6 +21,7 @@
 #include "common/render/png.h"
 #include "common/window/controls/plane_cuts.h"
 #include "common/window/controls/scene_controls.h"
+#include "common/window/controls/slice_control.h"
 #include "common/window/edit_history.h"
 #include "common/window/files/thumbnails.h"
 #include "common/window/files/window_files.h"
@@ -138,6 +139,7 @@ class ExplorerWindow {
   std::optional<SceneState> scene_;
   bool shown_ = false;  // there was one
   PanelState state_;
+  CrosshairLink crosshair_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   StartPage start_page_;
   bool start_asked_ = false;  // though something is open

@@ -118,6 +118,7 @@ void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
   view.surfaces = scene.surfaces;
   show_lens(scene, as_made, view);
   color_lines(scene, view.style);
+  view.regions = scene.regions;
   view.bounds = scene.info->bounds;
   view.outline = scene.info->outline;
   view.units = scene.info->units;
@@ -153,6 +154,7 @@ ViewEdits edits_of(const SceneView& view) {
   if (edits.volume) {
     edits.volume->image.reset();
     for (VolumeField& field : edits.volume->fields) field.image.reset();
+    edits.volume->slice_images.clear();
   }
   // The underlay stays: its window is of its own values.
   if (edits.tensors) edits.tensors->image.reset();

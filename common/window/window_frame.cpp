@@ -56,6 +56,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   if (needs_camera_ && scene_) reset_camera();
   update_panels();
   obey(on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts));
+  crosshair_.follow(view_);
   answer_questions();
   if (files_.follow_export()) glfwMakeContextCurrent(glfw_.get());
   follow_hand();
@@ -169,6 +170,7 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
   picture_->draw(std::move(picture), view_, controls_.panes(), ImGui::GetIO().WantCaptureMouse, moment, width,
                  height);
   state_.picture = picture_->live().figures();
+  if (!picture_->complete()) lively_frames_ = std::max(lively_frames_, 2);
 }
 
 }  // namespace palpate

@@ -20,6 +20,12 @@ layout(std430, binding = 0) readonly buffer Points { Point points[]; };
 layout(location = 0) uniform float width;    // at the focal point, pixels
 layout(location = 1) uniform float fading;   // share of the depth cue
 layout(location = 2) uniform float dimming;  // share of the background at any depth
+#ifdef SLAB
+// What lies within a slab about a plane alone, in N: |n . p - d| < half; farther from it closer to the background.
+layout(location = 5) uniform vec4 slab;  // n, d
+layout(location = 6) uniform float slab_half;
+out float gl_ClipDistance[2];
+#endif
 
 out Vertex {
   noperspective vec3 middle;   // sRGB
@@ -64,6 +70,13 @@ void main() {
   vec3 edge = shade(abs(t), kEdge * diffuse, 0.0);
   // Depth cue: farther lines take on the background, which is linear in the picture.
   float far = mix(fading * fading_at(depth), 1.0, dimming);
+#ifdef SLAB
+  const float kFaded = 0.8;
+  float above = dot(slab.xyz, p) - slab.w;
+  gl_ClipDistance[0] = slab_half - above;
+  gl_ClipDistance[1] = slab_half + above;
+  far = max(far, kFaded * min(1.0, abs(above) / slab_half));
+#endif
   vec2 pixels = (0.5 + 0.5 * gl_Position.xy / gl_Position.w) * frame.size.xy;
   vec3 background = background_at(pixels);
   result.middle = mix(middle, background, far);

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "common/base/check.h"
@@ -61,11 +63,12 @@ class VoxelFit {
   VoxelFit(const VoxelFit&) = delete;
   VoxelFit& operator=(const VoxelFit&) = delete;
   VoxelFit(const std::vector<Row>& rows, double largest_weighting, const FitOptions& options,
-           const FitKernel& kernel, std::span<float> tensors)
-      : largest_weighting_(largest_weighting),
+           const FitKernel& kernel, TensorFit& fit)
+      : rows_(rows),
+        largest_weighting_(largest_weighting),
         options_(options),
         kernel_(kernel),
-        tensors_(tensors),
+        result_(fit),
         logs_(rows.size()),
         weights_(rows.size(), {1.0, 1.0, 1.0, 1.0}) {
     constexpr int kIterations = 2;
@@ -98,6 +101,7 @@ class VoxelFit {
       if (weighted()) weights_[i][used_] = kept * kept;
     }
     voxels_[used_] = voxel;
+    largest_[used_] = largest;
     lifted_[used_] = lifted;
     if (++used_ == voxels_.size()) flush(count);
   }
@@ -113,7 +117,8 @@ class VoxelFit {
       }
       ++count.fitted;
       count.lifted += lifted_[lane] ? 1 : 0;
-      count.negative += store(lane, tensors_.subspan(6 * voxels_[lane], 6)) ? 1 : 0;
+      count.negative += store(lane, std::span(result_.tensors).subspan(6 * voxels_[lane], 6)) ? 1 : 0;
+      if (options_.details) store_details(lane);
     }
     used_ = 0;
   }
@@ -138,18 +143,74 @@ class VoxelFit {
     return below;
   }
 
+  void store_details(std::size_t lane) {
+    std::array<double, kFitUnknowns> solution{};
+    for (std::size_t c = 0; c < solution.size(); ++c) solution[c] = four_.solution[c][lane];
+    lane_logs_.resize(logs_.size());
+    lane_weights_.resize(logs_.size());
+    for (std::size_t i = 0; i < logs_.size(); ++i) {
+      lane_logs_[i] = logs_[i][lane];
+      lane_weights_[i] = weights_[i][lane];
+    }
+    const std::size_t voxel = voxels_[lane];
+    result_.cones[voxel] =
+        static_cast<float>(cone_of_uncertainty(rows_, lane_weights_, lane_logs_, solution));
+    result_.baselines[voxel] = static_cast<float>(largest_[lane] * std::exp(solution[kFitUnknowns - 1]));
+  }
+
+  const std::vector<Row>& rows_;
   double largest_weighting_;
   FitOptions options_;
   const FitKernel& kernel_;
-  std::span<float> tensors_;
+  TensorFit& result_;
   std::vector<FitFour::Lanes> logs_, weights_;
   FitFour four_;  ///< refers to them
   std::size_t used_ = 0;
   std::array<std::size_t, 4> voxels_{};
+  std::array<double, 4> largest_{};  ///< signals
   std::array<bool, 4> lifted_{};
+  std::vector<double> lane_logs_, lane_weights_;  ///< of one voxel
 };
 
 }  // namespace
+
+double cone_of_uncertainty(std::span<const Row> rows, std::span<const double> weights,
+                           std::span<const double> logs, const Row& solution) {
+  if (rows.size() <= kFitUnknowns) return std::numeric_limits<double>::quiet_NaN();
+  const double freedom = static_cast<double>(rows.size() - kFitUnknowns);
+  Normal normal = Normal::Zero();
+  double squares = 0.0;
+  const Eigen::Map<const Unknowns> x(solution.data());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::Map<const Unknowns> row(rows[i].data());
+    normal += weights[i] * row * row.transpose();
+    const double residual = logs[i] - row.dot(x);
+    squares += weights[i] * residual * residual;
+  }
+  const auto& [xx, xy, xz, yy, yz, zz, log_baseline] = solution;
+  const SymmetricEigen eigen = symmetric_eigen({Vec3{xx, xy, xz}, Vec3{xy, yy, yz}, Vec3{xz, yz, zz}});
+  const double second = eigen.values[0] - eigen.values[1], third = eigen.values[0] - eigen.values[2];
+  constexpr double kAny = 90.0;
+  if (!(second > 0.0 && third > 0.0)) return kAny;
+  // Rows of the derivatives of the parts of de_1 along e_2 and e_3 by the unknowns.
+  Eigen::Matrix<double, kUnknowns, 2> slopes;
+  for (int j = 0; j < 2; ++j) {
+    const Vec3 a = eigen.vectors[0], b = eigen.vectors[static_cast<std::size_t>(j) + 1];
+    const double gap = j == 0 ? second : third;
+    slopes.col(j) << a.x * b.x, a.x * b.y + a.y * b.x, a.x * b.z + a.z * b.x, a.y * b.y,
+        a.y * b.z + a.z * b.y, a.z * b.z, 0.0;
+    slopes.col(j) /= gap;
+  }
+  const Eigen::LDLT<Normal> solver(normal);
+  if (solver.info() != Eigen::Success) return kAny;
+  const Eigen::Matrix2d spread = squares / freedom * slopes.transpose() * solver.solve(slopes);
+  const double mean = 0.5 * (spread(0, 0) + spread(1, 1));
+  const double largest = mean + std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
+  constexpr double kOutside = 0.05;
+  const double twice_quantile = freedom * (std::pow(kOutside, -2.0 / freedom) - 1.0);
+  const double angle = std::atan(std::sqrt(twice_quantile * std::max(0.0, largest))) * 180.0 / std::numbers::pi;
+  return std::isfinite(angle) ? angle : kAny;
+}
 
 std::string gradient_problem(const GradientTable& table) {
   if (!(table.largest_weighting() > 0.0)) return "all b-values are zero: nothing is diffusion weighted";
@@ -184,10 +245,15 @@ TensorFit fit_tensors(const DataArray& signals, const GradientTable& table,
   const double largest_weighting = table.largest_weighting();
   TensorFit fit;
   fit.tensors.assign(6 * signals.tuples, std::numeric_limits<float>::quiet_NaN());
+  if (options.details) {
+    fit.cones.assign(signals.tuples, std::numeric_limits<float>::quiet_NaN());
+    fit.baselines = fit.cones;
+    work.takes(2 * signals.tuples * sizeof(float));
+  }
   const std::size_t pieces = (signals.tuples + kPiece - 1) / kPiece;
   std::vector<Counts> counts(pieces);
   parallel_for(pieces, options.threads, [&](std::size_t first, std::size_t last) {
-    VoxelFit voxels(rows, largest_weighting, options, fit_kernels().back(), fit.tensors);
+    VoxelFit voxels(rows, largest_weighting, options, fit_kernels().back(), fit);
     for (std::size_t piece = first; piece < last; ++piece) {
       if (progress != nullptr) progress->check();
       for (std::size_t v = piece * kPiece; v < std::min(signals.tuples, (piece + 1) * kPiece); ++v) {

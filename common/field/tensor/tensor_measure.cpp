@@ -16,7 +16,7 @@ namespace palpate {
 namespace {
 
 constexpr std::array<std::string_view, kTensorMeasureCount> kNames{"fa", "md",   "cl", "cp",
-                                                                   "cs", "mode", "v1", "color"};
+                                                                   "cs", "mode", "v1", "color", "v1-cone"};
 
 double number_of(TensorMeasure measure, const Vec3& eigenvalues, WestinScale westin) {
   switch (measure) {
@@ -73,6 +73,15 @@ int component_count(TensorMeasure measure) noexcept {
 
 std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice, TensorMeasure measure,
                                    int threads, WestinScale westin) {
+  if (measure == TensorMeasure::kCone) {
+    const DataArray* const cones = image.find(std::string(kConeArray), Association::kPoint);
+    if (cones == nullptr)
+      throw usage_error(
+          "v1-cone: how sure a direction is follows from a fit: it needs the diffusion-weighted volumes, not tensors");
+    std::vector<float> degrees(cones->tuples);
+    for (std::size_t p = 0; p < degrees.size(); ++p) degrees[p] = static_cast<float>(cones->at(p));
+    return degrees;
+  }
   const DataArray& array = *image.find(choice.array, choice.association);
   const auto components = as_size(component_count(measure));
   std::vector<float> values(components * array.tuples, std::numeric_limits<float>::quiet_NaN());

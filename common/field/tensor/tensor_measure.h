@@ -21,11 +21,14 @@ enum class TensorMeasure : std::uint8_t {
   kMode,
   kMainDirection,  ///< e_1, unit, in the data's axes; of its two signs the one whose largest component is
                    ///< positive
-  kColor           ///< FA times |x|, |y|, |z| of e_1: red, green, blue
+  kColor,          ///< FA times |x|, |y|, |z| of e_1: red, green, blue
+  kCone            ///< cone_of_uncertainty() [degrees], of tensors that were fitted
 };
-inline constexpr int kTensorMeasureCount = 8;
+inline constexpr int kTensorMeasureCount = 9;
+/// Of an image of fitted tensors: TensorFit::cones and TensorFit::baselines.
+inline constexpr std::string_view kConeArray = "v1-cone", kBaselineArray = "b0";
 
-/// "fa", "md", "cl", "cp", "cs", "mode", "v1", "color".
+/// "fa", "md", "cl", "cp", "cs", "mode", "v1", "color", "v1-cone".
 [[nodiscard]] std::string_view name_of(TensorMeasure measure) noexcept;
 /// @throws Error (usage) that lists the known ones.
 [[nodiscard]] TensorMeasure measure_from_name(std::string_view name);
@@ -34,6 +37,7 @@ inline constexpr int kTensorMeasureCount = 8;
 
 /// The measure at every point, NaN where there is no tensor; the same for any number of threads.
 /// @param westin of c_l, c_p and c_s. @pre `image` has the array of `choice`.
+/// @throws Error (usage) for kCone where it has none: its tensors were not fitted.
 [[nodiscard]] std::vector<float> measure_tensors(const DataSet& image, const TensorChoice& choice,
                                                  TensorMeasure measure, int threads,
                                                  WestinScale westin = WestinScale::kTrace);

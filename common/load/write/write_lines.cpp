@@ -14,6 +14,7 @@
 #include "common/base/text.h"
 #include "common/load/write/vtp_appendix.h"
 #include "common/load/write/write_tractogram.h"
+#include "common/load/write/write_trx.h"
 
 namespace palpate {
 namespace {
@@ -164,8 +165,8 @@ void write_tck_lines(OutputFile& file, const std::vector<Line>& lines, PointColu
   write_tck(file, tractogram_of(lines, image));
 }
 
-void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
-                     const TractogramImage* image) {
+/// With further numbers for each point.
+Tractogram packed_with(const std::vector<Line>& lines, PointColumns columns, const TractogramImage* image) {
   Tractogram packed = tractogram_of(lines, image);
   for (const PointColumn& column : columns) {
     auto& values =
@@ -173,7 +174,17 @@ void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, PointColu
     values.reserve(column.values.size());
     for (const double value : column.values) values.push_back(single(value));
   }
-  write_trk(file, packed);
+  return packed;
+}
+
+void write_trk_lines(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
+                     const TractogramImage* image) {
+  write_trk(file, packed_with(lines, columns, image));
+}
+
+void write_trx_lines(OutputFile& file, const std::vector<Line>& lines, PointColumns columns,
+                     const TractogramImage* image) {
+  write_trx(file, packed_with(lines, columns, image));
 }
 
 // ---- .csv ----------------------------------------------------------------------------------------------
@@ -211,8 +222,9 @@ Writer writer_for(const std::filesystem::path& path) {
   if (ending == ".vtp") return write_vtp;
   if (ending == ".tck") return write_tck_lines;
   if (ending == ".trk") return write_trk_lines;
+  if (ending == ".trx") return write_trx_lines;
   if (ending == ".csv") return write_csv;
-  throw usage_error(path.string() + ": lines are written as .vtp, .tck, .trk or .csv, not '" + ending + "'");
+  throw usage_error(path.string() + ": lines are written as .vtp, .tck, .trk, .trx or .csv, not '" + ending + "'");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// Writers of traced lines, chosen by the file's ending: .vtp, .tck, .trk, .csv. Written under a temporary
+/// Writers of traced lines, chosen by the file's ending: .vtp, .tck, .trk, .trx, .csv. Written under a temporary
 /// name and renamed, so an output is never half a file.
 #pragma once
 
@@ -23,8 +23,8 @@ struct PointColumn {
   std::vector<double> values;  ///< of all points, line after line
 };
 
-/// @param columns written by .vtp (point arrays), .trk (scalars, seven at most besides time, speed and error)
-/// and .csv; .tck has no place for them.
+/// @param columns written by .vtp (point arrays), .trk (scalars, seven at most besides time, speed and error),
+/// .trx and .csv; .tck has no place for them.
 /// @param image that the lines belong to, for the header of a .trk; null: a grid is laid around them.
 /// @throws Error as check_line_output(); (work failed) where the disk refuses.
 void write_lines(const std::filesystem::path& path, const std::vector<Line>& lines, bool overwrite,

@@ -17,6 +17,7 @@
 #include "common/base/text.h"
 #include "common/load/trk_header.h"
 #include "common/load/write/vtp_appendix.h"
+#include "common/load/write/write_trx.h"
 
 namespace palpate {
 namespace {
@@ -127,9 +128,10 @@ TractWriter tract_writer_for(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
   if (ending == ".tck") return write_tck;
   if (ending == ".trk") return write_trk;
+  if (ending == ".trx") return write_trx;
   if (ending == ".vtp") return write_vtp;
   if (ending == ".csv") return write_csv;
-  throw usage_error(path.string() + ": tracts are written as .tck, .trk, .vtp or .csv, not '" + ending + "'");
+  throw usage_error(path.string() + ": tracts are written as .tck, .trk, .trx, .vtp or .csv, not '" + ending + "'");
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
-/// Writers of tractograms, chosen by the file's ending: .tck, .trk, .vtp, .csv. Written under a temporary
+/// Writers of tractograms, chosen by the file's ending: .tck, .trk, .trx, .vtp, .csv. Written under a temporary
 /// name and renamed, so an output is never half a file.
 ///
 ///   .tck  MRtrix tracks: positions alone, world millimetres
 ///   .trk  TrackVis, version 2: positions from the corner of the image's first voxel along its axes; up to
 ///   ten
 ///         numbers for each point and for each line
+///   .trx  write_trx.h: everything
 ///   .vtp  VTK XML: everything
 ///   .csv  a row a point: line, point, x, y, z, its numbers, and those of its line
 #pragma once

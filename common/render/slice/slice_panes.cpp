@@ -12,7 +12,8 @@
 namespace palpate {
 namespace {
 
-constexpr int kGap = 2;  // pixels between panes
+constexpr int kGap = 2;               // pixels between panes
+constexpr double kSlabOfVoxels = 2.0;  // of tracts over a slice, where no thickness is said
 constexpr std::array<SlicePlane, 3> kPlanes{SlicePlane::kSagittal, SlicePlane::kCoronal, SlicePlane::kAxial};
 
 bool is_turned(const SlicePanes& panes) { return panes.turn != SlicePanes{}.turn; }
@@ -198,8 +199,10 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
       view.notes.push_back(note);
   }
   SliceView& slice = view.slice.emplace();
-  slice.image = volume.image;
-  slice.window = window_of(volume);
+  const SliceImage shown = shown_in_slices(volume);
+  slice.image = shown.image;
+  slice.window = shown.window;
+  slice.colored = shown.colored;
   slice.slab = panes.slab;
   slice.rule = panes.rule;
   if (panes.blend > 0.0 && !volume.fields.empty())
@@ -209,6 +212,18 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
     if (other == plane) continue;
     const Vec3 along = glm::cross(normal_of(panes, plane), normal_of(panes, other));
     slice.traces.push_back({{panes.cross - reach * along, panes.cross + reach * along}, plane_color(other)});
+  }
+  if (scene.tracts) {
+    view.tracts = scene.tracts;
+    view.tracts->depth_cue = false;
+    const double voxel = volume.image->step_along(view.camera.axes[2]);
+    view.tracts->slab = TractSlab{.normal = view.camera.axes[2],
+                                  .place = view.camera.focal_point,
+                                  .half = 0.5 * scene.tracts->slab_thickness.value_or(kSlabOfVoxels * voxel)};
+  }
+  if (scene.probe) {
+    view.probe = scene.probe;  // what is being drawn is seen whole
+    view.probe->show_force = false;
   }
   constexpr Rgb kCut{0.36F, 0.72F, 0.95F}, kLens{0.95F, 0.62F, 0.26F}, kBox{0.85F, 0.85F, 0.88F};
   ConvexShape kept;
@@ -223,6 +238,9 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
   if (panes.box) {
     const Vec3 half = 0.5 * panes.box->size();
     add(make_box(panes.box->center(), Mat3{half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z}), kBox);
+  }
+  for (const RegionView& region : scene.regions) {
+    for (const ConvexShape& shape : region.shapes) add(shape, region.color);
   }
   for (const Lens& lens : volume.lenses) {
     if (!lens.screen && (lens.shape.quadric || !lens.shape.half_spaces.empty())) add(lens.shape, kLens);

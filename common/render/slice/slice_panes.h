@@ -42,7 +42,8 @@ struct Pane {
                                       const std::vector<Pane>& parts, const Pane& pane);
 
 /// What a pane shows of a scene: the slice in its place, the other planes' lines in their colours, cuts and lenses as
-/// outlines, annotations, letters. @pre scene.volume; pane.plane.
+/// outlines, annotations, letters; before it tracts within a slab about it, and the probe with all that it draws,
+/// whole. @pre scene.volume; pane.plane.
 [[nodiscard]] SceneView pane_view(const SceneView& scene, const SlicePanes& panes,
                                   const std::vector<Pane>& parts, const Pane& pane);
 

@@ -188,6 +188,29 @@ std::vector<double> values_at(const VolumeImage& image, const Pixels& pixels, Sl
 
 std::uint8_t byte_of_part(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
 
+/// Grey becomes as bright a shade of the colour of the point that is nearest to the middle of the slab.
+void color_picture(const VolumeImage& image, const Pixels& pixels, int threads, Image& picture) {
+  const Vec3 middle = pixels.first + 0.5 * (pixels.planes - 1) * pixels.back;
+  const Vec3 first = image.grid_point(middle), right = image.grid_direction(pixels.right),
+             down = image.grid_direction(pixels.down);
+  parallel_for(as_size(picture.height), threads, [&](std::size_t from, std::size_t to) {
+    for (std::size_t row = from; row < to; ++row) {
+      for (int x = 0; x < picture.width; ++x) {
+        std::uint8_t* const pixel = picture.rgba.data() + 4 * (row * as_size(picture.width) + as_size(x));
+        if (pixel[3] == 0) continue;
+        const Index3 at = glm::clamp(Index3(glm::round(first + static_cast<double>(row) * down +
+                                                       static_cast<double>(x) * right)),
+                                     Index3(0), image.points - 1);
+        const auto& color = (*image.colors)[as_size(at.x) +
+                                            as_size(image.points.x) *
+                                                (as_size(at.y) + as_size(image.points.y) * as_size(at.z))];
+        for (std::size_t c = 0; c < 3; ++c)
+          pixel[c] = static_cast<std::uint8_t>((pixel[c] * color[c] + 127) / 255);
+      }
+    }
+  });
+}
+
 void blend_over(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
   const double low = blend.image->lowest, range = blend.image->highest - low;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -208,7 +231,7 @@ void blend_over(const SliceBlend& blend, const std::vector<double>& values, Imag
 }  // namespace
 
 bool same_pixels(const SliceView& a, const SliceView& b) {
-  return a.image == b.image && a.window == b.window && a.slab == b.slab && a.rule == b.rule &&
+  return a.image == b.image && a.window == b.window && a.colored == b.colored && a.slab == b.slab && a.rule == b.rule &&
          a.most_planes == b.most_planes && a.blend == b.blend;
 }
 
@@ -227,6 +250,7 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
     const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
     std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
+  if (slice.colored && image.colors) color_picture(image, pixels_of(image, slice, camera, width, height), threads, picture);
   if (slice.blend && slice.blend->opacity > 0.0)
     blend_over(*slice.blend, all_values(*slice.blend->image), picture);
   return picture;

@@ -15,7 +15,8 @@ namespace palpate {
 ///
 /// of the middle of each pixel: in the plane, or of the mean, highest or lowest value of planes no farther apart than
 /// half a step of the image that fill the slab, as far as the volume reaches; fewer where SliceView::most_planes says so. Where there is no value, outside and at voxels that have none, the
-/// picture is clear.
+/// picture is clear. Where SliceView::colored, grey is the brightness of the colour of the nearest point (in the middle
+/// of a slab).
 /// @param camera orthographic. @param threads 0: all cores. The result does not depend on it.
 [[nodiscard]] Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height,
                                  int threads = 0);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,19 +39,32 @@ struct SlicePanes {
   SlabRule rule = SlabRule::kMean;
   bool radiological = true;  ///< a patient's right is on the left
   double blend = 0.0;        ///< in [0, 1]: opacity of the second scalar over the first one
+  std::string shown;         ///< name of one of VolumeView::slice_images; empty: the volume's own values
+  std::optional<ValueWindow> window;  ///< of that image; absent: as it has it
 
   std::optional<Box> box;  ///< a region of interest, outlined
 
   friend bool operator==(const SlicePanes& a, const SlicePanes& b) {
     return a.layout == b.layout && a.first == b.first && a.cross == b.cross && a.turn == b.turn &&
            a.center == b.center && a.zoom == b.zoom && a.slab == b.slab && a.rule == b.rule &&
-           a.radiological == b.radiological && a.blend == b.blend && same_box(a.box, b.box);
+           a.radiological == b.radiological && a.blend == b.blend && a.shown == b.shown &&
+           a.window == b.window && same_box(a.box, b.box);
   }
 
  private:
   static bool same_box(const std::optional<Box>& a, const std::optional<Box>& b) {
     return a.has_value() == b.has_value() && (!a || (a->lower == b->lower && a->upper == b->upper));
   }
+};
+
+/// What slices may show in place of a volume's own values.
+struct SliceImage {
+  std::string name;
+  std::shared_ptr<const VolumeImage> image;  ///< not null
+  ValueWindow window;                        ///< of black and white, where none is chosen
+  bool colored = false;                      ///< the colours of the image, as bright as its values
+
+  bool operator==(const SliceImage&) const = default;
 };
 
 /// A second image over the first one, in colours.
@@ -75,6 +89,7 @@ struct SliceTrace {
 struct SliceView {
   std::shared_ptr<const VolumeImage> image;
   ValueWindow window;  ///< of black and white
+  bool colored = false;  ///< SliceImage::colored: grey (1) of slice_raster.h times the colour
   double slab = 0.0;
   SlabRule rule = SlabRule::kMean;
   int most_planes = 0;  ///< that stand for the slab, while something moves; 0: as many as it takes

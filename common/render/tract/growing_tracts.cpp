@@ -37,7 +37,8 @@ void GrowingTracts::draw(const SceneView& view, const LineDraw& base, float unit
                       .fading = view.tracts->depth_cue ? 1.0F : 0.0F,
                       .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
                       .opacity = static_cast<float>(progress_.opacity()),
-                      .tolerance = kTractTolerance * base.tolerance};
+                      .tolerance = kTractTolerance * base.tolerance,
+                      .slab = view.tracts->slab};
   progress_.drawn(pass_->draw(how, progress_.next(), progress_.goal(), milliseconds, stop));
   drawn_ms_ = 1e3 * watch.seconds();
 }

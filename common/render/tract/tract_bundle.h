@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,12 +42,24 @@ inline constexpr std::size_t kTractPiecesOfRoom = (std::size_t{1} << 26U) / Trac
 /// "1200 of 3000 tracts are drawn, …", or empty where there is room for all of them.
 [[nodiscard]] std::string tracts_left_out(const TractBundle& bundle, std::size_t room = kTractPiecesOfRoom);
 
+/// The part of tracts that is seen over a slice: |normal . (x - place)| < half. With their distance from its middle
+/// they take on the background.
+struct TractSlab {
+  Vec3 normal{0.0, 0.0, 1.0};  ///< unit
+  Vec3 place{0.0};             ///< on its middle, data coordinates
+  double half = 0.0;           ///< thickness [data units]; 0: nothing is seen
+
+  bool operator==(const TractSlab&) const = default;
+};
+
 /// Lines coloured by their direction.
 struct TractView {
   std::shared_ptr<const TractBundle> bundle;  ///< not null
   double width = 1.5;                         ///< at the focal point, in thousandths of the picture's height
   double opacity = 1.0;                       ///< in (0, 1]
   bool depth_cue = true;                      ///< farther lines fade into the background
+  std::optional<double> slab_thickness;       ///< of what slices show [data units]; absent: two of their steps
+  std::optional<TractSlab> slab;              ///< of this picture; absent: all is seen
 
   bool operator==(const TractView&) const =
       default;  ///< bundles count as the same where they are the same object

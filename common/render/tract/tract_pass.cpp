@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "common/base/clock.h"
+#include "common/math/power_of_two.h"
 #include "common/render/gl/program.h"
 #include "common/render/tract/tract_bundle.h"
 
@@ -17,7 +18,7 @@ namespace {
 constexpr double kBetweenQuestions = 30.0;
 
 // Locations and bindings of shaders/tract/.
-enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4 };
+enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4, kSlab = 5, kSlabHalf = 6 };
 constexpr GLuint kPointBuffer = 0;
 
 }  // namespace
@@ -54,9 +55,13 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
                             const std::function<bool()>& stop) {
   const Stopwatch watch;
   const bool screened = how.opacity < 1.0F;
-  GlProgram& program = screened ? screened_ : opaque_;
-  if (!program)
-    program = compile_program("tract/tract.vert", screened ? "tract/screened.frag" : "tract/tract.frag");
+  if (how.slab && !(how.slab->half > 0.0)) return last;
+  GlProgram& program = programs_[(screened ? 1U : 0U) + (how.slab ? 2U : 0U)];
+  if (!program) {
+    const std::vector<std::string> defines = how.slab ? std::vector<std::string>{"SLAB"} : std::vector<std::string>();
+    program = compile_program("tract/tract.vert", screened ? "tract/screened.frag" : "tract/tract.frag",
+                              shader_files(), defines);
+  }
   if (!no_vertices_) no_vertices_ = make_vertex_array();
   glUseProgram(program.name());
   glBindVertexArray(no_vertices_.name());
@@ -64,6 +69,14 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
   glUniform1f(kFading, how.fading);
   glUniform1f(kDimming, how.dimming);
   if (screened) glUniform1f(kOpacity, how.opacity);
+  if (how.slab) {
+    const Vec3f normal(how.slab->normal);
+    const float at = static_cast<float>(glm::dot(how.slab->normal, frame_.scene_from_data(how.slab->place)));
+    glUniform4f(kSlab, normal.x, normal.y, normal.z, at);
+    glUniform1f(kSlabHalf, static_cast<float>(how.slab->half * power_of_two(-frame_.exponent)));
+    glEnable(GL_CLIP_DISTANCE0);
+    glEnable(GL_CLIP_DISTANCE1);
+  }
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
   glDepthMask(GL_TRUE);
@@ -87,6 +100,8 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
     if (stop && stop()) break;
     batch = pieces_in(stretch(0.5 * (milliseconds - spent)));
   }
+  glDisable(GL_CLIP_DISTANCE0);
+  glDisable(GL_CLIP_DISTANCE1);
   return piece;
 }
 

@@ -1,9 +1,11 @@
 /// Draws tracts piece by piece, with a limit to the time that a picture takes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/render/camera.h"
@@ -19,6 +21,7 @@ struct TractDraw {
   float dimming = 0.0F;    ///< share of the background at any depth
   float opacity = 1.0F;    ///< below one they are screened, sample by sample
   double tolerance = 0.0;  ///< how far lines may be moved to save points (scene frame)
+  std::optional<TractSlab> slab = {};  ///< all that is drawn
 };
 
 /// Needs the context current in which it was made, and the frame's uniform block bound to 0.
@@ -46,7 +49,8 @@ class TractPass {
   };
   void draw_piece(const TractDraw& how, std::size_t number);
 
-  GlProgram opaque_, screened_;  ///< compiled at the first use
+  /// Compiled at the first use: opaque, screened, and both in a slab.
+  std::array<GlProgram, 4> programs_;
   GlVertexArray no_vertices_;
   std::shared_ptr<const TractBundle> bundle_;
   SceneFrame frame_;

@@ -13,7 +13,7 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.regions == b.regions && a.fields == b.fields &&
          a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
          a.far_sampling == b.far_sampling && a.shading == b.shading && a.lenses == b.lenses &&
-         a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.colored == b.colored &&
+         a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.slice_images == b.slice_images && a.colored == b.colored &&
          a.shown == b.shown && a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
          a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
          a.stop_where_opaque == b.stop_where_opaque && a.cache_slabs == b.cache_slabs &&
@@ -82,6 +82,15 @@ ValueWindow window_of(const VolumeView& view) {
   if (view.planes.window) return *view.planes.window;
   const double lower = view.image->lowest, upper = view.image->highest;
   return lower < upper ? ValueWindow{upper - lower, 0.5 * lower + 0.5 * upper} : ValueWindow{1.0, lower};
+}
+
+SliceImage shown_in_slices(const VolumeView& view) {
+  const auto at = std::find_if(view.slice_images.begin(), view.slice_images.end(),
+                               [&](const SliceImage& one) { return one.name == view.panes.shown; });
+  if (at == view.slice_images.end()) return {.name = {}, .image = view.image, .window = window_of(view)};
+  SliceImage shown = *at;
+  if (view.panes.window) shown.window = *view.panes.window;
+  return shown;
 }
 
 std::vector<Vec3> shown_section(const VolumeView& view, std::size_t cut) {

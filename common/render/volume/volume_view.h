@@ -112,6 +112,7 @@ struct VolumeView {
   std::vector<CuttingPlane> cuts;  ///< at most kMostCuts
   PlaneImages planes;
   SlicePanes panes;  ///< beside the picture of the volume itself, which shows nothing of them
+  std::vector<SliceImage> slice_images;  ///< that these may show, by SlicePanes::shown
 
   /// Entries of the preintegrated table an axis, and lengths: a multiple of 8.
   int table_entries = 256;
@@ -169,6 +170,8 @@ inline constexpr std::size_t kMostTransfers = 9;
 [[nodiscard]] bool shows_planes(const VolumeView& view);
 /// The grey values of its planes.
 [[nodiscard]] ValueWindow window_of(const VolumeView& view);
+/// What slices show, with the window that is chosen: one of `slice_images`, or the volume's own values.
+[[nodiscard]] SliceImage shown_in_slices(const VolumeView& view);
 /// Where plane `cut` meets the volume and is not cut away by the others, in data coordinates: corners in
 /// order; empty where it is not seen. @pre view.image is not null.
 [[nodiscard]] std::vector<Vec3> shown_section(const VolumeView& view, std::size_t cut);

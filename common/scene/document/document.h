@@ -63,6 +63,7 @@ struct TractTracingOptions {
   double max_length = 0.0;
   std::string direction = "both";  ///< forward, backward, both
   std::int64_t max_steps = 1'000'000;
+  std::optional<double> max_cone;  ///< [degrees] of the 95 % cone of the main direction, in (0, 90]
   std::vector<std::string> include, exclude, stop;  ///< regions; grammar of tract_request.h
 
   bool operator==(const TractTracingOptions&) const = default;
@@ -134,6 +135,8 @@ struct PanesOptions {
   std::string rule = "mean";          ///< name of SlicePanes::rule
   std::string side = "radiological";  ///< radiological, neurological
   double blend = 0.0;                 ///< SlicePanes::blend
+  std::string shown = "direction";    ///< SlicePanes::shown of tensors
+  std::optional<double> window, level;  ///< SlicePanes::window of tensors
 };
 
 /// A slice that is written, or a part of a volume.
@@ -165,6 +168,7 @@ struct TractAppearance {
   std::string file;      ///< a tractogram; empty: none
   double width = 1.5;    ///< thousandths of the picture's height
   double opacity = 1.0;  ///< in (0, 1]
+  std::optional<double> slab;  ///< TractView::slab_thickness
 };
 
 /// What of a heart is traced, drawn and mapped.

@@ -102,8 +102,9 @@ const Setting kOutputRows[] = {
      .saved = false},
     {.name = "measure",
      .place = kOutputAt<&OutputOptions::measure>,
-     .help = "fa, md, cl, cp, cs, mode, v1 (main direction) or color (of it, times fa); a profile has one of "
-             "the first six",
+     .help = "fa, md, cl, cp, cs, mode, v1-cone (half the opening of the 95 % cone of the main direction in degrees, of "
+             "images that are fitted), v1 (main direction) or color (of it, times fa); a profile has one of the "
+             "first seven",
      .value = "NAME",
      .heading = "Output",
      .groups = {Group::kMeasure, Group::kTurn},

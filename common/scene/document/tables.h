@@ -9,6 +9,7 @@ namespace palpate {
 
 inline constexpr Kinds kFlows{FieldKind::kVector}, kVolumes{FieldKind::kScalar}, kTensors{FieldKind::kTensor},
     kHearts{FieldKind::kFibre}, kDevices{FieldKind::kNone},
+    kVolumesAndTensors{FieldKind::kScalar, FieldKind::kTensor},
     kFlowsAndVolumes{FieldKind::kVector, FieldKind::kScalar},
     kFlowsAndHearts{FieldKind::kVector, FieldKind::kFibre},
     kAllButHearts{FieldKind::kVector, FieldKind::kScalar, FieldKind::kTensor};

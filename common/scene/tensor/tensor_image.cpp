@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/tensor/fit_image.h"
 #include "common/scene/tensor/stored_tensors.h"
@@ -29,16 +30,6 @@ void turn_tensors(const Mat3& turn, std::vector<float>& tensors) {
   }
 }
 
-DataArray array_of(std::vector<float> tensors) {
-  const auto values = std::make_shared<std::vector<float>>(std::move(tensors));
-  DataArray array;
-  array.name = "tensors";
-  array.components = 6;
-  array.tuples = values->size() / 6;
-  array.bytes = std::as_bytes(std::span(std::as_const(*values)));
-  array.owner = values;
-  return array;
-}
 
 /// The block that has all arrays of the source.
 DataSet block_of(std::vector<DataSet> blocks, const TensorInput& input) {
@@ -164,7 +155,13 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     keep_stored();
     return result;
   }
-  result.image.arrays = {array_of(std::move(tensors))};
+  result.image.arrays = {make_array("tensors", Association::kPoint, 6, std::move(tensors))};
+  if (result.fit && !result.fit->cones.empty()) {
+    result.image.arrays.push_back(
+        make_array(std::string(kConeArray), Association::kPoint, 1, std::exchange(result.fit->cones, {})));
+    result.image.arrays.push_back(make_array(std::string(kBaselineArray), Association::kPoint, 1,
+                                             std::exchange(result.fit->baselines, {})));
+  }
   result.choice = {"tensors", TensorOrder::kRows, reading.interpolation};
   return result;
 }

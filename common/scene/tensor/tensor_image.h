@@ -14,7 +14,8 @@
 
 namespace palpate {
 
-/// An image with one array of tensors in the axes of its coordinates.
+/// An image with one array of tensors in the axes of its coordinates; of a fit with FitOptions::details also
+/// kConeArray and kBaselineArray (tensor_measure.h).
 struct TensorImage {
   DataSet image;
   TensorChoice choice;             ///< which array, and in which order its numbers stand

@@ -29,6 +29,8 @@ struct TensorSpec {
   std::string flip;                   ///< image axes to be turned around: "k", "ij"
   std::string permute;                ///< "jik"
   std::string interpolation = "components";  ///< components, log-euclidean
+
+  bool operator==(const TensorSpec&) const = default;
 };
 
 enum class StoredOrder : std::uint8_t { kAuto, kFsl, kMrtrix, kNifti };

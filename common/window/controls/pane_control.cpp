@@ -38,6 +38,20 @@ std::string value_text(double value) {
   return text.data();
 }
 
+/// As drag_window(), of what slices show.
+void drag_slice_window(VolumeView& volume, double to_right, double to_top) {
+  const SliceImage shown = shown_in_slices(volume);
+  if (shown.name.empty()) {
+    drag_window(volume, to_right, to_top);
+    return;
+  }
+  constexpr double kNarrowest = 1e-4;  // of the range of the values
+  const double range = shown.image->highest - shown.image->lowest;
+  const ValueWindow window{.width = std::max(shown.window.width + range * to_right, kNarrowest * range),
+                           .level = shown.window.level + range * to_top};
+  if (window.width > 0.0) volume.panes.window = window;
+}
+
 bool is_shift_key(int key) {
   constexpr int kLeft = 340, kRight = 344;  // GLFW's numbers
   return key == kLeft || key == kRight;
@@ -56,7 +70,8 @@ std::string PaneControl::words_under_mouse(const PictureArea& picture, const std
                                            const SceneView& scene) const {
   const Pane* const pane = pane_under_mouse(picture, parts);
   if (pane == nullptr) return {};
-  const VolumeImage& image = *scene.volume->image;
+  const SliceImage shown = shown_in_slices(*scene.volume);
+  const VolumeImage& image = *shown.image;
   const Vec3 x = place_under(camera_of_pane(scene, *scene.volume, parts, *pane), *pane, x_ - picture.left,
                              y_ - picture.top);
   const Vec3 g = image.grid_point(x);
@@ -69,7 +84,7 @@ std::string PaneControl::words_under_mouse(const PictureArea& picture, const std
   const std::string length = length_unit(scene);
   std::string words = place(x) + (length.empty() ? "" : " " + length);
   if (!inside) return words + ": outside";
-  words += ", voxel " + place(glm::round(g)) + ": ";
+  words += ", voxel " + place(glm::round(g)) + ": " + (shown.colored ? "FA " : "");
   return words + (std::isfinite(value) ? value_text(value) : "no value");
 }
 
@@ -202,7 +217,7 @@ void PaneControl::drag(const InputEvent& to, const PictureArea& picture, const S
       return;
     }
     case Does::kWindow:
-      drag_window(volume, (to.x - before_x_) / picture.width, (before_y_ - to.y) / picture.height);
+      drag_slice_window(volume, (to.x - before_x_) / picture.width, (before_y_ - to.y) / picture.height);
       return;
   }
 }

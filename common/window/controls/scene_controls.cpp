@@ -76,6 +76,14 @@ bool SceneControls::handle_pane(const InputEvent& event, const ControlledScene& 
     session_.notes().add(*place);
     return true;
   }
+  if (brush_.handle(event, pane_control_.place(on.panes, on.view))) return true;
+  if (touch_control_.grabbed() || touch_control_.waiting()) {
+    // The hand moves in the plane of the slice.
+    const Camera own = std::exchange(on.view.camera, sight->camera);
+    const bool taken = touch_control_.handle(event, sight->area, on.view, on.time, false);
+    on.view.camera = own;
+    if (taken) return true;
+  }
   VolumeView& volume = *on.view.volume;
   const bool region = on.has_region() && region_.box() && !touch_control_.grabbed() &&
                       (region_.dragging() || is_met(*region_.box(), sight->camera));
@@ -163,6 +171,7 @@ void SceneControls::let_go() {
   color_lens_.follow(false);
   plane_image_.let_go();
   region_.let_go();
+  brush_.let_go();
   touch_control_.let_go();
   touch_control_.mark(false);
 }

@@ -8,6 +8,7 @@
 
 #include "common/hand/technique/box_hold.h"
 #include "common/hand/workbench/workbench_display.h"
+#include "common/window/controls/brush_control.h"
 #include "common/window/controls/color_lens_control.h"
 #include "common/window/controls/lens_control.h"
 #include "common/window/controls/pane_control.h"
@@ -87,12 +88,13 @@ class SceneControls {
   [[nodiscard]] const PaneControl& panes() const noexcept { return pane_control_; }
   [[nodiscard]] MenuControl& menu() noexcept { return menu_; }
   [[nodiscard]] RegionControl& region() noexcept { return region_; }
+  [[nodiscard]] BrushControl& brush() noexcept { return brush_; }
   /// The view or a slice follows a drag.
   [[nodiscard]] bool moves_view() const noexcept { return view_.dragging() || slice_.dragging(); }
   /// Whether nothing is dragged that an edit would be of.
   [[nodiscard]] bool resting() const noexcept {
     return !region_.dragging() && !plane_image_.dragging() && !slice_.dragging() &&
-           !pane_control_.dragging() && !lens_.followed() && !color_lens_.followed() &&
+           !pane_control_.dragging() && !brush_.painting() && !lens_.followed() && !color_lens_.followed() &&
            !hand_in_space_.holding();
   }
   /// Whether a lens or a cut was moved since the last call.
@@ -118,6 +120,7 @@ class SceneControls {
   ColorLensControl color_lens_;
   PlaneImageControl plane_image_;
   RegionControl region_;
+  BrushControl brush_;
   ViewHold view_hold_;
   TouchControl touch_control_;
   bool lens_moved_ = false;

@@ -94,4 +94,18 @@ bool SliceControl::run(Command command, TensorView& view) {
   }
 }
 
+void CrosshairLink::follow(SceneView& view) {
+  if (!view.volume || !view.tensors) return;
+  Vec3 &cross = view.volume->panes.cross, &place = view.tensors->position;
+  if (view.volume->panes.layout > 1 && cross != place) {
+    const TensorVoxels& voxels = *view.tensors->image;
+    if (cross != last_ && voxels.contains(voxels.grid_coordinates(cross))) {
+      place = cross;
+    } else {
+      cross = place;
+    }
+  }
+  last_ = cross;
+}
+
 }  // namespace palpate

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/render/camera.h"
+#include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/input_event.h"
@@ -37,6 +38,16 @@ class SliceControl {
   bool dragging_ = false;
   bool clicking_ = false;                     ///< the left button is down and has not moved away
   double pressed_x_ = 0.0, pressed_y_ = 0.0;  ///< where it went down [pixels]
+};
+
+/// Keeps the crosshair of slices beside the picture and the place of a TensorView's slices the same: whichever has moved
+/// leads the other.
+class CrosshairLink {
+ public:
+  void follow(SceneView& view);
+
+ private:
+  Vec3 last_{0.0};  ///< of the crosshair
 };
 
 }  // namespace palpate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -23,8 +24,11 @@ std::vector<std::string> notes_of(const SceneState& scene) {
   return notes;
 }
 
-/// @return whether it is to be closed.
-bool draw_banner(const std::string& words, const ImVec4& color, const std::string& control, float width) {
+enum class BannerChoice : std::uint8_t { kNone, kClose, kFix };
+
+/// @param fixes whether there is something that mends it: Fix and Ignore are offered then.
+BannerChoice draw_banner(const std::string& words, const ImVec4& color, const std::string& control,
+                         float width, bool fixes = false) {
   const float em = ImGui::GetFontSize();
   ImGui::PushID(words.c_str());
   const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -38,11 +42,29 @@ bool draw_banner(const std::string& words, const ImVec4& color, const std::strin
   ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + 0.25F * em, corner.y + height},
                                             ImGui::ColorConvertFloat4ToU32(color));
   ImGui::SameLine(ImGui::GetWindowContentRegionMin().x + width - 1.4F * em);
-  const bool closed = small_button(control.c_str());
+  BannerChoice choice = small_button(control.c_str()) ? BannerChoice::kClose : BannerChoice::kNone;
   hint("close");
+  if (fixes) {
+    if (small_button("Fix")) choice = BannerChoice::kFix;
+    hint("does what the warning advises; Ctrl+Z takes it back");
+    ImGui::SameLine();
+    if (small_button("Ignore")) choice = BannerChoice::kClose;
+    hint("leaves everything as it is");
+  }
   ImGui::Unindent(0.8F * em);
   ImGui::PopID();
-  return closed;
+  return choice;
+}
+
+const SceneFix* fix_of(const SceneState& scene, const std::string& note) {
+  const auto at = std::ranges::find(scene.fixes, note, &SceneFix::note);
+  return at == scene.fixes.end() ? nullptr : &*at;
+}
+
+void fix(const SceneFix& with, Document& document) {
+  for (const auto& [name, text] : with.settings) {
+    if (const Setting* const row = find_setting(name, document.input.kind)) set_value(*row, document, text);
+  }
 }
 
 }  // namespace
@@ -78,9 +100,12 @@ void draw_banners(PanelState& state, const WindowLayout& layout) {
                kFixedPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoScrollbar |
                    ImGuiWindowFlags_NoFocusOnAppearing);
   const ImVec4 red{0.93F, 0.36F, 0.30F, 1.0F}, amber{0.93F, 0.67F, 0.20F, 1.0F};
-  if (error && draw_banner(state.error, red, "x##error", width)) state.error.clear();
+  if (error && draw_banner(state.error, red, "x##error", width) == BannerChoice::kClose) state.error.clear();
   for (std::size_t i = 0; i < std::min(notes.size(), kMost); ++i) {
-    if (draw_banner(notes[i], amber, "x##note", width)) state.closed_notes.insert(notes[i]);
+    const SceneFix* const mends = fix_of(*state.scene, notes[i]);
+    const BannerChoice choice = draw_banner(notes[i], amber, "x##note", width, mends != nullptr);
+    if (choice == BannerChoice::kFix) fix(*mends, state.document);
+    if (choice == BannerChoice::kClose) state.closed_notes.insert(notes[i]);
   }
   if (notes.size() > kMost)
     ImGui::TextDisabled("and %s more, at the end of the panel",

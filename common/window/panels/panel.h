@@ -12,6 +12,7 @@
 #include "common/compose/window_model.h"
 #include "common/render/scene_view.h"
 #include "common/render/tensor/tensor_view.h"
+#include "common/window/controls/brush_control.h"
 #include "common/window/controls/seed_choice.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/panels/message_log.h"
@@ -48,6 +49,7 @@ struct PanelState {
   bool keep_steps = false;           ///< edited: those that were read for the plot stay in memory
   std::optional<SeriesPlot> series;  ///< none where nothing is plotted
   RegionControl* region = nullptr;   ///< of a volume
+  BrushControl* brush = nullptr;     ///< on slices
   ProbeSession* touch = nullptr;     ///< null or not available(): no such part
   bool grabbed = false;
   bool marking = false;                                                  ///< clicks mark places

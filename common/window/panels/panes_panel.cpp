@@ -2,6 +2,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -13,7 +14,27 @@ namespace {
 
 /// Slices show grey values, which the volume beside them may not have.
 void begin_window(VolumeView& volume, const ValueHistogram* histogram) {
+  if (!volume.slice_images.empty()) return;
   if (!volume.planes.window && histogram != nullptr) volume.planes.window = default_window(*histogram);
+}
+
+/// What slices show, of what there is, and its grey values.
+void edit_slice_image(VolumeView& volume) {
+  std::vector<std::string> names;
+  for (const SliceImage& one : volume.slice_images) names.push_back(one.name);
+  if (choose_word("slices show", volume.panes.shown, names)) volume.panes.window.reset();
+  explain("slice-show", false);
+  const SliceImage shown = shown_in_slices(volume);
+  const double lower = shown.image->lowest, upper = shown.image->highest, range = upper - lower;
+  if (!(range > 0.0)) return;
+  constexpr double kNarrowest = 1e-4;
+  const double least = kNarrowest * range, most = 2.0 * range;
+  ValueWindow window = shown.window;
+  bool edited = slider_scalar("slice window", ImGuiDataType_Double, &window.width, &least, &most, "%.5g");
+  explain("slice-window", false);
+  edited |= slider_scalar("slice level", ImGuiDataType_Double, &window.level, &lower, &upper, "%.5g");
+  explain("slice-level", false);
+  if (edited && window.width > 0.0) volume.panes.window = window;
 }
 
 template <typename Names, typename Enum>
@@ -42,7 +63,11 @@ void edit_panes(VolumeView& volume, const ValueHistogram* histogram, bool anatom
   }
   if (panes.layout == 1) return;
   if (panes.layout == 2) edit_word("pane", kSlicePlaneNames, panes.first);
-  edit_window(volume);
+  if (volume.slice_images.empty()) {
+    edit_window(volume);
+  } else {
+    edit_slice_image(volume);
+  }
   std::array<double, 3> cross{panes.cross.x, panes.cross.y, panes.cross.z};
   input_numbers("crosshair", cross.data(), 3, "%.6g");
   explain("cross");

@@ -65,7 +65,7 @@ void choose_stroke(StrokeUse& use) {
 
 /// The name of the file, and its ending for those who have only a mouse.
 void choose_file(std::string& file, float width) {
-  constexpr std::array<const char*, 4> kEndings{".tck", ".trk", ".vtp", ".csv"};
+  constexpr std::array<const char*, 5> kEndings{".tck", ".trk", ".trx", ".vtp", ".csv"};
   const float ending_width = 4.5F * ImGui::GetFontSize();
   std::filesystem::path path(file);
   const std::string ending = path.extension().string();

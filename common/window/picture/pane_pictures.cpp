@@ -11,11 +11,12 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
   // Outlines of many lenses take time.
   const std::string words =
       mouse_in != nullptr ? std::to_string(mouse_in - parts.data()) + under_mouse : std::string();
-  if (parts == parts_ && words == under_mouse_ && moving == moving_ && same_picture(scene, scene_)) return;
+  if (parts == parts_ && words == under_mouse_ && moving == moving_ && complete_ && same_picture(scene, scene_)) return;
   scene_ = scene;
   parts_ = parts;
   under_mouse_ = words;
   moving_ = moving;
+  complete_ = true;
   std::erase_if(shown_, [&](const Shown& one) {
     return std::none_of(parts.begin(), parts.end(),
                         [&](const Pane& pane) { return pane.plane == one.pane.plane; });
@@ -32,11 +33,13 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
       shown_.push_back({.pane = {}, .view = {}, .renderer = std::make_unique<SceneRenderer>()});
       at = std::prev(shown_.end());
     } else if (at->pane.width == pane.width && at->pane.height == pane.height &&
-               same_picture(at->view, view)) {
+               same_picture(at->view, view) && at->renderer->complete()) {
       at->pane = pane;
       continue;
     }
-    at->renderer->draw(view, pane.width, pane.height);
+    constexpr double kTractTime = 25.0;  // [ms] of a frame
+    at->renderer->draw(view, pane.width, pane.height, 1.0, kTractTime);
+    complete_ = complete_ && at->renderer->complete();
     (void)at->renderer->finish();  // frames are timed one at a time
     at->pane = pane;
     at->view = std::move(view);

@@ -20,6 +20,8 @@ class PanePictures {
   /// @param moving thick slabs are drawn from fewer planes.
   void draw(const SceneView& scene, const std::vector<Pane>& parts, const std::string& under_mouse,
             const Pane* mouse_in, bool moving);
+  /// Whether they show all tracts that lie in their slabs: what there was no time for, the next call of draw() adds.
+  [[nodiscard]] bool complete() const noexcept { return complete_; }
   /// The pixels of each.
   [[nodiscard]] std::vector<PaneImage> read() const;
   /// Copies them into the framebuffer that is bound. @param left, top of the picture, @param height of the
@@ -37,6 +39,7 @@ class PanePictures {
   std::vector<Pane> parts_;
   std::string under_mouse_;
   bool moving_ = false;
+  bool complete_ = true;
 };
 
 }  // namespace palpate

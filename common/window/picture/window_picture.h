@@ -35,6 +35,8 @@ class WindowPicture {
   /// All panes of it, before `background`.
   [[nodiscard]] Image read(const Background& background);
 
+  /// Whether the slices beside the scene lack nothing.
+  [[nodiscard]] bool complete() const noexcept { return !slices_ || slices_->complete(); }
   [[nodiscard]] LivePicture& live() noexcept { return live_; }
 
  private:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -235,6 +236,43 @@ TEST(ForegroundMask, IsTheLargestBrightPartWithItsHolesFilled) {
   const std::vector<float> flat(8, 3.0F);
   const std::vector<std::uint8_t> all = foreground_mask(flat, Index3{2});
   EXPECT_EQ(std::count(all.begin(), all.end(), 1), 8);
+}
+
+TEST(TensorFit, NineteenOfTwentyDirectionsLieInTheirCone) {
+  // Noise on the logarithms, alike for all, of which an unweighted fit is the right one.
+  const GradientTable table = spiral(14, 1000.0);
+  const Mat3 tensor{Vec3{1.7e-3, 0.0, 0.0}, Vec3{0.0, 0.5e-3, 0.0}, Vec3{0.0, 0.0, 0.3e-3}};
+  const std::vector<double> exact = signals_of(table, tensor, 100.0);
+  const FitOptions options{.weights = FitWeights::kOrdinary, .details = true};
+  const TensorFit sure = fit_of(exact, table, options);
+  EXPECT_LT(sure.cones[0], 1e-3F);
+  EXPECT_NEAR(sure.baselines[0], 100.0, 1e-3);
+  constexpr std::size_t kVoxels = 4000;
+  std::mt19937_64 random{7};
+  std::normal_distribution<double> noise(0.0, 0.05);
+  std::vector<double> signals;
+  for (std::size_t v = 0; v < kVoxels; ++v) {
+    for (const double signal : exact) signals.push_back(signal * std::exp(noise(random)));
+  }
+  const TensorFit fit = fit_of(signals, table, options);
+  std::size_t inside = 0;
+  for (std::size_t v = 0; v < kVoxels; ++v) {
+    const float* const d = fit.tensors.data() + 6 * v;
+    const SymmetricEigen eigen =
+        symmetric_eigen({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
+    const double off = std::acos(std::min(1.0, std::abs(eigen.vectors[0].x))) * 180.0 / std::acos(-1.0);
+    inside += off <= static_cast<double>(fit.cones[v]) ? 1 : 0;
+  }
+  // The cone is as wide all round as its long axis: it holds a little more than 95 %.
+  EXPECT_GT(inside, kVoxels * 94 / 100);
+  EXPECT_LT(inside, kVoxels * 99 / 100);
+}
+
+TEST(TensorFit, SevenVolumesSayNothingOfTheirNoise) {
+  const GradientTable table = spiral(6, 1000.0);
+  const TensorFit fit = fit_of(signals_of(table, kTensor, 1.0), table, {.details = true});
+  EXPECT_TRUE(std::isnan(fit.cones[0]));
+  EXPECT_TRUE(fit_of(signals_of(table, kTensor, 1.0), table).cones.empty());
 }
 
 }  // namespace

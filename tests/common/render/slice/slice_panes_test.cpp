@@ -202,5 +202,57 @@ TEST(SlicePanes, NotesAreSeenWhereTheyLie) {
   EXPECT_FALSE(seen(SlicePlane::kAxial, 9.1));
 }
 
+TEST(SlicePanes, ShowTractsInASlabAndTheProbeWhole) {
+  SceneView scene = scene_of({40, 50, 30}, {1.0, 1.0, 2.0});
+  auto lines = std::make_shared<Tractogram>();
+  lines->points = {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}};
+  lines->starts = {0, 2};
+  scene.tracts = TractView{.bundle = make_tract_bundle(lines)};
+  scene.probe.emplace().probe = {1.0, 2.0, 3.0};
+  const SlicePanes& panes = scene.volume->panes;
+  const std::vector<Pane> parts = panes_of(panes, 800, 600);
+  const SceneView axial = pane_view(scene, panes, parts, parts.front());
+  ASSERT_TRUE(axial.tracts && axial.tracts->slab);
+  EXPECT_EQ(axial.tracts->slab->half, 2.0) << "two steps of 2 thick";
+  EXPECT_EQ(std::abs(axial.tracts->slab->normal.z), 1.0);
+  EXPECT_EQ(axial.tracts->slab->place.z, panes.cross.z);
+  EXPECT_FALSE(axial.tracts->depth_cue);
+  ASSERT_TRUE(axial.probe);
+  EXPECT_EQ(axial.probe->probe, scene.probe->probe);
+  EXPECT_FALSE(scene.tracts->slab) << "all of them in the scene itself";
+  scene.tracts->slab_thickness = 7.0;
+  EXPECT_EQ(pane_view(scene, panes, parts, parts.front()).tracts->slab->half, 3.5);
+}
+
+TEST(SlicePanes, ShowTheImageThatIsChosenWithItsWindow) {
+  SceneView scene = scene_of({4, 5, 3}, {1.0, 1.0, 2.0});
+  const SceneView other = scene_of({4, 5, 3}, {1.0, 1.0, 2.0});
+  scene.volume->slice_images = {
+      {.name = "md", .image = other.volume->image, .window = {.width = 3.0, .level = 1.5}, .colored = true}};
+  scene.volume->panes.shown = "md";
+  const auto slice = [&] {
+    const std::vector<Pane> parts = panes_of(scene.volume->panes, 800, 600);
+    return *pane_view(scene, scene.volume->panes, parts, parts.front()).slice;
+  };
+  EXPECT_EQ(slice().image, other.volume->image);
+  EXPECT_EQ(slice().window, (ValueWindow{.width = 3.0, .level = 1.5}));
+  EXPECT_TRUE(slice().colored);
+  scene.volume->panes.window = ValueWindow{.width = 1.0, .level = 0.0};
+  EXPECT_EQ(slice().window, (ValueWindow{.width = 1.0, .level = 0.0}));
+  scene.volume->panes.shown = "b0";
+  EXPECT_EQ(slice().image, scene.volume->image) << "of what is not there the volume's own values";
+}
+
+TEST(SlicePanes, OutlineRegionsInTheirColours) {
+  SceneView scene = scene_of({40, 50, 30}, {1.0, 1.0, 2.0});
+  const Rgb green{0.0F, 1.0F, 0.0F};
+  scene.regions = {{.shapes = {make_sphere(scene.bounds.center(), 5.0)}, .color = green}};
+  const std::vector<Pane> parts = panes_of(scene.volume->panes, 800, 600);
+  const SceneView axial = pane_view(scene, scene.volume->panes, parts, parts.front());
+  EXPECT_EQ(std::ranges::count_if(axial.slice->traces,
+                                  [&](const SliceTrace& trace) { return trace.color == green; }),
+            1);
+}
+
 }  // namespace
 }  // namespace palpate

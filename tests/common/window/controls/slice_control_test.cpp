@@ -144,5 +144,29 @@ TEST_F(SliceControlTest, KeysMoveByAVoxelTowardTheSideTheyName) {
   EXPECT_FALSE(SliceControl::run(Command::kGrab, view_));
 }
 
+TEST_F(SliceControlTest, CrosshairAndSlicesLeadEachOther) {
+  SceneView view;
+  view.tensors = view_;
+  view.volume.emplace().image = make_anisotropy_volume(view_.image);
+  Vec3 &cross = view.volume->panes.cross, &place = view.tensors->position;
+  cross = {4.0, 4.0, 4.0};
+  CrosshairLink link;
+  link.follow(view);
+  EXPECT_NE(cross, place) << "with the picture alone each is by itself";
+  view.volume->panes.layout = 4;
+  link.follow(view);
+  EXPECT_EQ(cross, place);
+  EXPECT_NE(cross, Vec3(4.0)) << "slices that appear go where the tensors' are";
+  cross = {4.0, 4.0, 4.0};
+  link.follow(view);
+  EXPECT_EQ(place, Vec3(4.0));
+  place = {-2.0, 0.0, 3.0};
+  link.follow(view);
+  EXPECT_EQ(cross, Vec3(-2.0, 0.0, 3.0));
+  cross = {1e3, 0.0, 0.0};
+  link.follow(view);
+  EXPECT_EQ(cross, place) << "outside the image is no place for it";
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -1,0 +1,214 @@
+#include "apps/dtmri/regions_panel.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <imgui.h>
+
+#include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/scene/origin_of.h"
+#include "common/window/panels/panel_parts.h"
+
+namespace palpate {
+namespace {
+
+/// The shortest edge of a voxel [data units].
+double shortest_edge(const TensorVoxels& voxels) {
+  const Mat3& a = voxels.axes;
+  return std::min({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
+}
+
+void choose_role(const char* label, RegionRole& role) {
+  int chosen = static_cast<int>(role);
+  if (combo(label, &chosen, kRegionRoleNames.data(), static_cast<int>(kRegionRoleNames.size())))
+    role = static_cast<RegionRole>(chosen);
+}
+
+/// @return whether it is another one, or the place is.
+bool edit_place(const char* label, Vec3& place) {
+  std::array<double, 3> numbers{place.x, place.y, place.z};
+  input_numbers(label, numbers.data(), 3, "%.6g");
+  if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
+  place = {numbers[0], numbers[1], numbers[2]};
+  return true;
+}
+
+bool edit_length(const char* label, double& length) {
+  double edited = length;
+  input_numbers(label, &edited, 1, "%.6g");
+  if (!ImGui::IsItemDeactivatedAfterEdit() || edited == length) return false;
+  length = edited;
+  return true;
+}
+
+/// @return whether the shape changed.
+bool edit_shape(RegionShape& shape) {
+  if (auto* const ball = std::get_if<Sphere>(&shape)) {
+    const bool moved = edit_place("centre", ball->center);
+    hint("of the ball, data coordinates");
+    Sphere sized = *ball;
+    const bool resized = edit_length("radius", sized.radius) && sized.radius > 0.0;
+    hint("of the ball, in units of the data");
+    if (resized) *ball = sized;
+    return moved || resized;
+  }
+  if (auto* const box = std::get_if<Box>(&shape)) {
+    Box edited = *box;
+    const bool lower = edit_place("from", edited.lower), upper = edit_place("to", edited.upper);
+    if (!lower && !upper) return false;
+    *box = Box();
+    box->include(edited.lower);
+    box->include(edited.upper);
+    return true;
+  }
+  if (auto* const beyond = std::get_if<HalfSpace>(&shape)) {
+    Vec3 normal = beyond->normal;
+    const bool turned = edit_place("normal", normal) && glm::length(normal) > 0.0;
+    hint("of the plane; the region lies on the side to which it points");
+    if (turned) beyond->normal = glm::normalize(normal);
+    const bool moved = edit_length("offset", beyond->offset);
+    hint("of the plane from the origin, along its normal");
+    return turned || moved;
+  }
+  if (auto* const stroke = std::get_if<BrushStroke>(&shape)) {
+    ImGui::TextDisabled("painted, %zu balls", stroke->centers.size());
+    BrushStroke sized = *stroke;
+    const bool resized = edit_length("radius", sized.radius) && sized.radius > 0.0;
+    if (resized) *stroke = sized;
+    return resized;
+  }
+  ImGui::TextWrapped("mask %s", std::get<std::string>(shape).c_str());
+  return false;
+}
+
+const char* name_of(const RegionShape& shape) {
+  constexpr std::array<const char*, 5> kNames{"ball", "box", "beyond plane", "painted", "mask"};
+  return kNames[shape.index()];
+}
+
+/// @return whether some region changed.
+bool edit_regions(std::vector<RegionEntry>& regions) {
+  bool changed = false;
+  std::optional<std::size_t> removed;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    RegionShape shape = parse_region(regions[i].text, regions[i].text + ": no region of tracts");
+    const std::string number = std::to_string(i + 1);
+    ImGui::Text("%s %s", number.c_str(), name_of(shape));
+    ImGui::SameLine();
+    if (small_button(("Remove " + number).c_str())) removed = i;
+    hint("the region; Ctrl+Z brings it back");
+    const RegionRole before = regions[i].role;
+    choose_role(("role " + number).c_str(), regions[i].role);
+    hint("seed: tracts begin in it; include: they enter it; exclude: they do not; stop: they end there");
+    changed |= regions[i].role != before;
+    if (edit_shape(shape)) {
+      regions[i].text = region_text(shape);
+      changed = true;
+    }
+    ImGui::PopID();
+  }
+  if (removed) regions.erase(regions.begin() + static_cast<std::ptrdiff_t>(*removed));
+  return changed || removed.has_value();
+}
+
+/// Tracts begin in one region: another one takes its place.
+void add_region(RegionRole role, const RegionShape& shape, std::vector<RegionEntry>& regions) {
+  if (role == RegionRole::kSeed)
+    std::erase_if(regions, [](const RegionEntry& one) { return one.role == RegionRole::kSeed; });
+  regions.push_back({role, region_text(shape)});
+}
+
+/// @return the shape that was asked for, about the crosshair.
+std::optional<RegionShape> draw_shapes(const TensorView& tensors) {
+  constexpr double kVoxels = 3.0;
+  const double reach = kVoxels * shortest_edge(*tensors.image);
+  const Vec3& x = tensors.position;
+  std::optional<RegionShape> shape;
+  if (button("Ball")) shape = Sphere{.center = x, .radius = reach};
+  hint("about the crosshair, three voxels in radius");
+  ImGui::SameLine();
+  if (button("Box")) {
+    Box box;
+    box.include(x - reach);
+    box.include(x + reach);
+    shape = box;
+  }
+  hint("about the crosshair, six voxels wide");
+  ImGui::SameLine();
+  if (button("Beyond plane")) shape = HalfSpace{.normal = {1.0, 0.0, 0.0}, .offset = x.x};
+  hint("all that lies to the right of the crosshair (x above); its normal can be edited");
+  return shape;
+}
+
+void draw_brush(BrushControl& brush, const TensorVoxels& voxels) {
+  constexpr double kLeast = 0.5, kMost = 10.0, kUsual = 1.5;  // voxels
+  const double edge = shortest_edge(voxels);
+  if (brush.radius < kLeast * edge || brush.radius > kMost * edge) brush.radius = kUsual * edge;
+  checkbox("brush", &brush.on);
+  hint("a left drag over a slice paints a region there; slices are shown by S");
+  ImGui::SameLine();
+  slider("brush radius", brush.radius, kLeast * edge, kMost * edge, "%.3g");
+  hint("in units of the data");
+}
+
+/// Writes them beside the data, as their file says.
+std::string save_regions(const RegionsPanel& panel, const PanelContext& on) {
+  const TensorVoxels& voxels = *on.view.tensors->image;
+  try {
+    ImageOrigin origin;
+    origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
+    const auto notes =
+        write_regions(panel.file, on.state.document.tracts,
+                      on.state.document.input.tensor.handedness == "left",
+                      {voxels.points, voxels.origin, voxels.axes}, origin, true);
+    std::string said = "saved " + panel.file;
+    for (const std::string& note : notes) said += "; " + note;
+    return said;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+void draw_regions(RegionsPanel& panel, PanelContext& on) {
+  const TensorView& tensors = *on.view.tensors;
+  TractTracingOptions& options = on.state.document.tracts;
+  std::vector<RegionEntry> regions = regions_of(options);
+  bool changed = false;
+  BrushControl* const brush = on.state.brush;
+  if (brush != nullptr) {
+    on.view.regions = on.scene.regions;
+    if (!brush->stroke().empty() && brush->painting())
+      on.view.regions.push_back(
+          region_view(panel.role, BrushStroke{.radius = brush->radius, .centers = brush->stroke()}));
+    if (std::vector<Vec3> stroke = brush->take_stroke(); !stroke.empty()) {
+      add_region(panel.role, BrushStroke{.radius = brush->radius, .centers = std::move(stroke)}, regions);
+      changed = true;
+    }
+  }
+  if (section("REGIONS")) {
+    choose_role("new region", panel.role);
+    hint("seed: tracts begin in it; include: they enter it; exclude: they do not; stop: they end there");
+    if (const auto shape = draw_shapes(tensors)) {
+      add_region(panel.role, *shape, regions);
+      changed = true;
+    }
+    if (brush != nullptr) draw_brush(*brush, *tensors.image);
+    changed |= edit_regions(regions);
+    if (!regions.empty()) {
+      input_text("regions file", &panel.file);
+      hint(".csv: a row each; .nii.gz, .nrrd: an image with the sum of 1 seed, 2 include, 4 exclude, 8 stop");
+      if (button("Save regions")) on.state.say(save_regions(panel, on));
+      hint("to that file, in place of what stands there");
+    }
+  }
+  if (changed) set_regions(regions, options);
+}
+
+}  // namespace palpate
