@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -286,16 +287,16 @@ inline std::string gambit_file(const CellKind& kind) {
          "2 NFLAGS:          1\n                           fluid\n       0\n       1\nENDOFSECTION\n";
 }
 
-/// Outer faces of a linear cell, seen from outside against the clock.
+/// Outer faces by their corners, seen from outside against the clock.
 inline std::vector<std::vector<int>> faces_of(const CellKind& kind) {
-  switch (kind.vtk) {
-    case 10:
+  switch (kind.corners.size()) {
+    case 4:
       return {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}};
-    case 12:
+    case 8:
       return {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
-    case 13:
+    case 6:
       return {{0, 2, 1}, {3, 4, 5}, {0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}};
-    case 14:
+    case 5:
       return {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
     default:
       return {};
@@ -304,8 +305,9 @@ inline std::vector<std::vector<int>> faces_of(const CellKind& kind) {
 
 /// One cell of a Fluent case, by its faces, whose corners turn so that their normal leads into the cell.
 inline std::string fluent_file(const CellKind& kind) {
+  constexpr int kLastLinear = 14;
+  if (kind.vtk > kLastLinear) return {};
   const std::vector<std::vector<int>> faces = faces_of(kind);
-  if (faces.empty()) return {};
   const std::vector<Vec3> nodes = places(kind, {});
   const std::string n = std::to_string(nodes.size()),
                     f = std::to_string(faces.size());  // below ten: as in hex
@@ -329,7 +331,8 @@ inline std::string fluent_values_file() {
 
 /// One cell in STAR-CD's files of vertices and cells.
 inline std::string star_vertices_file(const CellKind& kind) {
-  if (faces_of(kind).empty()) return {};
+  constexpr int kLastLinear = 14;
+  if (kind.vtk > kLastLinear) return {};
   std::string out = "PROSTAR_VERTEX\n 4000 0 0 0 0 0 0 0\n";
   const std::vector<Vec3> nodes = places(kind, {});
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -342,6 +345,60 @@ inline std::string star_cells_file(const CellKind& kind) {
                     std::to_string(kind.corners.size()) + " 1 1\n1";
   for (std::size_t i = 0; i < kind.corners.size(); ++i) out += " " + std::to_string(i + 1);
   return out + "\n";
+}
+
+/// One cell of EnSight Gold, in text or "C Binary": what the case, geometry and variable files hold. EnSight User
+/// Manual, "EnSight Gold": its quadratic elements have their nodes in VTK's order.
+struct EnsightFiles {
+  std::string flow_case, geometry, variable;
+};
+inline EnsightFiles ensight_files(const CellKind& kind, bool binary, bool big) {
+  const char* const name = kind.vtk == 10   ? "tetra4"
+                           : kind.vtk == 12 ? "hexa8"
+                           : kind.vtk == 13 ? "penta6"
+                           : kind.vtk == 14 ? "pyramid5"
+                           : kind.vtk == 24 ? "tetra10"
+                           : kind.vtk == 25 ? "hexa20"
+                           : kind.vtk == 26 ? "penta15"
+                           : kind.vtk == 27 ? "pyramid13"
+                                            : nullptr;
+  if (name == nullptr) return {};
+  const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
+  const auto line = [&](std::string text) {
+    constexpr std::size_t kLine = 80;
+    if (!binary) return text + "\n";
+    text.resize(kLine, ' ');
+    return text;
+  };
+  const auto padded = [](std::string text, std::size_t width) {
+    return std::string(width - std::min(width, text.size()), ' ') + text;
+  };
+  const auto whole = [&](std::size_t n, bool ends = true) {
+    constexpr std::size_t kWidth = 10;
+    return binary ? raw(static_cast<std::int32_t>(n), big)
+                  : padded(std::to_string(n), kWidth) + (ends ? "\n" : "");
+  };
+  const auto columns = [&](const std::vector<Vec3>& all) {
+    std::string out;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Vec3& v : all) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), "%12.5e\n", v[axis]);
+        out += binary ? raw(static_cast<float>(v[axis]), big) : text.data();
+      }
+    }
+    return out;
+  };
+  EnsightFiles out;
+  out.flow_case = "FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: a.geo\nVARIABLE\nvector per node: U a.vec\n";
+  out.geometry = (binary ? line("C Binary") : "") + line("one cell") + line("by formula") +
+                 line("node id off") + line("element id off") + line("part") + whole(1) + line("fluid") +
+                 line("coordinates") + whole(nodes.size()) + columns(nodes) + line(name) + whole(1);
+  for (std::size_t n = 1; n <= nodes.size(); ++n) out.geometry += whole(n, n == nodes.size());
+  std::vector<Vec3> values;
+  for (const Vec3& x : nodes) values.push_back(flow_at(x));
+  out.variable = line("U") + line("part") + whole(1) + line("coordinates") + columns(values);
+  return out;
 }
 
 }  // namespace palpate::test

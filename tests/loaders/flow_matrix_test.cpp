@@ -2,7 +2,9 @@
 // formula and byte by byte, so that no reader or writer vouches for another. The table is part of loaders/README.md:
 //   PALPATE_WRITE_PAGES=1 ctest --preset release -R loaders/flow_matrix_test
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -29,13 +31,14 @@ struct Variant {
   bool wide = true;  ///< double precision
   bool big = false;
 };
+using Files = std::vector<std::pair<std::string, std::string>>;
 struct Dialect {
   const char *format, *encoding, *name;
   std::vector<Variant> variants;
   std::function<std::string(const CellKind&, const Variant&)> write;  ///< empty where it has no such file
   bool has_values = true;
-  /// A second file: its name and content.
-  std::function<std::pair<std::string, std::string>(const CellKind&, const Variant&)> beside = {};
+  /// Further files: their names and content.
+  std::function<Files(const CellKind&, const Variant&)> beside = {};
 };
 
 std::string number_bytes(double value, const Variant& variant) {
@@ -138,6 +141,19 @@ std::vector<Dialect> dialects() {
       return gmsh_file(kind, version4, binary, variant.big);
     };
   };
+  const auto ensight = [](const char* encoding, bool binary, const std::vector<Variant>& variants) {
+    return Dialect{
+        "EnSight Gold",
+        encoding,
+        "a.case",
+        variants,
+        [=](const CellKind& kind, const Variant& v) { return ensight_files(kind, binary, v.big).flow_case; },
+        true,
+        [=](const CellKind& kind, const Variant& v) {
+          const EnsightFiles files = ensight_files(kind, binary, v.big);
+          return Files{{"a.geo", files.geometry}, {"a.vec", files.variable}};
+        }};
+  };
   return {
       {"VTK legacy", "ascii", "a.vtk", text,
        [](const CellKind& kind, const Variant& v) { return legacy_file(kind, v, false); }},
@@ -167,16 +183,24 @@ std::vector<Dialect> dialects() {
        [](const CellKind& kind, const Variant& v) { return xdmf_file(kind, v.wide, false); }},
       {"XDMF", "HDF5", "a.xdmf", text,
        [](const CellKind& kind, const Variant& v) { return xdmf_file(kind, v.wide, true); }, true,
-       [](const CellKind& kind, const Variant& v) { return std::pair("a.h5", xdmf_numbers(kind, v.wide)); }},
+       [](const CellKind& kind, const Variant& v) {
+         return Files{{"a.h5", xdmf_numbers(kind, v.wide)}};
+       }},
       {"Fluent", "mesh alone", "a.cas", one,
        [](const CellKind& kind, const Variant&) { return fluent_file(kind); }, false,
-       [](const CellKind&, const Variant&) { return std::pair("a.dat", fluent_values_file()); }},
+       [](const CellKind&, const Variant&) {
+         return Files{{"a.dat", fluent_values_file()}};
+       }},
       {"STAR-CD", "mesh alone", "a.vrt", one,
        [](const CellKind& kind, const Variant&) { return star_vertices_file(kind); }, false,
-       [](const CellKind& kind, const Variant&) { return std::pair("a.cel", star_cells_file(kind)); }}};
+       [](const CellKind& kind, const Variant&) {
+         return Files{{"a.cel", star_cells_file(kind)}};
+       }},
+      ensight("ascii", false, one),
+      ensight("C Binary", true, orders)};
 }
 
-/// The edges of a linear cell by the places of their ends, lower one first.
+/// The edges of a cell by the places of their ends, lower one first.
 std::set<std::array<double, 6>> edges_of(const CellKind& kind, const std::vector<Vec3>& corners) {
   std::set<std::array<double, 6>> out;
   for (const std::vector<int>& face : faces_of(kind)) {
@@ -190,7 +214,7 @@ std::set<std::array<double, 6>> edges_of(const CellKind& kind, const std::vector
   return out;
 }
 
-/// Empty: the cell is of that kind, its nodes lie where VTK has them, and have their values.
+/// Empty: the cell is of that kind, its nodes lie between its corners as VTK has them, and have their values.
 std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool has_values) {
   Source source = Source::open({{file}, {}});
   std::vector<std::string> names;
@@ -201,30 +225,41 @@ std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool 
   if (mesh->types[0] != kind.vtk) return "a cell of type " + std::to_string(mesh->types[0]);
   const std::vector<Vec3> nodes = places(kind, kind.vtk_nodes);
   if (mesh->connectivity.size() != nodes.size()) return std::to_string(mesh->connectivity.size()) + " nodes";
-  if (!has_values) {
-    // Some formats list faces, or turn cells the other way: corners in any order that makes the same cell.
-    std::vector<Vec3> corners;
-    for (const std::int64_t id : mesh->connectivity) {
-      const auto point = static_cast<std::size_t>(id);
-      corners.emplace_back(mesh->positions.at(point, 0), mesh->positions.at(point, 1),
-                           mesh->positions.at(point, 2));
-    }
-    return edges_of(kind, corners) == edges_of(kind, nodes) ? "" : "other edges";
-  }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto point = static_cast<std::size_t>(mesh->connectivity[i]);
-    const Vec3 x{mesh->positions.at(point, 0), mesh->positions.at(point, 1), mesh->positions.at(point, 2)};
-    if (glm::distance(x, nodes[i]) > 1e-6) return "node " + std::to_string(i) + " lies elsewhere";
+  // Some formats list faces, and VTK's readers turn some cells the other way: the corners may come in any order that
+  // makes the same cell, and then the nodes between them in that order.
+  std::vector<Vec3> there, values;
+  const DataArray* const velocity = block.find("Velocity", Association::kPoint);
+  const DataArray* const whole = velocity != nullptr ? velocity : block.find("U", Association::kPoint);
+  for (const std::int64_t id : mesh->connectivity) {
+    const auto point = static_cast<std::size_t>(id);
+    there.emplace_back(mesh->positions.at(point, 0), mesh->positions.at(point, 1),
+                       mesh->positions.at(point, 2));
     Vec3 v{NAN};
-    const DataArray* const velocity = block.find("Velocity", Association::kPoint);
-    const DataArray* const whole = velocity != nullptr ? velocity : block.find("U", Association::kPoint);
     for (int c = 0; c < 3; ++c) {
       const DataArray* const part = block.find(std::string(1, "UVW"[c]), Association::kPoint);
       if (whole != nullptr && whole->components == 3) v[c] = whole->at(point, c);
       if (whole != nullptr && whole->components == 1 && part != nullptr) v[c] = part->at(point);
     }
-    if (!(glm::distance(v, flow_at(nodes[i])) <= 1e-6))
+    values.push_back(v);
+  }
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    const auto due =
+        std::ranges::min_element(nodes, {}, [&](const Vec3& x) { return glm::distance(x, there[i]); });
+    if (glm::distance(*due, there[i]) > 1e-6) return "node " + std::to_string(i) + " lies elsewhere";
+    there[i] = *due;  // which has all digits
+    // Texts of EnSight have six digits.
+    if (has_values && !(glm::distance(values[i], flow_at(*due)) <= 1e-5))
       return "node " + std::to_string(i) + " has another value";
+  }
+  if (edges_of(kind, there) != edges_of(kind, nodes)) return "other edges";
+  const std::size_t corners = kind.corners.size();
+  for (std::size_t i = corners; i < there.size(); ++i) {
+    Vec3 middle{0.0};
+    for (const int corner : kind.vtk_nodes[i - corners]) {
+      middle +=
+          there[static_cast<std::size_t>(corner)] / static_cast<double>(kind.vtk_nodes[i - corners].size());
+    }
+    if (glm::distance(middle, there[i]) > 1e-6) return "node " + std::to_string(i) + " lies between others";
   }
   return {};
 }
@@ -255,8 +290,7 @@ TEST(FlowMatrix, EveryKindOfCellIsRightOrRefusedInEveryDialect) {
         if (content.empty()) continue;
         const auto path = folder.write(dialect.name, content);
         if (dialect.beside) {
-          const auto [name, second] = dialect.beside(kind, variant);
-          (void)folder.write(name, second);
+          for (const auto& [name, text] : dialect.beside(kind, variant)) (void)folder.write(name, text);
         }
         const std::string what = std::string(dialect.format) + ", " + dialect.encoding + ", " + kind.name +
                                  (variant.wide ? ", double" : ", float") +
