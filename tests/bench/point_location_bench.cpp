@@ -11,8 +11,11 @@
 //           cell first and ask the locator when the point has left it; so does this.
 // Meshes: cubes with randomly moved corners, five tetrahedra each; and the same with every other layer of
 // cubes 1e-5 as thick as its neighbours, whose tetrahedra are slivers.
+// Then, of ours alone, a mesh of one block beside one of slabs that do not match where they meet, and one that another
+// block lies in, as fine as it is: the ratio of the times is what that costs.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +25,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vtkCellArray.h>
@@ -35,6 +39,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "common/field/analytic/examples.h"
+#include "common/field/grid/tet_mesh.h"
 #include "common/field/vector_field.h"
 #include "tests/support/sampled.h"
 
@@ -210,6 +215,55 @@ void compare(const std::string& name, const VectorField& field, VtkMesh& vtk, co
               difference);
 }
 
+/// Slabs of the box one upon the other, with one cell more along x and y in every other one.
+std::vector<DataSet> slabs(const AnalyticField& field, int count) {
+  std::vector<DataSet> out;
+  const Box box = field.bounds();
+  for (int s = 0; s < count; ++s) {
+    const int along = kLattice + (count > 1 ? s % 2 : 0);
+    out.push_back(
+        test::sample_mapped(field, Index3{along, along, (kLattice - 1) / count + 1}, [&](const Vec3& u) {
+          return box.lower + box.size() * Vec3{u.x, u.y, (s + u.z) / count};
+        }));
+  }
+  return out;
+}
+
+void compare_with_parts(const AnalyticField& formula, const VectorChoice& choice,
+                        const std::vector<Vec3>& scattered, const std::vector<Vec3>& path, int repeats) {
+  constexpr int kSlabs = 4;
+  const Box box = formula.bounds();
+  std::vector<DataSet> overset = slabs(formula, 1);
+  overset.push_back(test::sample_mapped(formula, Index3{kLattice / 2 + 1}, [&](const Vec3& u) {
+    return box.lower + box.size() * (0.253 + 0.491 * u);
+  }));
+  const std::array<std::pair<const char*, std::vector<DataSet>>, 3> meshes{
+      {{"joined", slabs(formula, 1)}, {"slabs", slabs(formula, kSlabs)}, {"overset", overset}}};
+  std::vector<std::shared_ptr<const VectorField>> fields;
+  for (const auto& [name, blocks] : meshes) {
+    const double before = thread_seconds();
+    fields.push_back(make_vector_field(blocks, choice, "bench", 1));
+    std::printf("%s: %zu tetrahedra, made in %.2f s\n", name, fields.back()->tet_mesh()->cells().size(),
+                thread_seconds() - before);
+  }
+  for (const bool last_first : {false, true}) {
+    std::array<std::vector<double>, 3> times;
+    std::array<std::size_t, 3> missing{};
+    for (int r = 0; r < repeats; ++r) {
+      for (std::size_t m = 0; m < fields.size(); ++m) {
+        const Run run = run_palpate(*fields[m], last_first ? path : scattered, last_first);
+        times[m].push_back(run.seconds);
+        missing[m] = run.missing;
+      }
+    }
+    for (std::size_t m = 0; m < fields.size(); ++m) {
+      std::printf("  %-7s %-10s %9.1f ns   %5.2f of joined   missing %zu\n", last_first ? "path" : "random",
+                  meshes[m].first, median(times[m]) * 1e9 / static_cast<double>(path.size()),
+                  median(times[m]) / median(times[0]), missing[m]);
+    }
+  }
+}
+
 int main_of(int argc, char** argv) {
   std::size_t count = 1'000'000;
   int repeats = 5;
@@ -249,6 +303,7 @@ int main_of(int argc, char** argv) {
     compare("  random", *field, vtk, scattered, false, repeats);
     compare("  path", *field, vtk, path, true, repeats);
   }
+  compare_with_parts(*formula, choice, scattered, path, repeats);
   return 0;
 }
 
