@@ -390,13 +390,14 @@ class BorderReading {
           "where the septum ends in the right ventricle: there is no crease, the way through the wall says so");
   }
 
-  /// Fills what is not known from beside, within the right ventricle, and takes single triangles for what
+  /// Fills what is not known from beside, within a part of the right ventricle, and takes single triangles for what
   /// most of those beside them are.
   template <typename Kind>
   void spread(std::vector<Kind>& of, Kind unknown) const {
     std::vector<std::vector<std::uint32_t>> beside(of.size());
     for (const auto& [a, b] : border_.joints) {
-      if (roles_[a] != BorderRole::kRight || roles_[b] != BorderRole::kRight) continue;
+      if (roles_[a] != BorderRole::kRight || roles_[b] != BorderRole::kRight || part_of_[a] != part_of_[b])
+        continue;
       beside[a].push_back(b);
       beside[b].push_back(a);
     }
