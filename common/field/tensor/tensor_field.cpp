@@ -262,8 +262,8 @@ class TensorFieldBuilder {
   }
 
  private:
-  /// Gives points without a direction, in most of whose cells at least two points have one, the mean of these: the
-  /// apex, where a file has none, is no hole in the wall. By volume, as cells are brought to points.
+  /// Gives points without a direction, in most of whose cells at least two points have one, the mean of these
+  /// where they agree on one: a hole in the fibres is none in the wall. By volume, as cells are brought to points.
   static void fill_points(TensorField& field) {
     const TetMesh& mesh = *field.grid_->tets;
     struct Around {
@@ -300,12 +300,16 @@ class TensorFieldBuilder {
     for (const auto& entry : missing) {
       const Around& around = entry.second;
       if (!(around.volume > around.unknown)) continue;
+      Six mean = around.sum;
+      for (double& d : mean) d /= around.volume;
+      // At an apex all directions meet: their mean is none.
+      constexpr double kAgree = 0.5;
+      if (!(eigen_gaps(symmetric_eigenvalues(symmetric_matrix(mean))).major >= kAgree)) continue;
       const std::size_t at = std::size_t{6} * entry.first;
       std::visit(
           [&](auto& values) {
             using Number = typename std::decay_t<decltype(values)>::value_type;
-            for (std::size_t i = 0; i < around.sum.size(); ++i)
-              values[at + i] = static_cast<Number>(around.sum[i] / around.volume);
+            for (std::size_t i = 0; i < mean.size(); ++i) values[at + i] = static_cast<Number>(mean[i]);
           },
           field.values_);
       ++filled;

@@ -155,27 +155,6 @@ TEST(FibreLines, EndAtTheRimAndSayWhatLiesOutside) {
   EXPECT_GT(result.errors.max, 0.0);
 }
 
-// The points at the apex have no direction. All fibres of an inner layer end there: where directions agree on none, and
-// not a cell before, for want of one.
-TEST(FibreLines, AnApexWithoutDirectionsIsNoHole) {
-  const auto heart = heart_of({.wall = 6, .along = 32, .around = 64});
-  const Ventricle shape;
-  std::vector<Vec3> seeds;
-  for (int i = 0; i < 8; ++i)
-    seeds.push_back(shape.position({0.5 * (shape.lambda_inner + shape.lambda_outer) - 0.1, 0.8, 0.7 * i}));
-  const FibreLineResult result = trace_fibres(*heart, seeds, {.layer = 0.2, .threads = 1});
-  EXPECT_EQ(result.ends[static_cast<std::size_t>(End::kBadData)], 0U);
-  double farthest = 0.0;
-  std::size_t at_apex = 0;
-  for (const Line& line : result.lines) {
-    if (line.end != End::kBelowCutoff) continue;
-    farthest = std::max(farthest, shape.coordinates(line.points.back().position).mu);
-    ++at_apex;
-  }
-  EXPECT_EQ(at_apex, seeds.size()) << "one way of each";
-  EXPECT_LT(farthest, 0.25 * 1.9 / 32.0) << "a part of the first cell";
-}
-
 TEST(FibreLines, RefusesLayersThatAreNotThere) {
   const auto heart = heart_of({.wall = 1, .along = 4, .around = 8});
   EXPECT_THROW((void)trace_fibres(*heart, {}, {.layer = 1.5}), Error);

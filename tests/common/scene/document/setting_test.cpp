@@ -44,9 +44,9 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     const auto& [files, solution, layout, diffusion, refine, series, gaps, left_handed, markers] =
         static_cast<const LoadRequest&>(document.input);
     expect("request", files, solution, refine, series, gaps, markers);
-    const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, mesher, volume,
-                 remesher, cache] = static_cast<const InputTexts&>(document.input);
-    expect("input", example, field, time, cells, directions, mesher, volume, cache);
+    const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, regions, paint,
+                 mesher, volume, remesher, cache] = static_cast<const InputTexts&>(document.input);
+    expect("input", example, field, time, cells, directions, regions, paint, mesher, volume, cache);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
@@ -88,8 +88,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tract_appearance", a, b, c);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = document.heart;
-    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = document.heart;
+    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
   }
   {
     const auto& [a, b, c, d] = document.series;
