@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
-"""scripts/guards_out.py [BUILD]: takes every guard of lab/extremes/guards.tsv out of the program, one at a time, and writes to
+"""scripts/guards_out.py [FOLDER]: takes every guard of lab/extremes/guards.tsv out of the program, one at a time, and writes to
 lab/extremes/seen.def which rows of the catalogue of extreme cases then fail.
 
 A guard is a line of guards.tsv: its name, a file, an expression that stands once in that file, and what takes its place,
-between tabs; lines of one name belong together. The sources are built once, in the folder BUILD (build/release), with a switch
-in place of each expression, and are put back before this ends.
+between tabs; lines of one name belong together. A copy of the sources is built in FOLDER (build/guards), with a switch in
+place of each expression: the checkout never has one, nor does any program that is built from it.
 """
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -60,16 +61,24 @@ def failing(program, guard):
 
 
 def main():
-    build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
-    before = {file: (ROOT / file).read_text() for file, _ in switched()}
-    try:
-        for file, text in switched():
-            (ROOT / file).write_text(text)
-        subprocess.run(["ninja", "-C", build, "-j2", "extremes_page"], check=True)
-    finally:
-        for file, text in before.items():
-            (ROOT / file).write_text(text)
-    program = build / "lab/extremes_page"
+    copy = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/guards").resolve()
+    if copy == ROOT:
+        sys.exit("not into the checkout itself")
+    tracked = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    switches = dict(switched())
+    for file in filter(None, tracked.split("\0")):
+        if not (ROOT / file).is_file():
+            continue
+        to = copy / file
+        to.parent.mkdir(parents=True, exist_ok=True)
+        text = switches.get(file)
+        if text is None:
+            shutil.copy2(ROOT / file, to)
+        elif not to.exists() or to.read_text() != text:
+            to.write_text(text)
+    subprocess.run(["cmake", "--preset", "release"], cwd=copy, check=True)
+    subprocess.run(["cmake", "--build", "--preset", "release", "--target", "extremes_page"], cwd=copy, check=True)
+    program = copy / "build/release/lab/extremes_page"
     wrong, count = failing(program, "")
     if wrong:
         sys.exit(f"with all guards these fail: {wrong}")
