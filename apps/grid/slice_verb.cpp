@@ -111,8 +111,7 @@ Image grey_image(const UniformTopology& lattice, const std::vector<float>& value
   const double black = greys.level - 0.5 * greys.window;
   for (int y = image.height - 1; y >= 0; --y) {
     for (int x = 0; x < image.width; ++x) {
-      const auto at =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+      const auto at = as_size(y) * as_size(image.width) + as_size(x);
       const double part = std::clamp((static_cast<double>(values[at]) - black) / greys.window, 0.0, 1.0);
       const auto grey = static_cast<std::uint8_t>(std::lround(255.0 * part));
       image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});

@@ -6,6 +6,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 ForceKeys::ForceKeys() {
@@ -29,7 +31,7 @@ ForceKeys::Key ForceKeys::pressed() {
     std::array<char, 64> bytes{};
     const ssize_t count = read(STDIN_FILENO, bytes.data(), bytes.size());
     if (count <= 0) break;
-    const std::string_view typed(bytes.data(), static_cast<std::size_t>(count));
+    const std::string_view typed(bytes.data(), as_size(count));
     // Keys with a name, F12 among them, come as several bytes.
     if (typed == "q" || typed == "Q") {
       key = key == Key::kForceOff ? key : Key::kQuit;

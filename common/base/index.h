@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "common/base/check.h"
+
 namespace palpate {
 
 /// Whole numbers and enumerators.
@@ -14,6 +16,12 @@ concept Countable = std::is_integral_v<T> || std::is_enum_v<T>;
 /// `value` as the index or the size that it is. @pre value >= 0. @rt Safe.
 template <Countable T>
 [[nodiscard, gnu::always_inline]] constexpr std::size_t as_size(T value) noexcept {
+  return static_cast<std::size_t>(value);
+}
+
+/// The whole part of `value` as an index. @pre 0 <= value < 2^53. @rt Safe.
+[[nodiscard, gnu::always_inline]] inline std::size_t floor_size(double value) noexcept {
+  PALPATE_ASSERT(value >= 0.0 && value < 0x1p53);
   return static_cast<std::size_t>(value);
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 /// The smallest of the values that at least a part `part` of them does not exceed; NaN where there are none.
@@ -14,7 +16,7 @@ namespace palpate {
 [[nodiscard]] inline double quantile(std::vector<double>& values, double part) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(part * static_cast<double>(values.size())));
+  const auto rank = floor_size(std::ceil(part * static_cast<double>(values.size())));
   return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 

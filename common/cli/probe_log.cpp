@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/tensor/tensor_measure.h"
 #include "common/field/value_histogram.h"
@@ -40,8 +41,7 @@ void ProbeLog::add(const PathRow& row, const HandStep& step, double microseconds
   (line_ += ',') += short_number(microseconds);
   for (int i = 0; i < links_; ++i) {
     const bool there = i < step.chain.links;
-    add_vector(
-        in_data(there ? step.chain.proxies[static_cast<std::size_t>(i)] : step.probe, row, step, workspace_));
+    add_vector(in_data(there ? step.chain.proxies[as_size(i)] : step.probe, row, step, workspace_));
   }
   if (measured_.tensors != nullptr) {
     const TensorMeasures measures = measures_at(*measured_.tensors, proxy, hint_);

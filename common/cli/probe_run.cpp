@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/device/replay_device.h"
 
 namespace palpate {
@@ -18,7 +19,7 @@ constexpr std::size_t kStepsBetweenChecks = 4096;
 double percentile(const std::vector<float>& sorted, double part) {
   if (sorted.empty()) return 0.0;
   const auto last = static_cast<double>(sorted.size() - 1);
-  return sorted[static_cast<std::size_t>(std::llround(part * last))];
+  return sorted[as_size(std::llround(part * last))];
 }
 
 }  // namespace
@@ -34,7 +35,7 @@ void ProbeRun::add(const PathRow& row, const HandStep& step, double microseconds
   if (pen_ != nullptr) draw(row, step);
   if (box_reach_ > 0.0 || holds_view_) lead_by_grid(row, step);
   times_.push_back(static_cast<float>(microseconds));
-  ++summary_.states[static_cast<std::size_t>(step.state)];
+  ++summary_.states[as_size(step.state)];
   if (step.state == HoldState::kFault && first_fault_ == 0) {
     first_fault_ = summary_.steps + 1;
     first_cut_ = step.cut;
@@ -118,7 +119,7 @@ void follow_operator(const std::vector<PathRow>& path, const SimulatedDeviceOpti
   if (!(end - start <= kLongest)) throw usage_error("--path: a simulated hand follows it for a day at most");
   ReplayDevice leader(samples_of(path, workspace.scale()), stepper.limits());
   SimulatedDevice device(simulated, leader);
-  progress.begin("probing", static_cast<std::size_t>(rate * (end - start)));
+  progress.begin("probing", floor_size(rate * (end - start)));
   HandInput hand{.present = true};
   for (std::size_t n = 0;; ++n) {
     hand.time = start + static_cast<double>(n) / rate;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -13,7 +14,7 @@ std::string trace_counts_text(const TraceSummary& summary) {
   text += summary.output.empty() ? "\n" : " -> " + summary.output + "\n";
   std::string ends;
   for (int e = 0; e < kEndCount; ++e) {
-    const auto count = result.ends[static_cast<std::size_t>(e)];
+    const auto count = result.ends[as_size(e)];
     if (count > 0)
       ends += (ends.empty() ? "" : ", ") + std::string(name_of(static_cast<End>(e))) + " " +
               std::to_string(count);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
@@ -29,7 +30,7 @@ void check_above_zero(double size, const std::string& text, const char* what) {
 
 // Where n.x <= d for each n, d.
 ConvexShape polyhedron_of(std::string_view text, const std::string& refusal) {
-  const auto numbers = static_cast<std::size_t>(1 + std::count(text.begin(), text.end(), ','));
+  const auto numbers = as_size(1 + std::count(text.begin(), text.end(), ','));
   if (numbers % 4 != 0) throw usage_error(refusal);
   if (numbers > 4 * kMostHalfSpaces)
     throw usage_error(refusal + "; at most " + std::to_string(kMostHalfSpaces) + " faces are possible");
@@ -128,7 +129,7 @@ std::optional<std::string> shape_text(const ConvexShape& shape) {
     bool upright = true;
     for (int axis = 0; axis < 3; ++axis) {
       // make_box() gives the faces of an axis one after the other, outward and back.
-      const std::size_t face = 2 * static_cast<std::size_t>(axis);
+      const std::size_t face = 2 * as_size(axis);
       upright = upright && std::abs(faces[face].outward[axis]) == 1.0 &&
                 faces[face + 1].outward == -faces[face].outward;
       const double a = faces[face].outward[axis] * faces[face].offset;

@@ -5,13 +5,14 @@
 #include <cstddef>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
 
 std::vector<double> parse_contours(const std::string& text) {
   if (text.empty()) return {};
-  const auto count = static_cast<std::size_t>(1 + std::count(text.begin(), text.end(), ','));
+  const auto count = as_size(1 + std::count(text.begin(), text.end(), ','));
   return parse_numbers(text, count, "--contours " + text + ": values with ',' between are expected");
 }
 

@@ -19,7 +19,7 @@ std::size_t place_in(const Names& names, std::string_view word, const char* opti
   const auto at = std::find(names.begin(), names.end(), word);
   if (at == names.end())
     throw usage_error(std::string(option) + ": no such word: '" + std::string(word) + "'");
-  return static_cast<std::size_t>(at - names.begin());
+  return as_size(at - names.begin());
 }
 
 Vec3 place_of(const std::string& text, const char* option, const Vec3& otherwise) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/quaternion.h"
 
@@ -29,9 +30,9 @@ std::string stereo_text(const SceneView& view) {
   const auto degrees = [](double angle) {
     return short_number(std::round(1e3 * angle / kDegree) / 1e3) + " degrees";
   };
-  std::string text = "stereo " + std::string(kStereoModeNames[static_cast<std::size_t>(view.stereo.mode)]) +
-                     ": disparity " + degrees(eyes.near_disparity) + " at the nearest, " +
-                     degrees(eyes.far_disparity) + " at the farthest point";
+  std::string text = "stereo " + std::string(kStereoModeNames[as_size(view.stereo.mode)]) + ": disparity " +
+                     degrees(eyes.near_disparity) + " at the nearest, " + degrees(eyes.far_disparity) +
+                     " at the farthest point";
   if (eyes.limited < 1.0)
     text += "; eyes brought to " + short_number(std::round(100.0 * eyes.limited)) +
             " % of their separation, as --disparity-limit demands";

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/lens_text.h"
@@ -59,7 +60,7 @@ void keep_volume(const VolumeView& volume, Document& document) {
   kept.context_viewport = volume.context.viewport;
   kept.context_level = volume.context.level;
   kept.gpu_memory = std::ldexp(static_cast<double>(volume.storage.memory), -20);
-  kept.tables = kTableMakerNames[static_cast<std::size_t>(volume.table_maker)];
+  kept.tables = kTableMakerNames[as_size(volume.table_maker)];
   kept.shading = volume.shading;
   const PlaneImages& planes = volume.planes;
   kept.plane_image = planes.shown;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/compose/lens_text.h"
 
 namespace palpate {
@@ -126,7 +127,7 @@ void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vec
     const auto found = std::find_if(volume.fields.begin(), volume.fields.end(),
                                     [&](const VolumeField& field) { return field.name == parts.fields[i]; });
     if (!lens.cut && found != volume.fields.end()) {
-      lens.field = static_cast<std::size_t>(found - volume.fields.begin()) + 1;
+      lens.field = as_size(found - volume.fields.begin()) + 1;
       lens.transfer = appearances[lens.field].transfer;
       lens.regions = appearances[lens.field].regions;
     }

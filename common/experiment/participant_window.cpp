@@ -42,9 +42,8 @@ class ParticipantWindow {
     header_.limits = options.touch.limits;
     glfwSwapInterval(1);
     gui_.set_background(kGround);
-    done_ = static_cast<std::size_t>(
-                std::ranges::count(folder.design(), who_.number, &PlannedTrial::participant)) -
-            left_.size();
+    done_ =
+        as_size(std::ranges::count(folder.design(), who_.number, &PlannedTrial::participant)) - left_.size();
     if (left_.empty()) screen_ = form_is_filled() ? ParticipantScreen::kThanks : ParticipantScreen::kForm;
   }
 

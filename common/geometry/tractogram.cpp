@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 TractogramLengths lengths_of(const Tractogram& lines) {
@@ -28,7 +30,7 @@ TractogramLengths lengths_of(const Tractogram& lines) {
   result.most = *most;
   result.bin = result.most / static_cast<double>(TractogramLengths::kBins);
   for (const double length : lengths) {
-    const auto bin = result.bin > 0.0 ? static_cast<std::size_t>(length / result.bin) : 0;
+    const auto bin = result.bin > 0.0 ? floor_size(length / result.bin) : 0;
     ++result.histogram[std::min(bin, TractogramLengths::kBins - 1)];
   }
   return result;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/value_histogram.h"
 #include "common/hand/mode/haptic_mode.h"
@@ -26,7 +27,7 @@ std::string show_haptic_surfaces(SceneView& view, const ScalarField& field, cons
   std::vector<std::shared_ptr<const IsosurfaceMesh>> meshes;
   std::string words;
   for (int i = 0; i < isovalues.count; ++i) {
-    const double level = isovalues.value[static_cast<std::size_t>(i)];
+    const double level = isovalues.value[as_size(i)];
     meshes.push_back(
         std::make_shared<const IsosurfaceMesh>(make_isosurface_mesh(field, level, kMostTriangles, progress)));
     words += (i > 0 ? ", " : " at ") + short_number(level);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/hand/drawn/followed_curve.h"
 #include "common/hand/touch_options.h"
 #include "common/servo/hand_step.h"
@@ -17,7 +18,7 @@ double ball_interval(const VectorField& field, const Workspace& workspace) noexc
 std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace) {
   std::vector<Vec3> places;
   for (int i = 0; i < step.links; ++i)
-    places.push_back(workspace.data_from_workspace(step.proxies[static_cast<std::size_t>(i)]));
+    places.push_back(workspace.data_from_workspace(step.proxies[as_size(i)]));
   return places;
 }
 

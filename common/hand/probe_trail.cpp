@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/hand/probe_picture.h"
 
 namespace palpate {
@@ -89,7 +90,7 @@ void ProbeTrail::read_step(const HandStep& step) {
   const Workspace workspace = data_.workspace();
   // What the hand is pulled by is the last proxy; those before it lie on the way. A flow's line is followed
   // by the first one, which a drag leaves behind; on a heart's layer the groove is what is followed.
-  const auto last = static_cast<std::size_t>(std::max(step.chain.links, 1)) - 1;
+  const auto last = as_size(std::max(step.chain.links, 1)) - 1;
   const std::size_t shown = data_.has_wall() ? last : 0;
   readout_.held = true;
   readout_.acts = (step.buttons & 1U) != 0;

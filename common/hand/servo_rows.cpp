@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdio>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -27,7 +28,7 @@ std::vector<ServoRow> servo_rows(const ServoState& state) {
   const ServoStatistics& statistics = state.statistics;
   if (statistics.ticks == 0) return {};
   const RealTimeStatus& granted = state.real_time;
-  const auto ticks = static_cast<std::size_t>(statistics.ticks);
+  const auto ticks = as_size(statistics.ticks);
   std::vector<ServoRow> rows{
       {"servo", short_number(state.rate) + " Hz, " + counted(ticks, "tick")},
       {"real time", std::string(granted.real_time_priority ? "priority granted" : "no priority granted") +
@@ -35,8 +36,8 @@ std::vector<ServoRow> servo_rows(const ServoState& state) {
       {"late", short_number(100.0 * static_cast<double>(statistics.late) / static_cast<double>(ticks)) +
                    " % by over half a period"},
       {"wakes after", spread(statistics.lateness)},
-      {"overruns", std::to_string(statistics.overruns) + ", " +
-                       counted(static_cast<std::size_t>(statistics.skipped), "tick") + " skipped"},
+      {"overruns", std::to_string(statistics.overruns) + ", " + counted(as_size(statistics.skipped), "tick") +
+                       " skipped"},
       {"update", spread(statistics.update)}};
   if (state.hand.passivity_watched) {
     constexpr double kMillijoules = 1e3;
@@ -49,7 +50,7 @@ std::vector<ServoRow> servo_rows(const ServoState& state) {
     rows.push_back({"stalls", std::to_string(statistics.stalls) + ", the device was stopped"});
   }
   if (statistics.stops > 0) {
-    rows.push_back({"stopped", counted(static_cast<std::size_t>(statistics.stops), "time") +
+    rows.push_back({"stopped", counted(as_size(statistics.stops), "time") +
                                    " by sleep or Ctrl-Z; no force until it is armed"});
   }
   return rows;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
@@ -44,7 +45,7 @@ IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
       const auto end = all.value.begin() + all.count;
       if (std::find(all.value.begin(), end, value) != end) continue;
       if (all.count == Isovalues::kMax) throw usage_error("--isovalue: at most eight values are taken");
-      all.value[static_cast<std::size_t>(all.count++)] = value;
+      all.value[as_size(all.count++)] = value;
     }
   }
   bool known = false;
@@ -140,8 +141,7 @@ ChainSettings touch_settings(const TouchOptions& options) {
 }
 
 TouchChoice touch_choice(const TouchOptions& options, const std::vector<HapticMode>& modes, TouchChoice now) {
-  if (!options.mode.empty())
-    now.mode = static_cast<std::size_t>(&find_mode(modes, options.mode) - modes.data());
+  if (!options.mode.empty()) now.mode = as_size(&find_mode(modes, options.mode) - modes.data());
   const int edit = now.settings.plane_widget.edit;
   now.settings = touch_settings(options);
   now.settings.plane_widget.edit = edit;
@@ -175,8 +175,7 @@ void keep_touch(const TouchChoice& choice, const std::string& mode, TouchOptions
   options.along_streamline = surface.along_streamline;
   options.isovalues.clear();
   for (int i = 0; i < surface.isovalues.count; ++i) {
-    (options.isovalues += i > 0 ? "," : "") +=
-        exact_number(surface.isovalues.value[static_cast<std::size_t>(i)]);
+    (options.isovalues += i > 0 ? "," : "") += exact_number(surface.isovalues.value[as_size(i)]);
   }
   options.field_force = settings.force_field.strength;
   options.field_damping = settings.force_field.damping;

@@ -17,7 +17,7 @@ PoseError ErrorTable::at(const Vec3& p) const noexcept {
     const double g = (p[axis] - lower[axis]) / spacing[axis];
     const double held = g > 0.0 ? std::min(g, last) : 0.0;
     const double cell = std::min(std::floor(held), last - 1.0);
-    first[as_size(axis)] = static_cast<std::size_t>(cell);
+    first[as_size(axis)] = floor_size(cell);
     u[axis] = held - cell;
   }
   const auto nx = as_size(count.x), ny = as_size(count.y);

@@ -4,13 +4,15 @@
 #include <memory>
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::vector<DataArray> carried_arrays(const DataSet& block, const std::vector<std::uint32_t>& point_of_file) {
   std::vector<DataArray> carried;
   for (const DataArray& array : block.arrays) {
     if (array.association != Association::kPoint) continue;
-    const std::size_t size = static_cast<std::size_t>(array.components) * byte_size(array.type);
+    const std::size_t size = as_size(array.components) * byte_size(array.type);
     // Aligned for every type of number.
     auto bytes = std::make_shared<std::vector<std::max_align_t>>(
         (size * point_of_file.size() + sizeof(std::max_align_t) - 1) / sizeof(std::max_align_t));

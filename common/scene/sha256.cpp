@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 
 namespace palpate {
@@ -127,7 +128,7 @@ std::string sha256_of_file(const std::filesystem::path& file, const Progress* pr
   while (in) {
     if (progress) progress->check();
     in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    sum.update({piece.data(), static_cast<std::size_t>(in.gcount())});
+    sum.update({piece.data(), as_size(in.gcount())});
   }
   if (in.bad()) throw input_error({file.string(), "", "cannot be read to its end", "", ""});
   return sum.finish();

@@ -110,7 +110,7 @@ FaultRecorder::FaultRecorder(std::filesystem::path folder, RecordingHeader heade
     : folder_(std::move(folder)),
       header_(std::move(header)),
       aftermath_(static_cast<std::uint64_t>(std::ceil(kAftermath * rate))) {
-  const auto entries = static_cast<std::size_t>(std::ceil(kSeconds * rate));
+  const auto entries = floor_size(std::ceil(kSeconds * rate));
   for (Memory& memory : memories_) memory.reserve(std::min(entries, kMostEntries));
   thread_ = std::jthread([this](const std::stop_token& stop) { write_loop(stop); });
 }

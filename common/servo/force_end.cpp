@@ -8,6 +8,8 @@
 #include <ctime>
 #include <mutex>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -69,7 +71,7 @@ extern "C" void on_ending_signal(int number) {
   wait_for_rest();
   const auto* const known = std::find_if(
       kEnding.begin(), kEnding.end(), [number](const EndingSignal& each) { return each.number == number; });
-  const auto i = static_cast<std::size_t>(known - kEnding.begin());
+  const auto i = as_size(known - kEnding.begin());
   sigaction(number, &before[i], nullptr);
   if (!known->stops) {
     raise(number);  // waits until this handler is done, and finds what was there before

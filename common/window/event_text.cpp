@@ -3,6 +3,7 @@
 #include <array>
 #include <sstream>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -15,7 +16,7 @@ constexpr std::array<std::string_view, 7> kKinds{"move",    "press", "release", 
 }  // namespace
 
 std::string event_text(const InputEvent& event) {
-  const auto kind = static_cast<std::size_t>(event.kind);
+  const auto kind = as_size(event.kind);
   if (kind >= kKinds.size()) return {};
   std::string text(kKinds[kind]);
   switch (event.kind) {

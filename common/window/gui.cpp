@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/render/font.h"
 
 namespace palpate {
@@ -120,7 +121,7 @@ void Gui::begin_frame(const std::vector<InputEvent>& events, int width, int heig
   io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   io.DeltaTime = static_cast<float>(std::clamp(seconds, 1e-4, 1.0));
   for (const InputEvent& event : events) {
-    const auto button = static_cast<std::size_t>(event.button);
+    const auto button = as_size(event.button);
     switch (event.kind) {
       case InputKind::kMove:
         io.MousePos = {static_cast<float>(event.x), static_cast<float>(event.y)};

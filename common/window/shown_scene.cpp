@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/window/controls/color_lens_control.h"
@@ -44,7 +45,7 @@ void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
       const auto now = std::find_if(fields.begin(), fields.end(), [&](const VolumeField& field) {
         return field.name == before->fields[lens.field - 1].name;
       });
-      lens.field = now == fields.end() ? 0 : static_cast<std::size_t>(now - fields.begin()) + 1;
+      lens.field = now == fields.end() ? 0 : as_size(now - fields.begin()) + 1;
     }
     const bool gone = field_before > 0 && lens.field == 0;
     if (lens.own_transfer && !gone) continue;

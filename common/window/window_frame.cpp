@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/hand/probe_picture.h"
 #include "common/window/explorer_window.h"
 
@@ -160,7 +161,7 @@ void ExplorerWindow::draw_picture(SceneView picture, int width, int height) {
       return glfwWindowShouldClose(glfw_.get()) == GLFW_TRUE || wants_answer(glfw_.events());
     };
   }
-  if (touch_.planes()) moment.next_cut = static_cast<std::size_t>(touch_.planes()->current);
+  if (touch_.planes()) moment.next_cut = as_size(touch_.planes()->current);
   if (workbench_ && !screens_) workbench_->show(picture);
   if (picture.stereo.mode == StereoMode::kRows || picture.stereo.mode == StereoMode::kColumns) {
     const auto [column, row] = pixel_on_monitor(glfw_.get());

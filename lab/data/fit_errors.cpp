@@ -78,7 +78,7 @@ FitErrorRow measure(const GradientTable& table, double weighting, double snr, in
   }
   std::ranges::sort(angles);
   const auto quantile = [&](double q) {
-    return angles[static_cast<std::size_t>(q * static_cast<double>(angles.size() - 1))];
+    return angles[floor_size(q * static_cast<double>(angles.size() - 1))];
   };
   row.median = quantile(0.5);
   row.p95 = quantile(0.95);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/mesh_quality.h"
@@ -125,7 +126,7 @@ LineEnds trace(const LayeredHeart& heart, double depth, double step, const std::
 double quantile(std::vector<double> values, double part) {
   if (values.empty()) return std::nan("");
   std::ranges::sort(values);
-  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+  return values[floor_size(part * static_cast<double>(values.size() - 1))];
 }
 
 std::string cells_text(const VentricleCells& cells) {

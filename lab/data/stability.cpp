@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "lab/data/line_error.h"
 #include "lab/data/made_data.h"
@@ -128,9 +129,9 @@ class DataCases {
     }
     StabilityCase row = make_case("NaN hole", bad_numbers, 0.0, "points",
                                   "points whose place, time, length or error is not finite; " +
-                                      counted(result.ends[static_cast<std::size_t>(End::kBadData)], "line") +
+                                      counted(result.ends[as_size(End::kBadData)], "line") +
                                       " ended at the hole by bad_data");
-    row.row.holds = row.row.holds && result.ends[static_cast<std::size_t>(End::kBadData)] > 0;
+    row.row.holds = row.row.holds && result.ends[as_size(End::kBadData)] > 0;
     return row;
   }
 

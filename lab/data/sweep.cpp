@@ -7,6 +7,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 
@@ -138,10 +139,9 @@ class Sweeper {
     second_lines_ = trace(other, tolerance, sweep_.spacing).lines;
     sweep_.agreement =
         compare_lines(second_lines_, sweep_.reference_lines, sweep_.spacing, field_.diagonal());
-    sweep_.disputed =
-        static_cast<std::size_t>(std::ranges::count_if(sweep_.agreement.lines, [](const LineJudgement& l) {
-          return l.meeting != Meeting::kInside && !(l.error <= kDisputed);
-        }));
+    sweep_.disputed = as_size(std::ranges::count_if(sweep_.agreement.lines, [](const LineJudgement& l) {
+      return l.meeting != Meeting::kInside && !(l.error <= kDisputed);
+    }));
   }
 
   double add_row(Integrator integrator, const std::string& parameter, double setting, double tolerance = 1e-6,

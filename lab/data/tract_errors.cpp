@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/tensor/tensor_field.h"
@@ -31,7 +32,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 double value_at_part(std::vector<double> values, double quantile = 0.5) {
   if (values.empty()) return std::nan("");
   std::ranges::sort(values);
-  return values[static_cast<std::size_t>(quantile * static_cast<double>(values.size() - 1))];
+  return values[floor_size(quantile * static_cast<double>(values.size() - 1))];
 }
 
 /// Seeds about the beginning of the bundle's centre line.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/render/gl/context.h"
@@ -34,7 +35,7 @@ int repeats_of(Effort effort) { return effort == Effort::kQuick ? 1 : effort == 
 
 /// Enlarged to `pixels` a side, linearly between the middles of pixels.
 FloatImage enlarged(const FloatImage& image, int pixels) {
-  const auto n = static_cast<std::size_t>(pixels);
+  const auto n = as_size(pixels);
   FloatImage large{pixels, pixels, std::vector<float>(4 * n * n)};
   const auto place = [&](int i, int count) {
     const double at = std::clamp((i + 0.5) * count / pixels - 0.5, 0.0, count - 1.0);
@@ -47,8 +48,7 @@ FloatImage enlarged(const FloatImage& image, int pixels) {
       const auto [i, u] = place(x, image.width);
       const int i1 = std::min(i + 1, image.width - 1), j1 = std::min(j + 1, image.height - 1);
       const Rgba a = image.at(i, j), b = image.at(i1, j), c = image.at(i, j1), d = image.at(i1, j1);
-      float* const out =
-          large.rgba.data() + 4 * (n * static_cast<std::size_t>(y) + static_cast<std::size_t>(x));
+      float* const out = large.rgba.data() + 4 * (n * as_size(y) + as_size(x));
       for (std::size_t k = 0; k < 4; ++k) {
         out[k] =
             static_cast<float>((1.0 - v) * ((1.0 - u) * a[k] + u * b[k]) + v * ((1.0 - u) * c[k] + u * d[k]));
@@ -79,7 +79,7 @@ std::vector<TableTime> table_times(const VolumeView& view, int repeats) {
   constexpr std::size_t kEntries = 128;
   const auto entries = optical_entries(view.transfer, view.image->lowest, view.image->highest, kEntries, 2.0);
   for (TableTime& row : rows) {
-    const auto lengths = static_cast<std::size_t>(row.lengths);
+    const auto lengths = as_size(row.lengths);
     std::vector<std::uint16_t> table(4 * kEntries * kEntries * lengths);
     std::vector<double> times;
     for (int i = 0; i <= repeats; ++i) {
@@ -263,8 +263,9 @@ VolumeQuality run_volume_quality(const VolumeView& given, const std::string& sub
   }
   VolumeView kept = given;
   kept.cache_picture = true;
-  const auto pixel_count = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(pixels);
-  measure("cached while it stands still", given.samples_per_voxel, kept, std::vector<float>(pixel_count, 1.0F));
+  const auto pixel_count = as_size(pixels) * as_size(pixels);
+  measure("cached while it stands still", given.samples_per_voxel, kept,
+          std::vector<float>(pixel_count, 1.0F));
 
   // Against the converged picture of the last place.
   std::vector<VolumeView> places = moved_planes(given, camera);

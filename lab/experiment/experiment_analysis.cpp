@@ -42,12 +42,12 @@ TaskAnalysis analyse_task(const StudyTaskInfo& info, const std::vector<TrialReco
     const int number = static_cast<int>(out.participants.size());
     out.participants.push_back(code);
     for (const Measure m : kMeasures) {
-      MeasureAnalysis& a = out.measures[static_cast<std::size_t>(m)];
+      MeasureAnalysis& a = out.measures[as_size(m)];
       for (const bool guided : {false, true}) {
         std::vector<double> numbers;
         for (const TrialRecord* trial : by_condition[guided ? 1 : 0]) {
           numbers.push_back(value_of(*trial, m));
-          values[static_cast<std::size_t>(m)].push_back({number, trial->stimulus, guided, numbers.back()});
+          values[as_size(m)].push_back({number, trial->stimulus, guided, numbers.back()});
         }
         (guided ? a.means.guided : a.means.free).push_back(mean_of(numbers));
         (guided ? a.deviations.guided : a.deviations.free).push_back(deviation_of(numbers));
@@ -55,13 +55,13 @@ TaskAnalysis analyse_task(const StudyTaskInfo& info, const std::vector<TrialReco
     }
   }
   for (const Measure m : kMeasures) {
-    MeasureAnalysis& a = out.measures[static_cast<std::size_t>(m)];
+    MeasureAnalysis& a = out.measures[as_size(m)];
     a.of_means = paired_test(a.means.free, a.means.guided);
     a.of_deviations = paired_test(a.deviations.free, a.deviations.guided);
     a.intervals = inferential_intervals(a.means.free, a.means.guided);
     a.normality = shapiro_wilk(differences(a.means.free, a.means.guided));
     a.ranks = signed_rank_test(a.means.free, a.means.guided);
-    a.permutation = permutation_test(values[static_cast<std::size_t>(m)], seed);
+    a.permutation = permutation_test(values[as_size(m)], seed);
   }
   const MeasureAnalysis& errors = out.of(Measure::kError);
   const MeasureAnalysis& times = out.of(Measure::kTime);

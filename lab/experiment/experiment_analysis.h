@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/study/statistics.h"
 #include "common/study/study_folder.h"
 
@@ -44,7 +45,7 @@ struct TaskAnalysis {
   std::array<MeasureAnalysis, 2> measures;
   std::array<Correlation, 2> error_with_time;  ///< of means: free, guided
 
-  [[nodiscard]] const MeasureAnalysis& of(Measure m) const { return measures[static_cast<std::size_t>(m)]; }
+  [[nodiscard]] const MeasureAnalysis& of(Measure m) const { return measures[as_size(m)]; }
 };
 
 /// Errors of a task in 3D less those of the same in 2D, over participants that have both.

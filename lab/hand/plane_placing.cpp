@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/device/device_profile.h"
 #include "common/device/simulated_device.h"
@@ -94,7 +95,7 @@ Rig rig_of(PlacingMeans means, double voxel, double target) {
 double at_part(std::vector<double> values, double part) {
   if (values.empty()) return std::nan("");
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(std::lround(part * static_cast<double>(values.size() - 1)))];
+  return values[as_size(std::lround(part * static_cast<double>(values.size() - 1)))];
 }
 
 std::string millimetres(double metres) { return short_number(1e3 * metres); }
@@ -132,7 +133,7 @@ std::string name_of(PlacingMeans means) {
   constexpr std::array<const char*, kPlacingMeansCount> kNames{
       "hand alone",         "grid, free along the axis", "grid with detents",
       "grid with landmark", "plane widget, free",        "plane widget, constrained"};
-  return kNames[static_cast<std::size_t>(means)];
+  return kNames[as_size(means)];
 }
 
 PlacingTrial place_plane(PlacingMeans means, const PlacingSettings& settings, int trial) {
@@ -182,8 +183,7 @@ PlacingTrial place_plane(PlacingMeans means, const PlacingSettings& settings, in
 
 std::vector<PlacingRow> run_plane_placing(const PlacingSettings& settings, Progress* progress) {
   if (progress != nullptr)
-    progress->begin("placing planes",
-                    std::size_t{kPlacingMeansCount} * static_cast<std::size_t>(settings.trials));
+    progress->begin("placing planes", std::size_t{kPlacingMeansCount} * as_size(settings.trials));
   std::vector<PlacingRow> rows;
   std::vector<double> alone;  // [s] of each trial by the first means
   for (int m = 0; m < kPlacingMeansCount; ++m) {
@@ -197,7 +197,7 @@ std::vector<PlacingRow> run_plane_placing(const PlacingSettings& settings, Progr
       const PlacingTrial one = place_plane(row.means, settings, trial);
       const double taken = one.placed ? one.seconds : kLongest;
       if (row.means == PlacingMeans::kHandAlone) alone.push_back(taken);
-      gains.push_back(alone[static_cast<std::size_t>(trial)] - taken);
+      gains.push_back(alone[as_size(trial)] - taken);
       if (!one.placed) continue;
       ++row.placed;
       seconds.push_back(one.seconds);

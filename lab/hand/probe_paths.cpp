@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "common/base/index.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -150,7 +151,7 @@ class PathWriter {
 
 std::string_view name_of(PathKind kind) noexcept {
   constexpr std::array<std::string_view, 3> kNames{"smooth", "tremor", "rough"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kNames[as_size(kind)];
 }
 
 std::vector<PathRow> make_probe_path(const PathScene& scene, PathKind kind, const Vec3& seed,

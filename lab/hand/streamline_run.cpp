@@ -6,14 +6,14 @@
 
 #include <time.h>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 StepErrors errors_of(std::vector<double> values) {
   if (values.empty()) return {};
   std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
-  };
+  const auto at = [&](double q) { return values[floor_size(q * static_cast<double>(values.size() - 1))]; };
   return {at(0.5), at(0.99), values.back()};
 }
 

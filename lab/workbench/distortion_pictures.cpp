@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/field/analytic/analytic_field.h"
@@ -126,11 +127,11 @@ std::vector<const TrackerMeasurement*> slice_of(const std::vector<TrackerMeasure
   const Vec3 size = box.upper - box.lower;
   const double apart = std::cbrt(size.x * size.y * size.z / static_cast<double>(rows.size()));
   const int layers = std::max(1, static_cast<int>(std::lround(size.z / apart)));
-  std::vector<std::vector<const TrackerMeasurement*>> in(static_cast<std::size_t>(layers));
+  std::vector<std::vector<const TrackerMeasurement*>> in(as_size(layers));
   for (const TrackerMeasurement& row : rows) {
     const double part = (row.reported.position.z - box.lower.z) / size.z;
     const int layer = std::clamp(static_cast<int>(part * layers), 0, layers - 1);
-    in[static_cast<std::size_t>(layer)].push_back(&row);
+    in[as_size(layer)].push_back(&row);
   }
   const auto fullest = std::max_element(in.begin(), in.end(),
                                         [](const auto& a, const auto& b) { return a.size() < b.size(); });

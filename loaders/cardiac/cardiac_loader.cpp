@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/memory.h"
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
@@ -146,7 +147,7 @@ class CardiacLoader : public Loader {
     const std::size_t own = shared_.steps[result].at(step);
     if (own != SharedTimes::kNone) return series.read(own);
     const ArrayInfo& info = series.info();
-    const std::vector<double> none(info.tuples * static_cast<std::size_t>(info.components),
+    const std::vector<double> none(info.tuples * as_size(info.components),
                                    std::numeric_limits<double>::quiet_NaN());
     return make_array(info.name, info.association, info.components, std::span<const double>(none));
   }

@@ -61,8 +61,7 @@ double squared_edges(const std::vector<double>& positions, const std::array<std:
   double sum = 0.0;
   for (std::size_t n = 0; n < half; ++n) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double d = positions[static_cast<std::size_t>(cell[n]) * 3 + axis] -
-                       positions[static_cast<std::size_t>(cell[n + half]) * 3 + axis];
+      const double d = positions[as_size(cell[n]) * 3 + axis] - positions[as_size(cell[n + half]) * 3 + axis];
       sum += d * d;
     }
   }

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/packed_file.h"
@@ -166,7 +167,7 @@ std::uint64_t IgbFile::whole_steps(std::uint64_t promised, std::uint64_t step_by
 }
 
 DataArray IgbFile::read(std::size_t step) const {
-  const std::size_t numbers = info_.tuples * static_cast<std::size_t>(info_.components);
+  const std::size_t numbers = info_.tuples * as_size(info_.components);
   const std::size_t size = byte_size(stored_);
   std::vector<std::byte> bytes(numbers * size);
   PackedFile in(file_);
@@ -235,7 +236,7 @@ DataArray read_node_times(const std::string& file, std::size_t points, std::vect
       lines.refuse("is no node with a time", "two numbers a row");
     if (!(*node >= 0.0 && *node < static_cast<double>(points)) || *node != std::floor(*node))
       lines.refuse("names node " + short_number(*node), "0 to " + std::to_string(points) + " less one");
-    double& first = times[static_cast<std::size_t>(*node)];
+    double& first = times[floor_size(*node)];
     again += std::isnan(first) ? 0 : 1;
     if (std::isnan(first) || *time < first) first = *time;
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate::ex {
 namespace {
@@ -118,7 +119,7 @@ ElementFunction gather(const Model& model, const Element& element, const std::st
     if (parameter.node >= static_cast<int>(element.nodes.size()))
       refuse("names its node " + std::to_string(parameter.node + 1),
              "one of " + std::to_string(element.nodes.size()));
-    const std::int64_t name = element.nodes[static_cast<std::size_t>(parameter.node)];
+    const std::int64_t name = element.nodes[as_size(parameter.node)];
     const auto node = model.nodes.find(name);
     if (node == model.nodes.end()) refuse("names node " + std::to_string(name), "a node of the .exnode file");
     const NodeComponent* at = find(model.node_headers[node->second.header], field, component.name);
@@ -143,10 +144,9 @@ ElementFunction gather(const Model& model, const Element& element, const std::st
       if (parameter.scale >= static_cast<int>(element.scales.size()))
         refuse("asks for scale factor " + std::to_string(parameter.scale + 1),
                "at most " + std::to_string(element.scales.size()));
-      factor = element.scales[static_cast<std::size_t>(parameter.scale)];
+      factor = element.scales[as_size(parameter.scale)];
     }
-    gathered.parameters.push_back(
-        factor * node->second.values[static_cast<std::size_t>(at->first) + static_cast<std::size_t>(value)]);
+    gathered.parameters.push_back(factor * node->second.values[as_size(at->first) + as_size(value)]);
   }
   if (component.winding != Winding::kNone) {
     if (component.basis[0] != Basis::kLinear || component.of_corner() != 1)

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/index.h"
+
 namespace palpate::ex {
 
 /// Along one axis of an element.
@@ -72,7 +74,7 @@ struct ElementComponent {
   /// Parameters of each corner.
   [[nodiscard]] std::size_t of_corner() const noexcept {
     std::size_t each = 1;
-    for (const Basis b : basis) each *= static_cast<std::size_t>(parameter_count(b));
+    for (const Basis b : basis) each *= as_size(parameter_count(b));
     return each;
   }
 };

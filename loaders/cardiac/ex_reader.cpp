@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/cardiac/ex_values.h"
 #include "loaders/cardiac/text_lines.h"
@@ -326,8 +327,8 @@ class Reader {
     std::size_t each = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       component.basis[axis] = basis(trimmed(axes[axis]));
-      corners *= static_cast<std::size_t>(node_count(component.basis[axis]));
-      each *= static_cast<std::size_t>(parameter_count(component.basis[axis]));
+      corners *= as_size(node_count(component.basis[axis]));
+      each *= as_size(parameter_count(component.basis[axis]));
     }
     component.winding = winding(trimmed(parts[1]));
     const std::string_view map = trimmed(parts[2]);
@@ -400,7 +401,7 @@ class Reader {
   void labelled(std::size_t most, bool scaled, std::int64_t first_scale, std::vector<Parameter>& parameters) {
     next_line("a node of the component");
     const int node = local_node(0);
-    const auto count = static_cast<std::size_t>(claim("#Values", 1, kMostComponents));
+    const auto count = as_size(claim("#Values", 1, kMostComponents));
     const std::size_t first = parameters.size();
     if (first + count > most)
       lines_.refuse("has more values than the basis", std::to_string(most) + " in all");

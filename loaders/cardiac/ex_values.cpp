@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate::ex {
@@ -46,8 +47,8 @@ void pass_over_place(TextLines& lines, int xi) {
 /// Of a field whose components stand one behind the other.
 std::span<const double> values_of(const Node& node, const NodeField& field) {
   std::size_t count = 0;
-  for (const NodeComponent& component : field.components) count += static_cast<std::size_t>(component.count);
-  return std::span(node.values).subspan(static_cast<std::size_t>(field.components.front().first), count);
+  for (const NodeComponent& component : field.components) count += as_size(component.count);
+  return std::span(node.values).subspan(as_size(field.components.front().first), count);
 }
 
 }  // namespace

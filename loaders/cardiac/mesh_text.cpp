@@ -7,6 +7,7 @@
 #include <span>
 #include <system_error>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/gzip_head.h"
 #include "common/math/vec.h"
@@ -34,7 +35,7 @@ std::size_t believed_count(TextLines& lines, const char* what, std::size_t least
   const double room =
       static_cast<double>(ignored ? 0 : bytes) * (packed ? static_cast<double>(kGzipRatio) : 1.0);
   const double most = std::min(room / static_cast<double>(least_bytes), 2e9);
-  return static_cast<std::size_t>(lines.integer(what, 0, static_cast<std::int64_t>(most)));
+  return as_size(lines.integer(what, 0, static_cast<std::int64_t>(most)));
 }
 
 void append_directions(std::span<const Vec3> vectors, Directions& directions) {
@@ -67,7 +68,7 @@ Directions read_directions(TextLines& lines, std::size_t count, const DirectionR
         lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a component of a direction");
       if (n < per_row) vectors[n / 3][n % 3] = *value;
     }
-    append_directions(std::span<const Vec3>(vectors, static_cast<std::size_t>(per_row / 3)), directions);
+    append_directions(std::span<const Vec3>(vectors, as_size(per_row / 3)), directions);
   }
   return directions;
 }

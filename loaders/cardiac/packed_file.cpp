@@ -9,6 +9,8 @@
 
 #include <zlib.h>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -35,7 +37,7 @@ std::size_t PackedFile::read(void* to, std::size_t bytes) {
     const int now =
         gzread(file_, static_cast<char*>(to) + got, static_cast<unsigned>(std::min(kAtOnce, bytes - got)));
     if (now <= 0) break;
-    got += static_cast<std::size_t>(now);
+    got += as_size(now);
   }
   return got;
 }

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/dicom/dicom_elements.h"
 #include "loaders/dicom/dicom_gradients.h"
@@ -60,7 +61,7 @@ std::shared_ptr<const DicomPalette> palette_of(const DicomScope& scope, const st
                       (described[2] == 8 || described[2] == 16);
     if (!good) refuse_frame(file, "has no table for its colours", "Palette Color Lookup Tables");
     constexpr std::size_t kAll = 65536;  // which 16 bits cannot say
-    const std::size_t count = described[0] == 0 ? kAll : static_cast<std::size_t>(described[0]);
+    const std::size_t count = described[0] == 0 ? kAll : floor_size(described[0]);
     const bool bytes = table->value.size() < 2 * count;
     if (table->value.size() < count) refuse_frame(file, "has a table of colours that is cut off");
     palette->first = static_cast<int>(described[1]);
@@ -140,7 +141,7 @@ void take_table(const DicomScope& scope, DicomFrame& frame) {
                     described[0] <= kMost && std::abs(described[1]) <= kMost && described[2] >= 1.0 &&
                     described[2] <= 16.0;
   constexpr std::size_t kAll = 65536;  // which 16 bits cannot say
-  const std::size_t count = !good || described[0] == 0 ? kAll : static_cast<std::size_t>(described[0]);
+  const std::size_t count = !good || described[0] == 0 ? kAll : floor_size(described[0]);
   if (!good || data->value.size() < (described[2] <= 8.0 ? count : 2 * count))
     refuse_frame(frame.file, "has a Modality LUT Sequence without its table", "as many values as it says");
   auto table = std::make_shared<DicomTable>();
@@ -199,7 +200,7 @@ std::size_t frame_count(const DicomScope& whole, const std::string& file) {
   constexpr std::size_t kMostFrames = 1'000'000;
   const double claimed = dicom_number(whole, 0x00280008).value_or(1.0);
   if (!(claimed >= 1.0 && claimed <= kMostFrames)) refuse_frame(file, "has no sensible number of frames");
-  return static_cast<std::size_t>(claimed);
+  return floor_size(claimed);
 }
 
 /// Pixels that stand as they are have to be there; what is packed cannot gain more than it does.

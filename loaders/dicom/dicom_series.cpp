@@ -141,9 +141,8 @@ std::vector<std::size_t> steps_of(const std::vector<double>& places, const Dicom
 Vec3 ras(const Vec3& lps) { return {-lps.x, -lps.y, lps.z}; }
 
 void take_gradients(DicomSeries& series, std::size_t slices) {
-  const auto stated =
-      static_cast<std::size_t>(std::count_if(series.frames.begin(), series.frames.end(),
-                                             [](const DicomFrame& f) { return f.gradient.has_value(); }));
+  const auto stated = as_size(std::count_if(series.frames.begin(), series.frames.end(),
+                                            [](const DicomFrame& f) { return f.gradient.has_value(); }));
   if (stated == 0) return;
   if (stated < series.frames.size()) {
     series.notes.push_back(counted(series.frames.size() - stated, "image") + " of " +

@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -100,8 +101,8 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
     const std::vector<std::int64_t> about = file.numbers(group),
                                     range = file.numbers(group + "/ElementRange");
     if (about.empty() || range.size() != 2 || range[1] < range[0]) return std::nullopt;
-    if (about[0] < 0 || static_cast<std::size_t>(about[0]) >= kNodesOfElement.size()) return std::nullopt;
-    const std::uint64_t nodes = kNodesOfElement[static_cast<std::size_t>(about[0])];
+    if (about[0] < 0 || as_size(about[0]) >= kNodesOfElement.size()) return std::nullopt;
+    const std::uint64_t nodes = kNodesOfElement[as_size(about[0])];
     std::uint64_t count = 0;
     if (nodes == 0 ||
         __builtin_mul_overflow(static_cast<std::uint64_t>(range[1] - range[0]) + 1, nodes, &count))

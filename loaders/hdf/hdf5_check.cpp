@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/load/find_format.h"
 
 namespace palpate {
@@ -27,7 +28,7 @@ std::string problem_of(hid_t set, std::uint64_t file_size) {
   std::uint64_t bytes = H5Tget_size(type);
   std::vector<hsize_t> counts;
   if (const int rank = H5Sget_simple_extent_ndims(space); rank > 0) {
-    counts.resize(static_cast<std::size_t>(rank));
+    counts.resize(as_size(rank));
     H5Sget_simple_extent_dims(space, counts.data(), nullptr);
   }
   bool too_many = false;

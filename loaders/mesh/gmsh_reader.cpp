@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
@@ -135,10 +136,10 @@ class GmshReader {
   double real() { return words_.take<double>(swapped_, "a coordinate"); }
   /// Of as many things as the rest of the file can hold.
   std::size_t believed(std::int64_t count, std::size_t least_bytes) {
-    if (count < 0 || static_cast<std::size_t>(count) > words_.left() / least_bytes + 1)
+    if (count < 0 || as_size(count) > words_.left() / least_bytes + 1)
       words_.refuse("a count of " + std::to_string(count), "no more than the file can hold",
                     "the file may be truncated");
-    return static_cast<std::size_t>(count);
+    return as_size(count);
   }
 
   void add_node(std::int64_t tag, const Vec3& x) {
@@ -207,7 +208,7 @@ class GmshReader {
     std::array<std::int64_t, 27> points{};
     const bool own_order = std::ranges::all_of(type.of, [](std::int8_t n) { return n == 0; });
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const std::int64_t node = nodes[own_order ? i : static_cast<std::size_t>(type.of[i])];
+      const std::int64_t node = nodes[own_order ? i : as_size(type.of[i])];
       const auto found = index_.find(node);
       if (found == index_.end())
         words_.refuse("element " + std::to_string(tag) + " of node " + std::to_string(node),
@@ -236,7 +237,7 @@ class GmshReader {
         const ElementType& type = known_type(words_.integer("a type", 0, kMostTag));
         for (std::int64_t i = words_.integer("a count of tags", 0, 1000); i > 0; --i)
           (void)words_.integer("a tag", -kMostTag, kMostTag);
-        nodes.resize(static_cast<std::size_t>(type.nodes));
+        nodes.resize(as_size(type.nodes));
         for (std::int64_t& node : nodes) node = words_.integer("a node", 0, kMostTag);
         add_element(type, tag, nodes);
         ++n;
@@ -247,7 +248,7 @@ class GmshReader {
       const std::int64_t tags = int32();
       if (here == 0 || here > count - n || tags < 0 || tags > 1000)
         words_.refuse("a block of elements that cannot be", "one");
-      nodes.resize(static_cast<std::size_t>(type.nodes));
+      nodes.resize(as_size(type.nodes));
       for (std::size_t e = 0; e < here; ++e) {
         const std::int64_t tag = int32();
         for (std::int64_t i = 0; i < tags; ++i) (void)int32();
@@ -272,7 +273,7 @@ class GmshReader {
         (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
       const ElementType& type = known_type(binary_ ? int32() : words_.integer("a type", 0, kMostTag));
       const std::size_t count = believed(next("a count of elements"), 2);
-      nodes.resize(static_cast<std::size_t>(type.nodes));
+      nodes.resize(as_size(type.nodes));
       for (std::size_t e = 0; e < count; ++e) {
         const std::int64_t tag =
             is_40() ? tag_40("the number of an element") : next("the number of an element");
@@ -299,7 +300,7 @@ class GmshReader {
     std::array<std::int64_t, 3> whole{0, 1, 0};
     for (std::int64_t i = 0, n = words_.integer("a count of whole numbers", 3, 1000); i < n; ++i) {
       const std::int64_t value = words_.integer("a whole number", 0, kMostTag);
-      if (i < 3) whole[static_cast<std::size_t>(i)] = value;
+      if (i < 3) whole[as_size(i)] = value;
     }
     values.step = whole[0];
     if (whole[1] != 1 && whole[1] != 3 && whole[1] != 9)
@@ -424,7 +425,7 @@ class GmshReader {
   void add_array(const Sections& sections, std::size_t cell_count, DataSet& block,
                  std::vector<std::string>& notes) {
     const Values& first = *sections.front();
-    const auto n = static_cast<std::size_t>(first.components);
+    const auto n = as_size(first.components);
     const std::size_t tuples = first.of_nodes ? positions_.size() / 3 : cell_count;
     std::vector<double> all(n * tuples, std::numeric_limits<double>::quiet_NaN());
     std::vector<std::uint8_t> known(tuples, 0);

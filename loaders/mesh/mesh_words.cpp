@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/written_number.h"
 
@@ -85,7 +86,7 @@ std::int64_t MeshWords::integer(const char* what, std::int64_t least, std::int64
 }
 
 std::size_t MeshWords::count(const char* what, std::size_t least_bytes) {
-  return static_cast<std::size_t>(integer(what, 0, static_cast<std::int64_t>(left() / least_bytes + 1)));
+  return as_size(integer(what, 0, static_cast<std::int64_t>(left() / least_bytes + 1)));
 }
 
 void MeshWords::end_line() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
@@ -74,14 +75,14 @@ MeshFile read_su2(std::string_view text, const std::string& file) {
           words.refuse("an element of type " + std::to_string(type), "10, 12, 13 or 14");
         std::array<std::int64_t, 8> nodes{};
         for (int i = 0; i < known->second; ++i) {
-          nodes[static_cast<std::size_t>(i)] = words.integer("a node", 0, std::int64_t{1} << 40U);
-          most_node = std::max(most_node, nodes[static_cast<std::size_t>(i)]);
+          nodes[as_size(i)] = words.integer("a node", 0, std::int64_t{1} << 40U);
+          most_node = std::max(most_node, nodes[as_size(i)]);
         }
         (void)words.rest_of_line();
         if (type < 10) {
           ++flat;
         } else {
-          cells.add(static_cast<std::uint8_t>(type), nodes.data(), static_cast<std::size_t>(known->second));
+          cells.add(static_cast<std::uint8_t>(type), nodes.data(), as_size(known->second));
         }
       }
     } else if (key == "NPOIN") {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
@@ -39,12 +40,12 @@ const std::map<std::string, UcdType, std::less<>>& types() {
 /// The values of nodes or of cells: how many components there are and of how many numbers each, their names, a row each.
 void read_data(MeshWords& words, const std::unordered_map<std::int64_t, std::size_t>& index, std::size_t rows,
                std::size_t tuples, Association association, DataSet& block) {
-  const auto count = static_cast<std::size_t>(words.integer("a count of components", 1, 1000));
+  const auto count = as_size(words.integer("a count of components", 1, 1000));
   std::vector<int> sizes;
   std::size_t numbers = 0;
   for (std::size_t c = 0; c < count; ++c) {
     sizes.push_back(static_cast<int>(words.integer("the size of a component", 1, 100)));
-    numbers += static_cast<std::size_t>(sizes.back());
+    numbers += as_size(sizes.back());
   }
   (void)words.rest_of_line();
   std::vector<std::string> names;
@@ -57,7 +58,7 @@ void read_data(MeshWords& words, const std::unordered_map<std::int64_t, std::siz
   for (const int size : sizes) {
     if (numbers * tuples > words.left())
       words.refuse("ends", "a row of values for each", "the file may be truncated");
-    values.emplace_back(static_cast<std::size_t>(size) * tuples, std::numeric_limits<double>::quiet_NaN());
+    values.emplace_back(as_size(size) * tuples, std::numeric_limits<double>::quiet_NaN());
   }
   for (std::size_t r = 0; r < rows; ++r) {
     const std::int64_t id = words.integer("a number", -kMost, kMost);
@@ -65,8 +66,7 @@ void read_data(MeshWords& words, const std::unordered_map<std::int64_t, std::siz
     for (std::size_t c = 0; c < count; ++c) {
       for (int i = 0; i < sizes[c]; ++i) {
         const double value = words.number("a value");
-        if (at != index.end())
-          values[c][static_cast<std::size_t>(sizes[c]) * at->second + static_cast<std::size_t>(i)] = value;
+        if (at != index.end()) values[c][as_size(sizes[c]) * at->second + as_size(i)] = value;
       }
     }
   }
@@ -107,16 +107,15 @@ MeshFile read_ucd(std::string_view text, const std::string& file) {
       const std::int64_t node = words.integer("a node", -kMost, kMost);
       const auto found = node_of.find(node);
       if (found == node_of.end()) words.refuse("node " + std::to_string(node), "a node that there is");
-      given[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(found->second);
+      given[as_size(i)] = static_cast<std::int64_t>(found->second);
     }
     if (type.vtk == 0) {
       flat_of.try_emplace(id, c);
       continue;
     }
-    for (int i = 0; i < type.nodes; ++i)
-      points[static_cast<std::size_t>(i)] = given[type.of[static_cast<std::size_t>(i)]];
+    for (int i = 0; i < type.nodes; ++i) points[as_size(i)] = given[type.of[as_size(i)]];
     cell_of.try_emplace(id, list.size());
-    list.add(type.vtk, points.data(), static_cast<std::size_t>(type.nodes));
+    list.add(type.vtk, points.data(), as_size(type.nodes));
   }
   if (list.size() == 0) throw input_error({file, "", "has no volume cells", "tet, pyr, prism or hex", ""});
   if (!flat_of.empty()) out.notes.push_back(counted(flat_of.size(), "cell") + " of lower dimension left out");

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/gzip_head.h"
 #include "common/load/numbered_files.h"
@@ -163,7 +164,7 @@ void read_field(std::string_view key, std::string_view value, Fields& fields, Me
 }
 
 void combine(const Fields& fields, MetaHeader& header) {
-  const auto axes = static_cast<std::size_t>(header.axes);
+  const auto axes = as_size(header.axes);
   const auto wrong_count = [&](const std::vector<double>& numbers, std::size_t count) {
     return !numbers.empty() && numbers.size() != count;
   };
@@ -201,8 +202,7 @@ void combine(const Fields& fields, MetaHeader& header) {
   const bool stated = fields.piece_axes > 0 && fields.piece_axes <= header.axes;
   header.piece_count = 1;
   for (std::int64_t axis = stated ? fields.piece_axes : header.axes - 1; axis < header.axes; ++axis) {
-    header.piece_count =
-        std::min(header.piece_count * header.size[static_cast<std::size_t>(axis)], kMaxBytes >> 10U);
+    header.piece_count = std::min(header.piece_count * header.size[as_size(axis)], kMaxBytes >> 10U);
   }
   if (header.compressed || !header.binary) {
     header.problem = "has its voxels in a list of files, and not as plain bytes there";

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
@@ -82,7 +83,7 @@ class HeaderReader {
     for (MifAxis& axis : axes)
       axis.rank = static_cast<int>(std::lower_bound(ranks.begin(), ranks.end(), axis.rank) - ranks.begin());
     for (int axis = 0; axis < 3; ++axis)
-      header_.topology.points[axis] = static_cast<int>(axes[static_cast<std::size_t>(axis)].size);
+      header_.topology.points[axis] = static_cast<int>(axes[as_size(axis)].size);
   }
 
   /// "+0,-1,+2": the rank of each axis, with a minus sign where it is stored backwards.
@@ -125,7 +126,7 @@ class HeaderReader {
     const std::vector<double> sizes = numbers_of("vox", value_of("vox"));
     Vec3 size{0.0};
     for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
+      const auto a = as_size(axis);
       if (a < sizes.size()) size[axis] = sizes[a];
       if (!(size[axis] > 0.0) || !std::isfinite(size[axis]))
         refuse("vox", "is '" + value_of("vox").substr(0, 60) + "'", "three sizes above zero");

@@ -39,7 +39,7 @@ class MifLoader : public Loader {
     info.anatomical = true;
     info.units = "coordinates in mm";
     info.notes = header_.notes;
-    const auto volumes = static_cast<std::size_t>(header_.volumes());
+    const auto volumes = as_size(header_.volumes());
     tuple_.resize(1);
     array_ = {"scalars", Association::kPoint, 1, value_type(header_), header_.voxels()};
     if (request.diffusion) {

@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
 #include "common/field/array_type.h"
 #include "common/load/gzip_head.h"
 #include "common/load/voxel_bytes.h"
@@ -51,7 +52,7 @@ void for_each_number(const MifHeader& header, const std::vector<std::uint64_t>& 
         const std::int64_t voxel =
             strides.first + i * strides.step[0] + j * strides.step[1] + k * strides.step[2];
         for (const std::uint64_t volume : volumes)
-          put(next++, static_cast<std::size_t>(voxel + static_cast<std::int64_t>(volume) * strides.step[3]));
+          put(next++, as_size(voxel + static_cast<std::int64_t>(volume) * strides.step[3]));
       }
     }
     if (on_progress) on_progress(static_cast<double>(k + 1) / n.z);

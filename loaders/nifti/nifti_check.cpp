@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 
@@ -84,7 +85,7 @@ NiftiClaims failed(std::string problem) {
 }  // namespace
 
 NiftiClaims read_nifti_claims(std::string_view head) {
-  if (head.size() < static_cast<std::size_t>(kBytes1)) return failed("ends within its header");
+  if (head.size() < as_size(kBytes1)) return failed("ends within its header");
   const auto declared = HeaderBytes(head, false).at<std::int32_t>(0);
   const auto turned = HeaderBytes(head, true).at<std::int32_t>(0);
   const bool swapped = declared != kBytes1 && declared != kBytes2;
@@ -103,7 +104,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     offset = static_cast<double>(bytes.at<float>(108));
     claims.qform = qform_at<float>(bytes, 256, 76);
   } else {
-    if (head.size() < static_cast<std::size_t>(kBytes2)) return failed("ends within its header");
+    if (head.size() < as_size(kBytes2)) return failed("ends within its header");
     const std::string_view magic = head.substr(4, 4);
     if (magic != std::string_view("n+2\0", 4) && magic != std::string_view("ni2\0", 4))
       return failed("has a header of 540 bytes without NIfTI's mark");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/load/fsl_gradients.h"
 #include "common/load/volume_block.h"
 #include "loaders/nifti/nifti_file.h"
@@ -93,8 +94,8 @@ class NiftiLoader : public Loader {
     }
     const auto gradients = find_fsl_gradients(file, request);
     if (gradients) {
-      info.diffusion.gradients = read_fsl_gradients(*gradients, static_cast<std::size_t>(volumes),
-                                                    image.topology().axes, info.notes);
+      info.diffusion.gradients =
+          read_fsl_gradients(*gradients, as_size(volumes), image.topology().axes, info.notes);
       info.diffusion.gradient_frame = VectorFrame::kImage;
       image.rename(kSignalArray);
     } else if (volumes == 6) {

@@ -19,6 +19,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
@@ -457,7 +458,7 @@ std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first, st
     if (result != Z_OK && result != Z_STREAM_END) break;
     if (result == Z_STREAM_END && consumed == size) return {};
   }
-  return counted(static_cast<std::size_t>(size - consumed), "byte") + " after its gzip data are left out";
+  return counted(as_size(size - consumed), "byte") + " after its gzip data are left out";
 }
 
 }  // namespace palpate

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -64,7 +65,7 @@ std::optional<GradientTable> read_nrrd_gradients(const NrrdKeys& keys, std::size
       throw input_error(
           {file, numbered("DWMRI_NEX", index), "is no count", "1 to " + std::to_string(volumes - index), ""});
     }
-    gradients.insert(gradients.end(), static_cast<std::size_t>(repeats), gradient);
+    gradients.insert(gradients.end(), floor_size(repeats), gradient);
   }
   double longest = 0.0;
   for (const Vec3& gradient : gradients) longest = std::max(longest, glm::length(gradient));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/raw_layout.h"
@@ -30,7 +31,7 @@ class RawLoader : public Loader {
               .components = 1,
               .type = layout_.type,
               .tuples = 1};
-    for (int axis = 0; axis < 3; ++axis) array_.tuples *= static_cast<std::size_t>(layout_.size[axis]);
+    for (int axis = 0; axis < 3; ++axis) array_.tuples *= as_size(layout_.size[axis]);
     topology_.points = layout_.size;
     topology_.origin = layout_.origin;
     for (int axis = 0; axis < 3; ++axis) {

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/mrtrix_header.h"
 #include "loaders/tract/tract_loader.h"
@@ -28,7 +29,7 @@ std::size_t start_of_points(const std::string& file, const MrtrixHeader& header,
     throw input_error({file, "header, file", "the points cannot begin at byte " + std::string(place),
                        std::to_string(header.end) + " to " + std::to_string(file_size), kDamagedTracts});
   }
-  return static_cast<std::size_t>(*offset);
+  return as_size(*offset);
 }
 
 template <typename T>
@@ -45,7 +46,7 @@ Tractogram read_points(const std::string& file, std::string_view bytes, bool big
     Vec3f x{0.0F};
     int nan = 0, infinite = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      const T value = number_at<T>(bytes, at + static_cast<std::size_t>(axis) * sizeof(T), big_endian);
+      const T value = number_at<T>(bytes, at + as_size(axis) * sizeof(T), big_endian);
       x[axis] = static_cast<float>(value);
       nan += std::isnan(x[axis]) ? 1 : 0;
       infinite += std::isinf(x[axis]) ? 1 : 0;

@@ -16,6 +16,7 @@
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/gzip_head.h"
 
@@ -187,7 +188,7 @@ class Members {
     zip_int64_t got = 1;
     while (filled < bytes.size() && got > 0) {
       got = zip_fread(member.get(), bytes.data() + filled, bytes.size() - filled);
-      filled += static_cast<std::size_t>(std::max<zip_int64_t>(got, 0));
+      filled += as_size(std::max<zip_int64_t>(got, 0));
     }
     // Only reading on at the end compares checksum and size.
     char beyond = 0;
@@ -384,7 +385,7 @@ class TrxReader {
       const double line = array.type->read(bytes, at);
       if (!(line >= 0.0) || line >= static_cast<double>(lines_.line_count()))
         refuse(path, "names line " + short_number(line), "0 to " + std::to_string(lines_.line_count()));
-      column.values[static_cast<std::size_t>(line)] = 1.0F;
+      column.values[floor_size(line)] = 1.0F;
     }
     lines_.of_lines.push_back(std::move(column));
   }

@@ -17,6 +17,7 @@
 #include <sys/resource.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/grid/sparse/sparse_builder.h"
 #include "common/load/find_format.h"
@@ -215,7 +216,7 @@ class VdbLoader : public Loader {
                    .components = 1,
                    .type = ScalarType::kFloat32,
                    .tuples = 1};
-    for (int axis = 0; axis < 3; ++axis) info.tuples *= static_cast<std::size_t>(topology_.points[axis]);
+    for (int axis = 0; axis < 3; ++axis) info.tuples *= as_size(topology_.points[axis]);
     if (stays_sparse(grid))
       info.sparse_bytes =
           static_cast<const openvdb::FloatGrid&>(grid).tree().leafCount() * kBlockVoxels * sizeof(float);

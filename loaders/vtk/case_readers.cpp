@@ -15,6 +15,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/helper/chosen_loader.h"
@@ -58,7 +59,7 @@ class EnsightCase {
   /// The time that VTK calls `time`.
   [[nodiscard]] double true_time(double time) const {
     const auto last = static_cast<double>(times_.all.size()) - 1.0;
-    return time >= 0.0 && time <= last ? times_.all[static_cast<std::size_t>(std::lround(time))] : time;
+    return time >= 0.0 && time <= last ? times_.all[as_size(std::lround(time))] : time;
   }
 
   /// The steps at which a field is given; empty: at all of them.
@@ -84,7 +85,7 @@ class EnsightCase {
     for (const DataArray& part : parts)
       for (std::size_t t = 0; t < part.tuples; ++t)
         for (int c = 0; c < part.components; ++c) missing += std::isnan(part.at(t, c)) ? 1 : 0;
-    const std::size_t values = tuples * static_cast<std::size_t>(parts.front().components);
+    const std::size_t values = tuples * as_size(parts.front().components);
     check_ensight_values(file, parts.front().name, parts.front().association, values,
                          std::min(missing, values), step, steps);
   }
@@ -301,7 +302,7 @@ class CaseReader : public Loader {
       if (wanted.count(array.name) == 0 || is_given(array.name, step)) continue;
       const std::size_t tuples =
           array.association == Association::kPoint ? block.point_count() : block.cell_count();
-      const std::vector<double> none(tuples * static_cast<std::size_t>(array.components),
+      const std::vector<double> none(tuples * as_size(array.components),
                                      std::numeric_limits<double>::quiet_NaN());
       block.arrays.push_back(make_array(array.name, array.association, array.components, none));
     }

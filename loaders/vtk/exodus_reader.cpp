@@ -16,6 +16,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
@@ -45,7 +46,7 @@ std::optional<DataArray> joined_array(const std::vector<DataSet>& blocks, const 
       continue;
     }
     const std::size_t from = bytes->size();
-    bytes->resize(from + block.cell_count() * static_cast<std::size_t>(like.components) * size);
+    bytes->resize(from + block.cell_count() * as_size(like.components) * size);
     const float single = std::numeric_limits<float>::quiet_NaN();
     const double whole = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t at = from; at < bytes->size(); at += size)

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/vtk/saturated.h"
 #include "loaders/vtk/text_number.h"
@@ -306,7 +307,7 @@ class Walk {
       return true;
     }
     const std::size_t kind = std::isnan(*number) ? 0 : (*number > 0.0 ? 1 : 2);
-    not_finite_.push_back({static_cast<std::size_t>(value.data() - text_.data()), value.size(), kind});
+    not_finite_.push_back({as_size(value.data() - text_.data()), value.size(), kind});
     return !colors;
   }
 

@@ -17,6 +17,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
 #include "loaders/vtk/legacy_check.h"
 
 namespace palpate {
@@ -74,7 +75,7 @@ vtkSmartPointer<vtkDataObject> read_legacy(const std::string& file, VtkErrors& e
     stand_ins = !scan.not_finite.empty();
     if (stand_ins) {
       const std::string text = with_stand_ins(mapped.text(), scan.not_finite);
-      if (text.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      if (text.size() > as_size(std::numeric_limits<int>::max()))
         throw input_error(
             {file, "", "holds NaN or infinity in more than 2 GB of text", "", "store it in binary"});
       reader->ReadFromInputStringOn();

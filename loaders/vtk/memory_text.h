@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
+#include "common/base/index.h"
 
 namespace palpate {
 
@@ -20,7 +21,7 @@ class MemoryText {
     for (std::size_t at = 0; at < text.size();) {
       const ssize_t count = file_.get() < 0 ? -1 : ::write(file_.get(), text.data() + at, text.size() - at);
       if (count <= 0) throw work_error("no memory for a file's text");
-      at += static_cast<std::size_t>(count);
+      at += as_size(count);
     }
     return "/proc/self/fd/" + std::to_string(file_.get());
   }

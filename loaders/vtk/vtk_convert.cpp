@@ -26,6 +26,7 @@
 #include <vtkVariant.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/load/volume_block.h"
 
 namespace palpate {
@@ -48,9 +49,8 @@ DataArray share(vtkDataArray* source, Association association, const std::string
     throw input_error(
         {"", "array '" + name + "'", std::string("has numbers of type ") + array->GetDataTypeAsString()});
   }
-  result.tuples = static_cast<std::size_t>(array->GetNumberOfTuples());
-  const std::size_t bytes =
-      result.tuples * static_cast<std::size_t>(result.components) * byte_size(result.type);
+  result.tuples = as_size(array->GetNumberOfTuples());
+  const std::size_t bytes = result.tuples * as_size(result.components) * byte_size(result.type);
   result.bytes = {static_cast<const std::byte*>(array->GetVoidPointer(0)), bytes};
   result.owner = std::make_shared<vtkSmartPointer<vtkDataArray>>(array);
   return result;
@@ -120,7 +120,7 @@ std::vector<double> coordinates(vtkDataArray* array, int count, char axis, const
                        std::to_string(count) + " from its dimensions", "the file may be damaged"});
   }
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(count));
+  values.reserve(as_size(count));
   for (vtkIdType i = 0; i < found; ++i) values.push_back(array->GetComponent(i, 0));
   return values;
 }
@@ -186,9 +186,9 @@ UnstructuredTopology unstructured(vtkUnstructuredGrid* grid, const std::string& 
     throw input_error(
         {file, "", "its lists of cells do not agree with one another", "", "the file may be damaged"});
   }
-  t.types.reserve(static_cast<std::size_t>(cells));
-  t.offsets.reserve(static_cast<std::size_t>(cells) + 1);
-  t.connectivity.reserve(static_cast<std::size_t>(grid->GetCells()->GetNumberOfConnectivityIds()));
+  t.types.reserve(as_size(cells));
+  t.offsets.reserve(as_size(cells) + 1);
+  t.connectivity.reserve(as_size(grid->GetCells()->GetNumberOfConnectivityIds()));
   t.offsets.push_back(0);
   const vtkIdType points = grid->GetNumberOfPoints();
   for (vtkIdType cell = 0; cell < cells; ++cell) {
@@ -246,7 +246,7 @@ std::vector<unsigned> ghosts_of(vtkDataSetAttributes* attributes, vtkIdType tupl
   vtkDataArray* const array = attributes->GetArray(vtkDataSetAttributes::GhostArrayName());
   if (array == nullptr || array->GetNumberOfTuples() != tuples || array->GetNumberOfComponents() != 1)
     return {};
-  std::vector<unsigned> marks(static_cast<std::size_t>(tuples));
+  std::vector<unsigned> marks(as_size(tuples));
   for (std::size_t i = 0; i < marks.size(); ++i) {
     const double mark = array->GetComponent(static_cast<vtkIdType>(i), 0);
     marks[i] = mark >= 0.0 && mark < 256.0 ? static_cast<unsigned>(mark) : 0U;
@@ -269,16 +269,15 @@ std::vector<std::uint8_t> hidden_cells(vtkDataSet* data) {
 
 /// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
 std::vector<std::uint8_t> visible_points(vtkDataSet* data, const std::vector<std::uint8_t>& hidden) {
-  const auto points = static_cast<std::size_t>(data->GetNumberOfPoints());
+  const auto points = as_size(data->GetNumberOfPoints());
   std::vector<std::uint8_t> visible(points, 1);
   if (!hidden.empty()) {
     std::fill(visible.begin(), visible.end(), std::uint8_t{0});
     const auto corners = vtkSmartPointer<vtkIdList>::New();
     for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
-      if (hidden[static_cast<std::size_t>(cell)] != 0) continue;
+      if (hidden[as_size(cell)] != 0) continue;
       data->GetCellPoints(cell, corners);
-      for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i)
-        visible[static_cast<std::size_t>(corners->GetId(i))] = 1;
+      for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) visible[as_size(corners->GetId(i))] = 1;
     }
   }
   const std::vector<unsigned> marks = ghosts_of(data->GetPointData(), data->GetNumberOfPoints());
@@ -465,7 +464,7 @@ BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
   }
   for_each_array(data, [&info](vtkDataArray* array, Association association, const std::string& array_name) {
     ArrayInfo about{array_name, association, array->GetNumberOfComponents(), ScalarType::kFloat32,
-                    static_cast<std::size_t>(array->GetNumberOfTuples())};
+                    as_size(array->GetNumberOfTuples())};
     (void)scalar_type_of(array->GetDataType(), about.type);
     info.arrays.push_back(about);
   });
@@ -498,7 +497,7 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
     DataArray shared = share(array, association, array_name);
     const vtkIdType tuples =
         association == Association::kPoint ? kept->GetNumberOfPoints() : kept->GetNumberOfCells();
-    if (shared.tuples != static_cast<std::size_t>(tuples)) {
+    if (shared.tuples != as_size(tuples)) {
       throw input_error({file, "array '" + array_name + "'",
                          "has " + std::to_string(shared.tuples) + " tuples", std::to_string(tuples)});
     }

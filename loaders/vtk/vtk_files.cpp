@@ -18,6 +18,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/voxel_bytes.h"
@@ -353,10 +354,9 @@ class VtkFiles : public Loader {
         about.arrays.clear();
         for (const XmlArray& array : opened.xml->scan().arrays) {
           if (array.name == "vtkGhostType" || array.type == "String") continue;
-          about.arrays.push_back(
-              {array.name, array.on_points ? Association::kPoint : Association::kCell, array.components,
-               type_of_xml(array.type),
-               static_cast<std::size_t>(array.on_points ? about.point_count : about.cell_count)});
+          about.arrays.push_back({array.name, array.on_points ? Association::kPoint : Association::kCell,
+                                  array.components, type_of_xml(array.type),
+                                  as_size(array.on_points ? about.point_count : about.cell_count)});
         }
       }
       if (const std::string space = space_of(file, !opened.xml, block.data); !space.empty()) {

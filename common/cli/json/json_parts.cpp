@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
@@ -23,7 +25,7 @@ Json lines_json(const LinesSummary& lines) {
 Json ends_json(const std::array<std::size_t, kEndCount>& counts) {
   Json ends = Json::object();
   for (int e = 0; e < kEndCount; ++e) {
-    ends[std::string(name_of(static_cast<End>(e)))] = counts[static_cast<std::size_t>(e)];
+    ends[std::string(name_of(static_cast<End>(e)))] = counts[as_size(e)];
   }
   return ends;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/base/version.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/json/json_parts.h"
@@ -39,7 +40,7 @@ std::string annotation_json(const AnnotationSummary& summary) {
 std::string probe_json(const ProbeSummary& summary) {
   Json states = Json::object();
   for (int s = 0; s < kHoldStateCount; ++s) {
-    states[std::string(name_of(static_cast<HoldState>(s)))] = summary.states[static_cast<std::size_t>(s)];
+    states[std::string(name_of(static_cast<HoldState>(s)))] = summary.states[as_size(s)];
   }
   Json json{{"input", summary.input},
             {"field", summary.field},
@@ -47,7 +48,7 @@ std::string probe_json(const ProbeSummary& summary) {
             {"out", summary.output},
             {"steps", summary.steps},
             {"states", states},
-            {"faults", summary.states[static_cast<std::size_t>(HoldState::kFault)]},
+            {"faults", summary.states[as_size(HoldState::kFault)]},
             {"stiffness_n_per_m", summary.settings.stiffness},
             {"chain_force", name_of(kDefaultChainForceForm)},
             {"release_mm", 1e3 * summary.settings.streamline.release_distance},
@@ -93,7 +94,7 @@ std::string probe_json(const ProbeSummary& summary) {
   if (summary.mode == kPlaneWidgetMode) {
     Json& planes = json["planes"] = Json::array();
     for (int i = 0; i < summary.planes.count; ++i) {
-      const PlanePose& pose = summary.planes.pose[static_cast<std::size_t>(i)];
+      const PlanePose& pose = summary.planes.pose[as_size(i)];
       const Vec4 plane = plane_of_pose(pose);
       planes.push_back({{"normal", {plane.x, plane.y, plane.z}},
                         {"d", plane.w},

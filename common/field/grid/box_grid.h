@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/field/sample.h"
 #include "common/math/vec.h"
 
@@ -59,10 +60,9 @@ class BoxGrid {
   void hide_cells(std::vector<std::uint8_t> hidden);
   [[nodiscard]] bool hidden(const Index3& cell) const noexcept {
     if (hidden_.empty()) return false;
-    const auto row = static_cast<std::size_t>(points_.x - 1);
-    const auto column = static_cast<std::size_t>(points_.y - 1);
-    return hidden_[static_cast<std::size_t>(cell.x) +
-                   row * (static_cast<std::size_t>(cell.y) + column * static_cast<std::size_t>(cell.z))] != 0;
+    const auto row = as_size(points_.x - 1);
+    const auto column = as_size(points_.y - 1);
+    return hidden_[as_size(cell.x) + row * (as_size(cell.y) + column * as_size(cell.z))] != 0;
   }
 
   [[nodiscard]] const Index3& points() const noexcept { return points_; }

@@ -202,7 +202,7 @@ void CellTree::make_bins(const Vec3& size, std::span<const std::array<float, 3>>
     }
     side *= 1.25;
   } while (in_all > 2.0 * cells_in_all);
-  const auto count = static_cast<std::size_t>(in_all);
+  const auto count = floor_size(in_all);
 
   constexpr std::uint32_t kFew = 8;  // cells in a bin that a walk crosses faster than the tree is followed
   std::vector<std::uint32_t> cells(count, 0);

@@ -62,7 +62,7 @@ class CellTree {
     const std::size_t bottom = std::size_t{1} << splits_;
     while (node < bottom) {
       const std::uint32_t packed = split_[node];
-      node = 2 * node + static_cast<std::size_t>(q[packed & 3U] >= std::bit_cast<float>(packed & ~3U));
+      node = 2 * node + as_size(q[packed & 3U] >= std::bit_cast<float>(packed & ~3U));
     }
     return node;
   }

@@ -13,9 +13,7 @@ namespace {
 
 constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-std::size_t step_of(double angle) {
-  return std::min<std::size_t>(17, static_cast<std::size_t>(angle / 10.0));
-}
+std::size_t step_of(double angle) { return std::min<std::size_t>(17, floor_size(angle / 10.0)); }
 
 void count_components(const TetMesh& mesh, MeshQuality& quality) {
   std::vector<std::uint8_t> seen(mesh.cells().size(), 0);

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -183,8 +184,7 @@ TableQuality quality_of(const GradientTable& table) {
   quality.condition = std::sqrt(eigen.eigenvalues()(5) / std::max(0.0, eigen.eigenvalues()(0)));
   const Seven covariance = normal.ldlt().solve(Seven::Identity());
   const Seven best = even.ldlt().solve(Seven::Identity());
-  for (int c = 0; c < 6; ++c)
-    quality.noise_gain[static_cast<std::size_t>(c)] = std::sqrt(covariance(c, c) / best(c, c));
+  for (int c = 0; c < 6; ++c) quality.noise_gain[as_size(c)] = std::sqrt(covariance(c, c) / best(c, c));
   return quality;
 }
 

@@ -82,7 +82,7 @@ DirectionMap::DirectionMap(std::span<const float> tensors, const UniformTopology
       directions_[v][3] = static_cast<float>(fa);
     }
   });
-  count_ = static_cast<std::size_t>(
+  count_ = as_size(
       std::count_if(directions_.begin(), directions_.end(), [](const auto& d) { return d[3] > 0.0F; }));
 }
 

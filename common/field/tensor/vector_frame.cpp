@@ -3,20 +3,21 @@
 #include <array>
 #include <cstddef>
 
+#include "common/base/index.h"
 #include "common/field/tensor/gradient_table.h"
 
 namespace palpate {
 
 std::string_view name_of(VectorFrame frame) noexcept {
   constexpr std::array<std::string_view, kVectorFrameCount> kNames{"image", "voxel", "scanner", "lps"};
-  return kNames[static_cast<std::size_t>(frame)];
+  return kNames[as_size(frame)];
 }
 
 std::string_view words_of(VectorFrame frame) noexcept {
   constexpr std::array<std::string_view, kVectorFrameCount> kWords{
       "FSL's image axes (the first turned around where the image is right-handed)", "the image's axes",
       "the axes of the coordinates (scanner axes)", "LPS axes (left, posterior, superior)"};
-  return kWords[static_cast<std::size_t>(frame)];
+  return kWords[as_size(frame)];
 }
 
 std::string frame_mark(VectorFrame frame) { return "frame=" + std::string(name_of(frame)); }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/haptics/settings_text.h"
 #include "common/haptics/widget/dial_chain.h"
@@ -47,7 +48,7 @@ DescribedChain parse_chain(const std::string& description) {
   if (scale.ec != std::errc() || !(chain.workspace_scale > 0.0) || !std::isfinite(chain.workspace_scale)) {
     refuse(description, "its scale is no number above zero");
   }
-  rest.remove_prefix(static_cast<std::size_t>(scale.ptr - rest.data()));
+  rest.remove_prefix(as_size(scale.ptr - rest.data()));
   if (!rest.starts_with(' ')) refuse(description, "it lacks settings");
   if (const auto problem = read_settings(rest.substr(1), chain.settings)) refuse(description, *problem);
   return chain;

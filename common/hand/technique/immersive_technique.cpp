@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 ImmersiveTechnique::ImmersiveTechnique(WorkbenchGeometry workbench, const Vec3& middle, double scale)
@@ -69,7 +71,7 @@ std::optional<PlanePoses> CarriedPlanes::follow(const HandsIntent& intent,
     return std::nullopt;
   }
   PlanePoses poses = from_->poses;
-  PlanePose& pose = poses.pose[static_cast<std::size_t>(from_->current)];
+  PlanePose& pose = poses.pose[as_size(from_->current)];
   pose.center = *intent.carried * pose.center;
   const Vec4& turn = pose.turn;
   const Quat turned = glm::normalize(intent.carried->rotation * Quat{turn.w, turn.x, turn.y, turn.z});

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "common/base/index.h"
+
 namespace palpate {
 
 /// kNone: a program of devices, which has no input of fields.
@@ -16,7 +18,7 @@ inline constexpr std::array<FieldKind, 5> kFieldKinds{
 /// "vector", "scalar", "tensor", "fibre", "none".
 [[nodiscard]] constexpr std::string_view name_of(FieldKind kind) noexcept {
   constexpr std::array<std::string_view, 5> kNames{"vector", "scalar", "tensor", "fibre", "none"};
-  return kNames[static_cast<std::size_t>(kind)];
+  return kNames[as_size(kind)];
 }
 
 }  // namespace palpate

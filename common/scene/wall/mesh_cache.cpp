@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/clock.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/helper/message_json.h"
 #include "common/load/helper/protocol.h"
@@ -79,9 +80,8 @@ WallMesh decode(std::string_view rest, std::size_t points) {
   mesh.tets = take_rows<TetMesh::Tet>(rest, count_at(object, "tets"));
   mesh.point_of_file = take_rows<std::uint32_t>(rest, count_at(object, "point_of_file"));
   for (const json& of : array_at(object, "columns")) {
-    MeshColumn column{.name = string_at(of, "name"),
-                      .values = {},
-                      .components = static_cast<std::size_t>(count_at(of, "components"))};
+    MeshColumn column{
+        .name = string_at(of, "name"), .values = {}, .components = as_size(count_at(of, "components"))};
     column.values = take_rows<double>(rest, column.components * mesh.points.size());
     mesh.columns.push_back(std::move(column));
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/cell_split.h"
@@ -185,7 +186,7 @@ WallMesh make_wall_mesh(const DataSet& given, const HeartChoice* choice, const W
 void carry_arrays(const DataSet& block, WallMesh& mesh) {
   if (mesh.point_of_file.empty()) return;
   for (const DataArray& array : carried_arrays(block, mesh.point_of_file)) {
-    MeshColumn column{.name = array.name, .components = static_cast<std::size_t>(array.components)};
+    MeshColumn column{.name = array.name, .components = as_size(array.components)};
     column.values.reserve(column.components * array.tuples);
     for (std::size_t p = 0; p < array.tuples; ++p)
       for (int c = 0; c < array.components; ++c) column.values.push_back(array.at(p, c));

@@ -214,7 +214,7 @@ BundleProfile bundle_profile(const Tractogram& lines, int nodes, const PlaceValu
     return profile;
   }
   const Shape middle = middle_of(candidates);
-  const auto count = static_cast<std::size_t>(nodes);
+  const auto count = as_size(nodes);
   std::vector<Vec3> places(count, Vec3(0.0));
   std::vector<std::vector<double>> values(count);
   for (std::size_t i = 0; i < lines.line_count(); ++i) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/base/index.h"
 #include "common/trace/tract/main_direction_rule.h"
 #include "common/trace/tract/quad_kernel.h"
 #include "common/trace/tract/six_sum.h"
@@ -72,9 +73,9 @@ unsigned sample(const TensorGrid<T>& image, const Vectors4& at, Tensors4& out) n
                  [&w](std::size_t i, const Pack4& weight) { weight.store(w[i]); });
   std::array<Six, 4> sums;
   for (std::size_t lane = 0; lane < 4; ++lane) {
-    const T* const corner = image.values + std::size_t{6} * static_cast<std::size_t>(cell[0][lane]) +
-                            image.step_y * static_cast<std::size_t>(cell[1][lane]) +
-                            image.step_z * static_cast<std::size_t>(cell[2][lane]);
+    const T* const corner = image.values + std::size_t{6} * floor_size(cell[0][lane]) +
+                            image.step_y * floor_size(cell[1][lane]) +
+                            image.step_z * floor_size(cell[2][lane]);
     sums[lane] = six_sum(corner, image.step_y, image.step_z, &w[0][lane], 4);
   }
   transpose(sums, out);

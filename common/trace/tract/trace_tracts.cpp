@@ -161,7 +161,7 @@ class Joiner {
     if (needed > lines.points.capacity()) {
       // As many points as the parts so far let one expect.
       const double parts = static_cast<double>(ready_.size()) / static_cast<double>(next_);
-      const auto expected = static_cast<std::size_t>(1.1 * parts * static_cast<double>(needed));
+      const auto expected = floor_size(1.1 * parts * static_cast<double>(needed));
       const std::size_t room = std::max(needed, std::min(expected, 4 * needed + kLeastRoom));
       lines.points.reserve(room);
       errors.reserve(room);

@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/haptics/widget/plane_widget.h"
 
 namespace palpate {
@@ -64,7 +65,7 @@ std::string PickControl::take_hold(const PickingHand& hand, const SceneView& vie
       break;
     case PickKind::kHandle:
     case PickKind::kPlane:
-      if (touch.planes() && i < static_cast<std::size_t>(touch.planes()->poses.count)) {
+      if (touch.planes() && i < as_size(touch.planes()->poses.count)) {
         held_->poses = touch.planes()->poses;
       } else {
         held_->kept = view.volume->cuts[i].kept;
@@ -124,8 +125,7 @@ std::optional<std::string> PickControl::follow(const std::optional<PickingHand>&
   std::vector<PickBall> handles;
   if (touch.planes()) {
     for (int i = 0; i < touch.planes()->poses.count; ++i)
-      handles.push_back(
-          {touch.planes()->poses.pose[static_cast<std::size_t>(i)].center, touch.sphere_radius()});
+      handles.push_back({touch.planes()->poses.pose[as_size(i)].center, touch.sphere_radius()});
   }
   std::vector<ConvexShape::HalfSpace> planes;
   picked_ = pick(scene_of(view, handles, planes), hand->beam);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/base/index.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/widget/widget_text.h"
 #include "common/render/lens/lens.h"
@@ -27,7 +28,7 @@ std::vector<Vec3> circle(const Vec3& center, const Vec3& u, const Vec3& v, doubl
 std::vector<std::vector<Vec3>> lines_of_planes(const PlanePoses& poses, const Box& bounds, double radius) {
   std::vector<std::vector<Vec3>> lines;
   for (int i = 0; i < poses.count; ++i) {
-    const PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    const PlanePose& pose = poses.pose[as_size(i)];
     const Mat3 axes = axes_of(pose);
     auto section = plane_section({axes[2], glm::dot(axes[2], pose.center)}, bounds);
     if (!section.empty()) {
@@ -53,7 +54,7 @@ std::optional<Vec3> hold_of_planes(const PlanePoses& poses, double radius, const
     found = ray.from + t * ray.along;
   };
   for (int i = 0; i < poses.count; ++i) {
-    const PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    const PlanePose& pose = poses.pose[as_size(i)];
     const Vec3 normal = axes_of(pose)[2], away = ray.from - pose.center;
     const double half = -glm::dot(away, ray.along);
     const double root = half * half - glm::dot(away, away) + radius * radius;
@@ -71,15 +72,14 @@ PlanePoses planes_of(const VolumeView& view, const Vec3& near) {
   PlanePoses poses;
   for (const CuttingPlane& cut : view.cuts) {
     if (poses.count == PlanePoses::kMax) break;
-    poses.pose[static_cast<std::size_t>(poses.count++)] =
-        pose_of_plane(cut.kept.outward, cut.kept.offset, near);
+    poses.pose[as_size(poses.count++)] = pose_of_plane(cut.kept.outward, cut.kept.offset, near);
   }
   return poses;
 }
 
 void cut_by_planes(VolumeView& view, const PlanePoses& poses, int before) {
   static_assert(PlanePoses::kMax <= static_cast<int>(kMostCuts));
-  const auto wanted = static_cast<std::size_t>(poses.count), had = static_cast<std::size_t>(before);
+  const auto wanted = as_size(poses.count), had = as_size(before);
   std::vector<CuttingPlane>& cuts = view.cuts;
   if (had > wanted && cuts.size() > wanted) {
     cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(wanted),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/hand/technique/probe_mouse.h"
 #include "common/window/controls/pick_volume.h"
 
@@ -37,7 +38,7 @@ std::array<Vec3, RegionControl::kMiddle + 1> RegionControl::handles(const Box& b
   std::array<Vec3, kMiddle + 1> places{};
   places.fill(box.center());
   for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t first = 2 * static_cast<std::size_t>(axis);
+    const std::size_t first = 2 * as_size(axis);
     places[first][axis] = box.lower[axis];
     places[first + 1][axis] = box.upper[axis];
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/field/value_histogram.h"
 #include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/pick_volume.h"
@@ -302,7 +303,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
     default: {
       const int mode = static_cast<int>(command) - static_cast<int>(Command::kMode1);
       if (mode < 0 || mode >= kModeKeys) return std::nullopt;
-      return choose_mode(static_cast<std::size_t>(mode));
+      return choose_mode(as_size(mode));
     }
   }
 }

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -73,7 +74,7 @@ void FileDialog::move(int by) {
       std::ranges::find_if(places, [&](std::size_t place) { return list_.entries[place].name == current_; });
   const int last = static_cast<int>(places.size()) - 1;
   const int from = now == places.end() ? (by > 0 ? -1 : last + 1) : static_cast<int>(now - places.begin());
-  const FolderEntry& entry = list_.entries[places[static_cast<std::size_t>(std::clamp(from + by, 0, last))]];
+  const FolderEntry& entry = list_.entries[places[as_size(std::clamp(from + by, 0, last))]];
   current_ = entry.name;
   shows_current_ = true;
   replaces_.clear();

@@ -10,6 +10,7 @@
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
+#include "common/base/index.h"
 #include "common/field/grid/image_resample.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
@@ -93,7 +94,7 @@ void SavedFiles::note_saved(const DrawnLines& lines) {
 }
 
 std::size_t SavedFiles::unsaved(const DrawnLines& lines) const {
-  return static_cast<std::size_t>(std::ranges::count_if(
+  return as_size(std::ranges::count_if(
       lines.entries(), [this](const DrawnLines::Entry& entry) { return !saved_.contains(entry.line); }));
 }
 

@@ -12,6 +12,7 @@
 #include <stb_image.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/version.h"
 #include "common/render/png.h"
 #include "common/scene/sha256.h"
@@ -25,7 +26,7 @@ Image small_picture(const Image& image, int width, int height) {
       std::min(static_cast<double>(image.width) / width, static_cast<double>(image.height) / height);
   const double left = 0.5 * (image.width - scale * width), top = 0.5 * (image.height - scale * height);
   Image small{.width = width, .height = height, .rgba = {}};
-  small.rgba.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  small.rgba.reserve(as_size(width) * as_size(height) * 4);
   const auto range = [&](double first, int i, int most) {
     const int begin = std::clamp(static_cast<int>(first + scale * i), 0, most - 1);
     return std::pair(begin, std::clamp(static_cast<int>(first + scale * (i + 1)), begin + 1, most));

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/scene/session_of.h"
 
@@ -170,14 +171,14 @@ std::string WindowFiles::write_notes(const std::string& ending) {
 std::size_t WindowFiles::unsaved_lines() const {
   const auto whole = [](const DrawnTract& tract) { return tract.line.points.size() > 1; };
   return saved_.unsaved(touch_.trail().drawn_lines()) +
-         static_cast<std::size_t>(std::ranges::count_if(touch_.trail().drawn(), whole));
+         as_size(std::ranges::count_if(touch_.trail().drawn(), whole));
 }
 
 std::size_t WindowFiles::unsaved_notes() const {
   const auto unsaved = [&](const Annotation& note) {
     return std::ranges::find(saved_notes_, note) == saved_notes_.end();
   };
-  return static_cast<std::size_t>(std::ranges::count_if(touch_.notes().entries(), unsaved));
+  return as_size(std::ranges::count_if(touch_.notes().entries(), unsaved));
 }
 
 bool WindowFiles::ask(const Leaving& leaving) {

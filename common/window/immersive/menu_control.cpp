@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/hand/technique/probe_mouse.h"
 #include "common/math/quaternion.h"
 
@@ -181,7 +182,7 @@ std::vector<Command> MenuControl::act(const SceneState& scene, Document& documen
     } else if (event.id == id_of(MenuDial::kOpacity)) {
       view.style.opacity = event.value;
     } else if (event.id == id_of(MenuDial::kTime)) {
-      set_time_step(document, scene.info->times, static_cast<std::size_t>(event.value));
+      set_time_step(document, scene.info->times, floor_size(event.value));
     } else if (event.id == id_of(MenuDial::kTurn)) {
       turn(view.camera, kDegree * (event.value - std::exchange(turned_, event.value)), 0.0);
     }

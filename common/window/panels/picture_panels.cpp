@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/window/keys.h"
 #include "common/window/panels/banners.h"
@@ -43,7 +44,7 @@ std::string status_text(const SceneState& scene) {
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
   for (int k = 0; k < kEndCount; ++k) {
-    const std::size_t count = scene.ends[static_cast<std::size_t>(k)];
+    const std::size_t count = scene.ends[as_size(k)];
     if (count == 0) continue;
     std::string name(name_of(static_cast<End>(k)));
     std::replace(name.begin(), name.end(), '_', ' ');

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/widget/widget_text.h"
@@ -69,7 +70,7 @@ void offer_plane(const Annotation& marked, ProbeSession& session, std::vector<Cu
   if (!wanted) return;
   if (in_hand) {
     PlanePoses poses = session.planes()->poses;
-    poses.pose[static_cast<std::size_t>(poses.count++)] = *pose;
+    poses.pose[as_size(poses.count++)] = *pose;
     session.put_planes(poses);
   } else {
     const Vec4 plane = plane_of_pose(*pose);
@@ -88,13 +89,13 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     ImGui::PushID(i);
     const bool unfolded = draw_fold(true);
     const std::string name = "plane " + std::to_string(i + 1);
-    if (static_cast<std::size_t>(i) < cuts.size()) {
-      checkbox((name + " cuts").c_str(), &cuts[static_cast<std::size_t>(i)].on);
+    if (as_size(i) < cuts.size()) {
+      checkbox((name + " cuts").c_str(), &cuts[as_size(i)].on);
       hint("what lies beyond the plane is not drawn");
     } else {
       ImGui::TextUnformatted(name.c_str());
     }
-    PlanePose& pose = poses.pose[static_cast<std::size_t>(i)];
+    PlanePose& pose = poses.pose[as_size(i)];
     if (unfolded) {
       if (const auto wanted = edit_pose(pose, session, camera)) {
         pose = *wanted;
@@ -109,18 +110,16 @@ void edit_planes(ProbeSession& session, const Camera& camera, std::span<CuttingP
     ImGui::PopID();
   }
   if (gone) {
-    if (cuts.size() >= static_cast<std::size_t>(poses.count))
+    if (cuts.size() >= as_size(poses.count))
       std::rotate(cuts.begin() + *gone, cuts.begin() + *gone + 1, cuts.begin() + poses.count);
-    for (int i = *gone; i + 1 < poses.count; ++i)
-      poses.pose[static_cast<std::size_t>(i)] = poses.pose[static_cast<std::size_t>(i) + 1];
-    poses.pose[static_cast<std::size_t>(--poses.count)] = {};
+    for (int i = *gone; i + 1 < poses.count; ++i) poses.pose[as_size(i)] = poses.pose[as_size(i) + 1];
+    poses.pose[as_size(--poses.count)] = {};
     edited = true;
   }
   if (poses.count == PlanePoses::kMax) {
     ImGui::TextDisabled("%d planes: no more are possible", PlanePoses::kMax);
   } else if (small_button("+ plane")) {
-    poses.pose[static_cast<std::size_t>(poses.count++)] =
-        turned_to({.center = camera.focal_point}, camera.axes[2]);
+    poses.pose[as_size(poses.count++)] = turned_to({.center = camera.focal_point}, camera.axes[2]);
     edited = true;
   }
   hint("through what the view turns about, facing the viewer");
@@ -135,7 +134,7 @@ void edit_cuts(std::vector<CuttingPlane>& cuts, std::size_t first) {
   shown.Begin(static_cast<int>(cuts.size() - first));
   while (shown.Step()) {
     for (int row = shown.DisplayStart; row < shown.DisplayEnd; ++row) {
-      const std::size_t i = first + static_cast<std::size_t>(row);
+      const std::size_t i = first + as_size(row);
       ImGui::PushID(row);
       CuttingPlane& cut = cuts[i];
       checkbox(("plane " + std::to_string(i + 1) + " cuts").c_str(), &cut.on);
@@ -246,11 +245,9 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
     grid.switch_at = marks_alone ? GridSwitch::kMarks : GridSwitch::kNodes;
   explain("grid-switch");
   const auto room_for = [&grid](std::size_t marks) {
-    return static_cast<std::size_t>(grid.marks.count) + marks <= std::size_t{GridMarks::kMax};
+    return as_size(grid.marks.count) + marks <= std::size_t{GridMarks::kMax};
   };
-  const auto add = [&grid](const GridMark& mark) {
-    grid.marks.mark[static_cast<std::size_t>(grid.marks.count++)] = mark;
-  };
+  const auto add = [&grid](const GridMark& mark) { grid.marks.mark[as_size(grid.marks.count++)] = mark; };
   const LocalFrame& local = session.data().scalar()->frame();
   const Vec3 at = session.readout().proxy;
   // They stay in their places without a hand, so that nothing below moves when it comes.
@@ -274,8 +271,7 @@ void edit_grid(TouchChoice& choice, std::string_view mode, const ProbeSession& s
       ImGui::SameLine();
       ImGui::PushID(a);
       constexpr std::array<const char*, 3> kNames{"1st", "2nd", "3rd"};
-      if (small_button(kNames[static_cast<std::size_t>(a)]))
-        cuts->push_back({.kept = {axes[a], glm::dot(axes[a], at)}});
+      if (small_button(kNames[as_size(a)])) cuts->push_back({.kept = {axes[a], glm::dot(axes[a], at)}});
       hint("axis of the grid, at the proxy");
       ImGui::PopID();
     }

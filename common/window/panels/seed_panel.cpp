@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -13,7 +14,7 @@ namespace palpate {
 void draw_seeds(PanelState& state, bool speed) {
   static const std::vector<std::string> kKinds{"grid", "random", "speed", "other"};
   static const std::vector<std::string> kWithoutSpeed{"grid", "random", "other"};
-  std::string kind = kKinds[static_cast<std::size_t>(state.seeds.kind)];
+  std::string kind = kKinds[as_size(state.seeds.kind)];
   if (choose_word("seeds", kind, speed ? kKinds : kWithoutSpeed)) {
     // `other` starts from the text of what was chosen before.
     state.seeds.text = seeds_text(state.seeds);

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/render/ticks.h"
 #include "common/window/panels/picture_panels.h"
@@ -88,9 +89,7 @@ void draw_curve(const PlotAxes& axes, const SeriesCurve& curve) {
 /// The last value at or before a time; NaN where there is none yet.
 double value_at(const SeriesCurve& curve, double time) {
   const auto after = std::upper_bound(curve.times.begin(), curve.times.end(), time);
-  return after == curve.times.begin()
-             ? std::nan("")
-             : curve.values[static_cast<std::size_t>(after - curve.times.begin()) - 1];
+  return after == curve.times.begin() ? std::nan("") : curve.values[as_size(after - curve.times.begin()) - 1];
 }
 
 std::string title_of(const SeriesPlot& plot, const UnitNames& units) {

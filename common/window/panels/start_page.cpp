@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/scene/input.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -118,7 +119,7 @@ void StartPage::draw_cards(const std::vector<Card>& cards, std::size_t first, co
   constexpr float kWidth = 14.0F;  // heights of the text
   const float em = ImGui::GetFontSize(), gap = 0.8F * em;
   const float room = ImGui::GetContentRegionAvail().x;
-  columns_ = static_cast<std::size_t>(std::max(1.0F, (room + gap) / (kWidth * em + gap)));
+  columns_ = floor_size(std::max(1.0F, (room + gap) / (kWidth * em + gap)));
   // Cards share what is left of a row.
   const auto many = static_cast<float>(columns_);
   const float width = std::min((room - (many - 1.0F) * gap) / many, 1.35F * kWidth * em);

@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -18,7 +19,7 @@ void draw_time(PanelState& state, const std::vector<double>& times) {
   // What is typed is the step, from 0.
   const std::string text = "%d:  t = " + short_number(times[now]);
   if (slider_int("time step", &step, 0, last, text.c_str(), ImGuiSliderFlags_AlwaysClamp)) {
-    set_time_step(state.document, times, static_cast<std::size_t>(step));
+    set_time_step(state.document, times, as_size(step));
   }
   if (small_button(state.playing ? "Stop###play" : "Play###play")) state.playing = !state.playing;
   ImGui::SameLine();

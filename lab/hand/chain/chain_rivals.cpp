@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/streamline.h"
@@ -214,7 +215,7 @@ RivalRun measure(RivalMethod method, double angle) {
 std::string_view name_of(RivalMethod method) noexcept {
   constexpr std::array<std::string_view, kRivalMethods.size()> kNames{"chain", "pipe", "balance, curve",
                                                                       "balance, surface"};
-  return kNames[static_cast<std::size_t>(method)];
+  return kNames[as_size(method)];
 }
 
 std::vector<RivalRun> run_chain_rivals(Progress* progress) {

@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "common/base/index.h"
 #include "common/field/analytic/analytic_scalar.h"
 #include "common/haptics/constraint/anisotropy_drag.h"
 #include "common/haptics/constraint/detent_marks.h"
@@ -189,9 +190,9 @@ double energy_of(const Vec3& probe, const ChainStep& step, double stiffness) {
   double sum = 0.0;
   Vec3 pulled = probe;
   for (int i = 0; i < step.links; ++i) {
-    const Vec3 stretch = step.proxies[static_cast<std::size_t>(i)] - pulled;
+    const Vec3 stretch = step.proxies[as_size(i)] - pulled;
     sum += 0.5 * stiffness * glm::dot(stretch, stretch);
-    pulled = step.proxies[static_cast<std::size_t>(i)];
+    pulled = step.proxies[as_size(i)];
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "common/base/index.h"
 #include "common/haptics/constraint/linear.h"
 #include "common/haptics/constraint/streamline.h"
 #include "common/haptics/reference_frame.h"
@@ -113,7 +114,7 @@ std::vector<PlotSeries> series_of(const std::vector<LinearDriftRow>& rows, const
 
 std::string_view name_of(FollowMethod method) noexcept {
   constexpr std::array<std::string_view, 3> kNames{"linear step", "linear, settled", "streamline"};
-  return kNames[static_cast<std::size_t>(method)];
+  return kNames[as_size(method)];
 }
 
 std::string_view name_of(DriftFlow flow) noexcept {

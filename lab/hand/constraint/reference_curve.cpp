@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/base/index.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -32,8 +33,7 @@ ReferenceCurve::ReferenceCurve(const VectorField& field, const Vec3& seed, doubl
                 points_.end());
   const auto after = std::lower_bound(points_.begin(), points_.end(), 0.0,
                                       [](const Point& p, double arc) { return p.arc < arc; });
-  seed_ = std::min(static_cast<std::size_t>(after - points_.begin()),
-                   std::max<std::size_t>(points_.size(), 1) - 1);
+  seed_ = std::min(as_size(after - points_.begin()), std::max<std::size_t>(points_.size(), 1) - 1);
 }
 
 /// Adds the points of one tracing.

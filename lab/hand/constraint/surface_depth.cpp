@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "common/base/index.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "lab/hand/streamline_run.h"
 #include "lab/page/html.h"
@@ -133,7 +134,7 @@ std::vector<PlotSeries> series_of(const std::vector<SurfaceDepthRow>& rows, cons
 
 std::string_view name_of(DepthMethod method) noexcept {
   constexpr std::array<std::string_view, 3> kNames{"by value (2.7)", "by path (2.8)", "proxy"};
-  return kNames[static_cast<std::size_t>(method)];
+  return kNames[as_size(method)];
 }
 
 SurfaceDepth run_surface_depth(Progress* progress) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include "common/base/index.h"
 #include "common/servo/hand_step.h"
 
 namespace palpate {
@@ -49,7 +50,7 @@ EnergyCycle run_energy_cycle(const WallCase& wall) {
   const double before = kCycleSpeed * period * outside_ticks;
   const double end = 2.0 * (before + kCycleDepth) / kCycleSpeed;
   std::deque<Held> held;
-  const auto ticks = static_cast<std::size_t>(std::llround(end * wall.rate));
+  const auto ticks = as_size(std::llround(end * wall.rate));
   for (std::size_t n = 0; n <= ticks; ++n) {
     const double now = static_cast<double>(n) * period, x = place_at(now - device.sensor_delay, before);
     const double step = device.encoder_step;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "common/base/index.h"
 #include "common/haptics/constraint/half_space.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/wall_loop.h"
@@ -71,7 +72,7 @@ WallRun run_wall(const WallCase& wall) {
   arm.push({wall.push, 0.0, 0.0});
   WallRun run;
   const double period = 1.0 / wall.rate;
-  const auto ticks = static_cast<std::size_t>(std::llround(wall.seconds * wall.rate));
+  const auto ticks = as_size(std::llround(wall.seconds * wall.rate));
   std::vector<double> path;
   path.reserve(ticks);
   bool touched = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/step_times.h"
 
@@ -116,7 +117,7 @@ std::vector<std::size_t> ensight_steps_of(std::string_view case_text, const Ensi
     std::vector<std::size_t> steps;
     for (const double time : own->second) {
       const auto at = std::lower_bound(times.all.begin(), times.all.end(), time);
-      steps.push_back(static_cast<std::size_t>(at - times.all.begin()));
+      steps.push_back(as_size(at - times.all.begin()));
     }
     std::sort(steps.begin(), steps.end());
     return steps.size() == times.all.size() ? std::vector<std::size_t>{} : steps;

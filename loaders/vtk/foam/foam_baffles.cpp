@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/base/disjoint_sets.h"
+#include "common/base/index.h"
 
 namespace palpate {
 namespace {
@@ -41,10 +42,10 @@ std::vector<std::vector<std::int64_t>> doubled(const FoamFaces& faces, std::size
 
 /// The same numbers, and those of the copies behind them.
 DataArray with_copies(const DataArray& array, std::span<const std::int64_t> copies) {
-  const std::size_t size = static_cast<std::size_t>(array.components) * byte_size(array.type);
+  const std::size_t size = as_size(array.components) * byte_size(array.type);
   auto bytes = std::make_shared<std::vector<std::byte>>(array.bytes.begin(), array.bytes.end());
   for (const std::int64_t copy : copies) {
-    const auto of = array.bytes.subspan(static_cast<std::size_t>(copy) * size, size);
+    const auto of = array.bytes.subspan(as_size(copy) * size, size);
     bytes->insert(bytes->end(), of.begin(), of.end());
   }
   DataArray out = array;
@@ -68,7 +69,7 @@ FoamBaffles::FoamBaffles(const FoamFaces& faces, std::span<const FoamPatch> patc
   std::vector<std::uint8_t> on_baffle(points, 0);
   for (const auto& face : doubled(faces, 0, patches)) {
     for (const std::int64_t p : face) {
-      if (p >= 0 && static_cast<std::size_t>(p) < points) on_baffle[static_cast<std::size_t>(p)] = 1;
+      if (p >= 0 && as_size(p) < points) on_baffle[as_size(p)] = 1;
     }
   }
   // Corners of cells at these points, united over the faces between cells.
@@ -76,7 +77,7 @@ FoamBaffles::FoamBaffles(const FoamFaces& faces, std::span<const FoamPatch> patc
   const auto each = [&](const auto& body) {
     for (std::size_t face = 0; face < count; ++face) {
       for (const std::int64_t p : points_of(faces, face)) {
-        if (p >= 0 && static_cast<std::size_t>(p) < points && on_baffle[static_cast<std::size_t>(p)] != 0)
+        if (p >= 0 && as_size(p) < points && on_baffle[as_size(p)] != 0)
           body(p, owner[face], face < neighbour.size() ? neighbour[face] : -1);
       }
     }
@@ -91,7 +92,7 @@ FoamBaffles::FoamBaffles(const FoamFaces& faces, std::span<const FoamPatch> patc
   });
   // The last cell may own no face.
   for (const auto& of_faces : {owner, neighbour}) {
-    for (const std::int64_t cell : of_faces) cells_ = std::max(cells_, static_cast<std::size_t>(cell + 1));
+    for (const std::int64_t cell : of_faces) cells_ = std::max(cells_, as_size(cell + 1));
   }
   std::int64_t point = -1;
   std::map<std::uint32_t, std::int64_t> of_group;
@@ -122,21 +123,20 @@ bool FoamBaffles::split(DataSet& block) const {
     if (array.association == Association::kPoint) array = with_copies(array, copies_);
   }
   if (!block.visible.empty()) {
-    for (const std::int64_t copy : copies_)
-      block.visible.push_back(block.visible[static_cast<std::size_t>(copy)]);
+    for (const std::int64_t copy : copies_) block.visible.push_back(block.visible[as_size(copy)]);
   }
   std::int64_t before = -1;
   for (const auto& entry : point_of_) {
     const std::int64_t cell = entry.first.first;
     if (cell == before) continue;
     before = cell;
-    auto at = static_cast<std::size_t>(mesh.offsets[static_cast<std::size_t>(cell)]);
-    const auto end = static_cast<std::size_t>(mesh.offsets[static_cast<std::size_t>(cell) + 1]);
-    const bool polyhedron = mesh.types[static_cast<std::size_t>(cell)] == kPolyhedron;
+    auto at = as_size(mesh.offsets[as_size(cell)]);
+    const auto end = as_size(mesh.offsets[as_size(cell) + 1]);
+    const bool polyhedron = mesh.types[as_size(cell)] == kPolyhedron;
     if (polyhedron) ++at;  // the number of faces
     while (at < end) {
       std::size_t count = end - at;
-      if (polyhedron) count = static_cast<std::size_t>(mesh.connectivity[at++]);
+      if (polyhedron) count = as_size(mesh.connectivity[at++]);
       for (std::size_t i = 0; i < count && at < end; ++i, ++at)
         mesh.connectivity[at] = point_of(cell, mesh.connectivity[at]);
     }

@@ -13,6 +13,7 @@
 #include <regex.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "loaders/vtk/foam/foam_text.h"
 
@@ -311,10 +312,9 @@ FoamFaces read_foam_faces(std::string_view text, std::size_t first, const std::s
     const std::string_view all = tokens.bytes(points, storage.label);
     for (std::size_t face = first; face < count && count - face > 1; ++face) {
       const std::int64_t from = foam_label(begins, face, storage), to = foam_label(begins, face + 1, storage);
-      if (from < 0 || to < from || static_cast<std::size_t>(to) > points)
+      if (from < 0 || to < from || as_size(to) > points)
         throw FoamMalformed{"a face from " + std::to_string(from) + " to " + std::to_string(to)};
-      for (std::int64_t i = from; i < to; ++i)
-        out.points.push_back(foam_label(all, static_cast<std::size_t>(i), storage));
+      for (std::int64_t i = from; i < to; ++i) out.points.push_back(foam_label(all, as_size(i), storage));
       out.begin.push_back(out.points.size());
     }
     return out;
@@ -358,8 +358,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
         problems.push_back("pattern \"" + key.substr(0, 60) + "\"");
       } else {
         try {
-          entries.push_back(entry_in(key, pattern, entry_text, tokens.storage(), scope,
-                                     static_cast<std::size_t>(components)));
+          entries.push_back(entry_in(key, pattern, entry_text, tokens.storage(), scope, as_size(components)));
         } catch (const FoamMalformed& problem) {
           PatchEntry& broken = entries.emplace_back();
           broken.key = key;
@@ -393,7 +392,7 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
       continue;
     }
     if (entry->given) {
-      const std::size_t tuples = entry->values.numbers.size() / static_cast<std::size_t>(components);
+      const std::size_t tuples = entry->values.numbers.size() / as_size(components);
       if (tuples == (entry->values.uniform ? 1 : patch.faces)) {
         out[patch.name] = entry->values;
         continue;
@@ -409,7 +408,7 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
                                       std::size_t first_face,
                                       const std::map<std::string, FoamPatchValues>& values, int components,
                                       const std::vector<Vec3>& positions) {
-  const auto n = static_cast<std::size_t>(components);
+  const auto n = as_size(components);
   std::vector<double> out, weights;
   for (const FoamPatch& patch : patches) {
     const auto found = values.find(patch.name);
@@ -423,9 +422,8 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
       Vec3 middle{0.0};
       bool known = end > begin;
       for (std::size_t p = begin; p < end; ++p) {
-        known = known && faces.points[p] >= 0 && static_cast<std::size_t>(faces.points[p]) < positions.size();
-        if (known)
-          middle += positions[static_cast<std::size_t>(faces.points[p])] / static_cast<double>(end - begin);
+        known = known && faces.points[p] >= 0 && as_size(faces.points[p]) < positions.size();
+        if (known) middle += positions[as_size(faces.points[p])] / static_cast<double>(end - begin);
       }
       if (!known) continue;
       if (out.empty()) {
@@ -434,7 +432,7 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
       }
       const double* const value = given.numbers.data() + (given.uniform ? 0 : i * n);
       for (std::size_t p = begin; p < end; ++p) {
-        const auto point = static_cast<std::size_t>(faces.points[p]);
+        const auto point = as_size(faces.points[p]);
         const double way = glm::distance(positions[point], middle);
         const double weight = way > 0.0 && std::isfinite(1.0 / way) ? 1.0 / way : 1.0;
         // Sums that do not overflow: the mean so far, moved.
@@ -468,15 +466,15 @@ std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches, co
       const std::span<const std::int64_t> corners(faces.points.data() + faces.begin[face],
                                                   faces.points.data() + faces.begin[face + 1]);
       if (corners.size() < 3 || std::ranges::any_of(corners, [&](std::int64_t p) {
-            return p < 0 || static_cast<std::size_t>(p) >= positions.size();
+            return p < 0 || as_size(p) >= positions.size();
           }))
         continue;
       // Twice the area along the normal, from its first corner.
-      const Vec3 first = positions[static_cast<std::size_t>(corners[0])];
+      const Vec3 first = positions[as_size(corners[0])];
       Vec3 normal{0.0};
       for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-        normal += glm::cross(positions[static_cast<std::size_t>(corners[c])] - first,
-                             positions[static_cast<std::size_t>(corners[c + 1])] - first);
+        normal +=
+            glm::cross(positions[as_size(corners[c])] - first, positions[as_size(corners[c + 1])] - first);
       }
       const double area = glm::length(normal);
       if (!(area > 0.0) || !std::isfinite(area)) continue;
@@ -484,7 +482,7 @@ std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches, co
       const Vec3 n = normal / area;
       const std::array<double, kSix> six{n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
       for (const std::int64_t p : corners) {
-        for (std::size_t c = 0; c < kSix; ++c) out[kSix * static_cast<std::size_t>(p) + c] += area * six[c];
+        for (std::size_t c = 0; c < kSix; ++c) out[kSix * as_size(p) + c] += area * six[c];
       }
     }
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/cells/boundary_values.h"
 #include "loaders/vtk/foam/foam_collated.h"
@@ -151,8 +152,7 @@ class DecomposedReader : public Loader {
     for (const auto& of_part : times) {
       std::vector<std::size_t> steps;
       for (const double time : common)
-        steps.push_back(
-            static_cast<std::size_t>(std::find(of_part.begin(), of_part.end(), time) - of_part.begin()));
+        steps.push_back(as_size(std::find(of_part.begin(), of_part.end(), time) - of_part.begin()));
       steps_.push_back(std::move(steps));
     }
     if (common.size() > 1) info.times = std::move(common);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "loaders/vtk/foam/foam_text.h"
 
 namespace palpate {
@@ -28,7 +29,7 @@ FoamPatchValues read_foam_inner_values(std::string_view text, int components, co
   const FoamScope top(whole, nullptr, include);
   const std::string_view entry = top.own("internalField");
   if (entry.empty()) throw FoamMalformed{"no internalField"};
-  return read_foam_values(entry, foam_storage(text), top, static_cast<std::size_t>(components));
+  return read_foam_values(entry, foam_storage(text), top, as_size(components));
 }
 
 std::vector<double> read_foam_points(std::string_view text, const std::string& file) {
@@ -61,7 +62,7 @@ bool is_single_precision(std::string_view text) {
 }
 
 std::optional<DataArray> in_double(const DataArray& rounded, std::span<const double> exact) {
-  const auto components = static_cast<std::size_t>(rounded.components);
+  const auto components = as_size(rounded.components);
   if (exact.size() != rounded.tuples * components) return std::nullopt;
   for (std::size_t t = 0; t < rounded.tuples; ++t) {
     for (std::size_t c = 0; c < components; ++c) {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/base/index.h"
+
 namespace palpate {
 namespace {
 
@@ -123,7 +125,7 @@ std::string FoamScope::expanded(std::string_view text, int depth) const {
     }
     const std::string_view name = text.substr(begin, end - begin);
     const std::string_view found = name.empty() ? std::string_view() : find(name);
-    if (found.empty() || static_cast<std::size_t>(depth) > kDeepest || out.size() + found.size() > kLongest)
+    if (found.empty() || as_size(depth) > kDeepest || out.size() + found.size() > kLongest)
       throw FoamMalformed{"$" + std::string(name.substr(0, 40)) + ", which stands for nothing there"};
     out += expanded(found, depth + 1);
     at = std::min(text.size(), end + (braced ? 1 : 0));

@@ -10,6 +10,7 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -42,7 +43,7 @@ FoamText::FoamText(const std::filesystem::path& file) {
   std::array<char, 1U << 16U> part{};
   int got = 0;
   while (unpacked_.size() < kMostBytes && (got = gzread(in, part.data(), part.size())) > 0)
-    unpacked_.append(part.data(), static_cast<std::size_t>(got));
+    unpacked_.append(part.data(), as_size(got));
   gzclose(in);
   if (got < 0) throw input_error({name, "", "cannot be unpacked", "", "the file may be damaged"});
 }
@@ -89,7 +90,7 @@ std::size_t FoamTokens::count() {
   const auto value = number(token);
   if (!value || !(*value >= 0.0) || *value > 4e9 || *value != std::floor(*value))
     throw FoamMalformed{"'" + std::string(token.substr(0, 40)) + "' where a count is due"};
-  return static_cast<std::size_t>(*value);
+  return floor_size(*value);
 }
 
 std::string_view FoamTokens::bytes(std::size_t count, std::size_t size) {

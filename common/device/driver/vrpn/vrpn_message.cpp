@@ -171,7 +171,7 @@ std::optional<std::size_t> vrpn_channels(std::span<const std::uint8_t> payload,
   if (!(stated >= 0.0 && stated <= static_cast<double>(kMostChannels)) || stated != std::floor(stated)) {
     return std::nullopt;
   }
-  const auto count = static_cast<std::size_t>(stated);
+  const auto count = floor_size(stated);
   if (payload.size() != 8 + 8 * count) return std::nullopt;
   const std::size_t read = std::min(count, values.size());
   for (std::size_t i = 0; i < read; ++i) {

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -67,7 +68,7 @@ bool edit(const Canvas& canvas, const CurveRange& range, HapticTransferFunction&
                      ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0F);
   if (!drags) return false;
   const HapticTransferFunction before = function;
-  move_knot(function, static_cast<std::size_t>(dragged), mouse, range);
+  move_knot(function, as_size(dragged), mouse, range);
   return !(function == before);
 }
 
@@ -81,7 +82,7 @@ void draw(const Canvas& canvas, const CurveRange& range, const HapticTransferFun
   std::array<ImVec2, kPieces + 1> points{};
   for (int i = 0; i <= kPieces; ++i) {
     const double measure = std::lerp(range.low_measure, range.high_measure, static_cast<double>(i) / kPieces);
-    points[static_cast<std::size_t>(i)] = canvas.pixel({measure, function(measure)});
+    points[as_size(i)] = canvas.pixel({measure, function(measure)});
   }
   list.PushClipRect(upper_left, lower_right, true);
   list.AddPolyline(points.data(), static_cast<int>(points.size()), ImGui::GetColorU32(ImGuiCol_PlotLines), 0,

@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/volume/curve_editor.h"
@@ -53,7 +54,7 @@ ShownCurve choose_curve(const LinearSettings& settings) {
     }
     ImGui::EndCombo();
   }
-  return {static_cast<std::size_t>(stored / 2), stored % 2 == 1};
+  return {as_size(stored / 2), stored % 2 == 1};
 }
 
 void edit_linear(LinearSettings& settings, const ProbeSession& session) {

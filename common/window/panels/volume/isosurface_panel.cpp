@@ -9,6 +9,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/render/surface/surface_view.h"
@@ -36,7 +37,7 @@ void draw_histogram(const char* label, const ValueHistogram* histogram, const Sc
   const ImVec2 corner = ImGui::GetItemRectMin();
   const double range = field.highest() - field.lowest();
   for (int i = 0; i < isovalues.count && range > 0.0; ++i) {
-    const double part = (isovalues.value[static_cast<std::size_t>(i)] - field.lowest()) / range;
+    const double part = (isovalues.value[as_size(i)] - field.lowest()) / range;
     const float x = corner.x + size.x * static_cast<float>(std::clamp(part, 0.0, 1.0));
     ImGui::GetWindowDrawList()->AddLine({x, corner.y}, {x, corner.y + size.y},
                                         ImGui::GetColorU32(ImGuiCol_Text), 2.0F);
@@ -45,9 +46,9 @@ void draw_histogram(const char* label, const ValueHistogram* histogram, const Sc
 
 void remove(Isovalues& isovalues, int index) {
   for (int i = index; i + 1 < isovalues.count; ++i) {
-    isovalues.value[static_cast<std::size_t>(i)] = isovalues.value[static_cast<std::size_t>(i) + 1];
+    isovalues.value[as_size(i)] = isovalues.value[as_size(i) + 1];
   }
-  isovalues.value[static_cast<std::size_t>(--isovalues.count)] = 0.0;
+  isovalues.value[as_size(--isovalues.count)] = 0.0;
 }
 
 /// A slider each, and the buttons that add and remove one.
@@ -57,7 +58,7 @@ Isovalues edit_values(const HapticLevels& levels, const std::string& what) {
   const double lowest = levels.field->lowest(), highest = levels.field->highest();
   int removed = -1;
   for (int i = 0; i < isovalues.count; ++i) {
-    double& value = isovalues.value[static_cast<std::size_t>(i)];
+    double& value = isovalues.value[as_size(i)];
     ImGui::PushID(i);
     slider_scalar("##isovalue", ImGuiDataType_Double, &value, &lowest, &highest, "%.5g");
     explain("isovalue");
@@ -69,7 +70,7 @@ Isovalues edit_values(const HapticLevels& levels, const std::string& what) {
       ImGui::TextUnformatted("isovalue");
     }
     ImGui::PopID();
-    if (!std::isfinite(value)) value = levels.isovalues.value[static_cast<std::size_t>(i)];
+    if (!std::isfinite(value)) value = levels.isovalues.value[as_size(i)];
   }
   if (removed >= 0) remove(isovalues, removed);
   if (isovalues.count < Isovalues::kMax && small_button(("+ " + what).c_str())) {
@@ -83,7 +84,7 @@ Isovalues edit_values(const HapticLevels& levels, const std::string& what) {
 Isovalues with_another(const Isovalues& isovalues, double lowest, double highest) {
   std::vector<double> places{lowest, highest};
   for (int i = 0; i < isovalues.count; ++i) {
-    places.push_back(std::clamp(isovalues.value[static_cast<std::size_t>(i)], lowest, highest));
+    places.push_back(std::clamp(isovalues.value[as_size(i)], lowest, highest));
   }
   std::sort(places.begin(), places.end());
   double middle = lowest, widest = -1.0;
@@ -93,7 +94,7 @@ Isovalues with_another(const Isovalues& isovalues, double lowest, double highest
     middle = places[i - 1] + 0.5 * widest;
   }
   Isovalues result = isovalues;
-  result.value[static_cast<std::size_t>(result.count++)] = middle;
+  result.value[as_size(result.count++)] = middle;
   return result;
 }
 

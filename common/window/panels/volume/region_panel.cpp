@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/field/grid/image_resample.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -22,7 +23,7 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   constexpr std::array kAxes{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     std::array<double, 2> ends{box.lower[axis], box.upper[axis]};
-    const bool typed = input_numbers(kAxes[static_cast<std::size_t>(axis)], ends.data(), 2, "%.6g");
+    const bool typed = input_numbers(kAxes[as_size(axis)], ends.data(), 2, "%.6g");
     explain("box");
     if (!typed || !(ends[0] < ends[1])) continue;
     box.lower[axis] = ends[0];

@@ -10,6 +10,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/window/panels/panel_parts.h"
 
@@ -129,10 +130,10 @@ bool edit_regions(const PlaceCanvas& canvas, const PlaceRange& range, RegionTran
   const bool drags = drag.region >= 0 && drag.region < static_cast<int>(transfer.regions().size()) &&
                      ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0F);
   if (!drags) return false;
-  const auto dragged = static_cast<std::size_t>(drag.region);
+  const auto dragged = as_size(drag.region);
   const ImVec2 moved = ImGui::GetIO().MouseDelta;
   RegionTransfer now = drag.corner >= 0
-                           ? with_corner_at(transfer, {dragged, static_cast<std::size_t>(drag.corner)}, place)
+                           ? with_corner_at(transfer, {dragged, as_size(drag.corner)}, place)
                            : with_region_moved(transfer, dragged,
                                                place - canvas.place({mouse.x - moved.x, mouse.y - moved.y}));
   if (now == transfer) return false;
@@ -142,7 +143,7 @@ bool edit_regions(const PlaceCanvas& canvas, const PlaceRange& range, RegionTran
 
 bool edit_appearance(RegionTransfer& transfer, int chosen) {
   if (chosen < 0 || chosen >= static_cast<int>(transfer.regions().size())) return false;
-  const auto index = static_cast<std::size_t>(chosen);
+  const auto index = as_size(chosen);
   TransferRegion region = transfer.regions()[index];
   constexpr std::array kShapes{TransferRegion::Shape::kBox, TransferRegion::Shape::kEllipse,
                                TransferRegion::Shape::kTriangle};

@@ -8,6 +8,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
@@ -141,7 +142,7 @@ bool edit(const Canvas& canvas, const ValueSpan& span, ColorTransfer& transfer, 
   const bool drags = dragged >= 0 && dragged < static_cast<int>(transfer.points().size()) &&
                      ImGui::IsMouseDragging(ImGuiMouseButton_Left, 1.0F);
   if (!drags) return false;
-  ColorTransfer moved = with_point_at(transfer, static_cast<std::size_t>(dragged), value, opacity, span);
+  ColorTransfer moved = with_point_at(transfer, as_size(dragged), value, opacity, span);
   if (moved == transfer) return false;
   transfer = std::move(moved);
   return true;
@@ -149,7 +150,7 @@ bool edit(const Canvas& canvas, const ValueSpan& span, ColorTransfer& transfer, 
 
 bool edit_color(ColorTransfer& transfer, int chosen) {
   if (chosen < 0 || chosen >= static_cast<int>(transfer.points().size())) return false;
-  const auto point = static_cast<std::size_t>(chosen);
+  const auto point = as_size(chosen);
   Vec3f color = transfer.points()[point].color;
   const std::string name = short_number(transfer.points()[point].value);
   if (!color_edit(name.c_str(), &color.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoInputs))

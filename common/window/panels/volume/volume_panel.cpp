@@ -9,6 +9,7 @@
 
 #include <imgui.h>
 
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/panes_panel.h"
@@ -102,7 +103,7 @@ void draw_volume_appearance(PanelState& state, const SceneState& scene, const st
   volume.regions = std::move(colors.regions);
   draw_rays(volume);
   const bool has_planes = state.touch != nullptr && state.touch->planes();
-  const auto of_hand = has_planes ? static_cast<std::size_t>(state.touch->planes()->poses.count) : 0;
+  const auto of_hand = has_planes ? as_size(state.touch->planes()->poses.count) : 0;
   if (of_hand < volume.cuts.size()) {
     if (section("CUTS")) edit_cuts(volume.cuts, of_hand);
   }
