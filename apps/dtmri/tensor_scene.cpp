@@ -173,6 +173,9 @@ VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy, con
   volume.context.viewport = with.context_viewport;
   volume.context.level = with.context_level;
   volume.shading = with.shading;
+  volume.shadows = with.shadows;
+  volume.illustrated = with.illustration;
+  volume.context_fade = with.context_fade;
   volume.panes = slice_panes_of(options.panes, volume.image->bounds());
   const Lens model = direction_lens(with, *volume.image);
   VolumeParts parts = make_parts(with, model);

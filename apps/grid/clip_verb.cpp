@@ -9,6 +9,7 @@
 
 #include "apps/grid/color_block.h"
 #include "apps/grid/grid_verbs.h"
+#include "apps/grid/written_type.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/parallel.h"
@@ -29,6 +30,7 @@ namespace {
 
 void check_request(const Document& options) {
   check_volume_options(options.volume);
+  check_type(options.slice);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
   if (options.slice.box.empty() && options.volume.clips.empty() && options.volume.lenses.empty())
     throw usage_error("clip needs something to cut with: try --plane nx,ny,nz,d or --box x,y,z,x,y,z");
@@ -115,8 +117,10 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
   array.owner = bytes;
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();
-  const auto lost =
-      write_image(options.output.file, summary.lattice, array, options.common.force, origin_of(input));
+  ImageOrigin origin = origin_of(input);
+  const std::string cost = take_type(options.slice, array, origin);
+  if (!cost.empty()) context.console.note(options.output.file.string() + ": " + cost);
+  const auto lost = write_image(options.output.file, summary.lattice, array, options.common.force, origin);
   for (const std::string& line : lost) context.console.note(options.output.file.string() + ": " + line);
   context.interrupt.keep(options.output.file);
   summary.input = input.title();
@@ -163,6 +167,7 @@ ExitCode run_clip(const Document& options, const VerbContext& context) {
     throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
   check_request(options);
   if (!is_picture(options.output.file)) return write_part(options, context);
+  if (!options.slice.type.empty()) throw usage_error("--type is for voxels: write a .nii.gz, .nrrd or .vti");
   const PictureMaker maker{
       .check = check_request,
       .check_input = [](const Document&, const Input& input) { (void)input.scalar_choice(); },
@@ -175,7 +180,7 @@ ExitCode run_clip(const Document& options, const VerbContext& context) {
 Verb clip_verb(std::vector<UsageExample> examples) {
   return {.name = "clip",
           .summary = "cut the volume by planes and a box: a picture, or an image of what is left",
-          .groups = {Group::kInput, Group::kView, Group::kOut, Group::kPicture, Group::kPart},
+          .groups = {Group::kInput, Group::kView, Group::kOut, Group::kPicture, Group::kPart, Group::kVoxelType},
           .examples = std::move(examples),
           .run = run_clip};
 }

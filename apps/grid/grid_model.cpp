@@ -37,7 +37,7 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   state.info = std::move(info);
   state.appearances = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);
-  if (view.volume->colored) state.notes.emplace_back(kOwnColorsNote);
+  if (const std::string note = color_note(*view.volume->image); !note.empty()) state.notes.push_back(note);
   state.volume = std::move(view.volume);
   state.volume_label = document.input.field;
   state.haptic_scalar = volume.field;

@@ -55,7 +55,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.what = counted(drawn.voxels, "voxel");
   drawn.view = make_volume_scene(input, volume, options, aspect);
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
-  if (drawn.view.volume->colored) context.console.note(kOwnColorsNote);
+  if (const std::string note = color_note(*image); !note.empty()) context.console.note(note);
   if (touched) show_touch(drawn.view, modes, volume, options, context);
   return drawn;
 }

@@ -9,6 +9,7 @@
 
 #include "apps/grid/color_block.h"
 #include "apps/grid/grid_verbs.h"
+#include "apps/grid/written_type.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
@@ -51,6 +52,9 @@ void check_request(const Document& options) {
   unit.include(Vec3(0.0));
   (void)parse_plane(options.slice.plane, unit);
   const SliceOptions& slice = options.slice;
+  check_type(slice);
+  if (!slice.type.empty() && (is_picture(options.output.file) || !slice.contours.empty()))
+    throw usage_error("--type is for voxels: write a .nii.gz, .nrrd or .vti");
   if (!(slice.spacing >= 0.0) || !std::isfinite(slice.spacing))
     throw usage_error("--spacing: a finite number, not below zero, is expected");
   if (slice.window && !(*slice.window > 0.0 && std::isfinite(*slice.window)))
@@ -91,16 +95,18 @@ Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) 
   ValueHistogram histogram{greys.lowest, greys.highest, {}, 0};
   constexpr std::size_t kBins = 1024;
   if (greys.lowest < greys.highest) {
-    histogram = values.sparse ? count_values(
-                                    *values.sparse, [](double number) { return number; }, greys.lowest,
-                                    greys.highest, kBins, threads)
-                              : count_values(
-                                    values.tuples, [&values](std::size_t i) { return values.at(i); },
-                                    greys.lowest, greys.highest, kBins, threads);
+    const auto between = [&](double lower, double upper) {
+      return values.sparse ? count_values(
+                                 *values.sparse, [](double number) { return number; }, lower, upper, kBins, threads)
+                           : count_values(
+                                 values.tuples, [&values](std::size_t i) { return values.at(i); }, lower, upper,
+                                 kBins, threads);
+    };
+    histogram = bulk_histogram(between, greys.lowest, greys.highest);
   }
   const ValueWindow window = default_window(histogram);
   greys.window = slice.window.value_or(window.width);
-  greys.level = slice.level.value_or(greys.lowest + 0.5 * greys.window);
+  greys.level = slice.level.value_or(histogram.lower + 0.5 * greys.window);
   return greys;
 }
 
@@ -192,7 +198,7 @@ struct WrittenSlice {
 WrittenSlice write_slice(const Document& options, const VerbContext& context, Input& input,
                          const UniformTopology& grid, const DataArray& values, double lowest,
                          const UniformTopology& lattice) {
-  const ImageOrigin origin = origin_of(input);
+  ImageOrigin origin = origin_of(input);
   constexpr int kLabelIntent = 1002;  // of nifti1.h
   const bool whole = is_whole(values.type), colors = values.components > 1;
   const double none = whole ? lowest : std::numeric_limits<double>::quiet_NaN();
@@ -232,6 +238,8 @@ WrittenSlice write_slice(const Document& options, const VerbContext& context, In
     written.tuples = count_of(lattice.points);
   }
   if (!whole) slice.missing -= slice.outside;
+  const std::string cost = take_type(options.slice, written, origin);
+  if (!cost.empty()) context.console.note(options.output.file.string() + ": " + cost);
   const auto lost = write_image(options.output.file, lattice, written, options.common.force, origin);
   for (const std::string& line : lost) context.console.note(options.output.file.string() + ": " + line);
   return slice;
@@ -340,7 +348,7 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
 Verb slice_verb(std::vector<UsageExample> examples) {
   return {.name = "slice",
           .summary = "write a slice through the volume as a picture or an image, or several side by side",
-          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes, Group::kPanesSize},
+          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes, Group::kPanesSize, Group::kVoxelType},
           .examples = std::move(examples),
           .run = run_slice};
 }

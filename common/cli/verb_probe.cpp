@@ -17,6 +17,7 @@
 #include "common/hand/mode/grid_mode.h"
 #include "common/hand/mode/haptic_surfaces.h"
 #include "common/hand/mode/linear_mode.h"
+#include "common/hand/mode/linear_proposal.h"
 #include "common/hand/touch_options.h"
 #include "common/haptics/constraint/layer.h"
 #include "common/haptics/widget/widget_text.h"
@@ -219,6 +220,11 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   const Workspace workspace = touch_workspace(
       options.touch, haptic.diagonal, frame_of(haptic.field.get(), haptic.scalar.get(), haptic.tensor.get()));
   summary.settings = touch_settings(options.touch, haptic.field.get(), workspace);
+  if (LinearSettings& linear = summary.settings.linear; linear.measure == LinearMeasure::kAuto && haptic.scalar) {
+    const ScalarStatistics statistics = scalar_statistics(*haptic.scalar);
+    linear = proposed(linear, statistics);
+    console.note(proposal_text(linear, statistics));
+  }
   const TunedDevice* tuned = simulated ? find_tuned(workbench.tuned, device_key(*simulated)) : nullptr;
   if (tuned != nullptr && summary.settings.stiffness > tuned->stiffness) {
     console.note(tuned_note(summary.settings.stiffness, tuned->stiffness));

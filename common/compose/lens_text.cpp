@@ -22,7 +22,8 @@ constexpr const char* kGrammar =
     "a lens is sphere:x,y,z,r, box:x,y,z,x,y,z (two corners), cylinder:x,y,z,x,y,z,r, "
     "polyhedron:nx,ny,nz,d,nx,ny,nz,d,..., halfspace:nx,ny,nz,d or screen:x,y,r, and behind it ',cut' where "
     "it cuts away, "
-    "',magnify=M', ',blend=B', ',samples=N', ',shading=on' or 'off', ',field=NAME' or last ',tf=NAME|FILE'";
+    "',magnify=M', ',blend=B', ',samples=N', ',shading=on' or 'off', "
+    "',illustration=on' or 'off', ',field=NAME' or last ',tf=NAME|FILE'";
 
 void check_above_zero(double size, const std::string& text, const char* what) {
   if (!(size > 0.0)) throw usage_error("--lens " + text + ": the " + what + " must be above zero");
@@ -187,6 +188,8 @@ LensSpec parse_lens(const std::string& text) {
       spec.field = what;
     } else if (word == "shading" && (what == "on" || what == "off")) {
       spec.shading = what == "on";
+    } else if (word == "illustration" && (what == "on" || what == "off")) {
+      spec.illustrated = what == "on";
     } else {
       throw usage_error("--lens " + all + ": " + kGrammar);
     }
@@ -237,6 +240,8 @@ std::optional<std::string> lens_text(const Lens& lens, const VolumeView& view) {
   if (lens.samples_per_voxel != view.samples_per_voxel)
     *text += ",samples=" + exact_number(lens.samples_per_voxel);
   if (lens.shading != view.shading) *text += lens.shading ? ",shading=on" : ",shading=off";
+  if (lens.illustrated != view.illustrated)
+    *text += lens.illustrated ? ",illustration=on" : ",illustration=off";
   if (lens.field > 0) *text += ",field=" + view.fields[lens.field - 1].name;
   if (lens.own_transfer && lens.regions) {
     *text += ",tf=" + region_text(*lens.regions);
@@ -277,6 +282,7 @@ VolumeParts make_parts(const VolumeOptions& options, const Lens& model) {
     Lens& lens = lenses.emplace_back(spec.lens, spec).first;
     lens.samples_per_voxel = spec.samples.value_or(options.samples);
     lens.shading = spec.shading.value_or(options.shading);
+    lens.illustrated = spec.illustrated.value_or(options.illustration);
     if (lens.cut) continue;
     lens.transfer = model.transfer;
     lens.regions = model.regions;

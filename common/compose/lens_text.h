@@ -5,7 +5,7 @@
 ///   screen:x,y,r (a circle on the screen, in heights of the picture from its middle, y up)
 ///
 /// and behind it, in any order, ",cut": cut away, and ",off" with it where a half-space does not for now;
-/// ",magnify=M"; ",blend=B" (Lens::transition); ",samples=N" a voxel; ",shading=on" or "off"; ",field=NAME",
+/// ",magnify=M"; ",blend=B" (Lens::transition); ",samples=N" a voxel; ",shading=on" or "off"; ",illustration=on" or "off"; ",field=NAME",
 /// another scalar (volume_fields.h): each as outside the lens where it is not said; at the end of all
 /// ",tf=W", a transfer function of its own (volume_transfer_of()). Places and lengths in data units.
 #pragma once
@@ -26,6 +26,7 @@ struct LensSpec {
   Lens lens;
   std::optional<double> samples;  ///< a voxel
   std::optional<bool> shading;
+  std::optional<bool> illustrated;
   std::string field;     ///< empty: that of the context
   std::string transfer;  ///< empty: that of all lenses
   bool off = false;      ///< a half-space that would cut

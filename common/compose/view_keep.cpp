@@ -62,6 +62,9 @@ void keep_volume(const VolumeView& volume, Document& document) {
   kept.gpu_memory = std::ldexp(static_cast<double>(volume.storage.memory), -20);
   kept.tables = kTableMakerNames[as_size(volume.table_maker)];
   kept.shading = volume.shading;
+  kept.shadows = volume.shadows;
+  kept.illustration = volume.illustrated;
+  kept.context_fade = volume.context_fade;
   const PlaneImages& planes = volume.planes;
   kept.plane_image = planes.shown;
   kept.window.reset();

@@ -15,6 +15,7 @@
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
+#include "common/compose/label_volume.h"
 #include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
 #include "common/compose/plane_image_text.h"
@@ -50,19 +51,26 @@ Voxels read_voxels(Input& input, Progress* progress) {
       voxels.choice.array == kColorArray && voxels.choice.component == ScalarChoice::kMagnitude;
   if (whole && voxels.blocks.size() == 1)
     voxels.image = with_own_colors(voxels.image, voxels.blocks.front().arrays.front());
+  voxels.image = with_labels(voxels.image, input);
   return voxels;
 }
 
-ValueHistogram histogram_of(const VolumeImage& image, double lower, int threads) {
+ValueHistogram counted_between(const VolumeImage& image, double lower, double upper, int threads) {
   constexpr std::size_t kBins = 1024;
   if (image.sparse) {
     return count_values(
-        *image.sparse, [&image](double number) { return image.offset + image.scale * number; }, lower,
-        image.highest, kBins, threads);
+        *image.sparse, [&image](double number) { return image.offset + image.scale * number; }, lower, upper,
+        kBins, threads);
   }
   return count_values(
-      image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, image.highest, kBins,
-      threads);
+      image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, upper, kBins, threads);
+}
+
+/// Where all values lie but a few far ones.
+ValueHistogram histogram_of(const VolumeImage& image, int threads) {
+  return bulk_histogram(
+      [&](double lower, double upper) { return counted_between(image, lower, upper, threads); }, image.lowest,
+      image.highest);
 }
 
 /// The preset for densities from `lower` to the value that only the brightest of those from `threshold` on
@@ -99,6 +107,11 @@ VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image,
   return {make_color_transfer(preset_of(name), lower, upper), {}};
 }
 
+/// Whether the preset of Hounsfield units shows something: where all is air, it does not.
+bool shows_tissue(const VolumeImage& image) {
+  return !image.labels && make_color_transfer(ColorPreset::kCt, 0.0, 0.0).at(image.highest).opacity > 0.0;
+}
+
 void check_transfer(const std::string& name) {
   std::error_code ignored;
   const auto any_range = [] { return PlaceRange{{0.0, 0.0}, {1.0, 1.0}}; };
@@ -115,7 +128,8 @@ void check_transfer(const std::string& name) {
 
 ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
   if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
-  const ValueHistogram histogram = histogram_of(image, image.lowest, threads);
+  if (image.labels) return label_transfer(image);
+  const ValueHistogram histogram = histogram_of(image, threads);
   const double threshold = otsu_threshold(histogram);
   // From halfway up to the threshold on, so that what lies just above it is not lost.
   return density_from(histogram, 0.5 * mean_below(histogram, threshold) + 0.5 * threshold, threshold);
@@ -123,8 +137,10 @@ ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
 
 ColorTransfer default_focus_transfer(const VolumeImage& image, int threads) {
   if (image.lowest > image.highest) return {};
-  const double threshold = otsu_threshold(histogram_of(image, image.lowest, threads));
-  const ValueHistogram dense = histogram_of(image, threshold, threads);
+  if (image.labels) return label_transfer(image);
+  const ValueHistogram all = histogram_of(image, threads);
+  const double threshold = otsu_threshold(all);
+  const ValueHistogram dense = counted_between(image, threshold, all.upper, threads);
   const double denser = otsu_threshold(dense);
   return density_from(dense, denser, denser);
 }
@@ -159,6 +175,10 @@ void check_volume_options(const VolumeOptions& options) {
   check_transfer(options.focus);
   for (const std::string& transfer : make_parts(options).transfers) check_transfer(transfer);
   (void)plane_images_of(options);
+}
+
+std::string color_note(const VolumeImage& image) {
+  return image.colors && !image.labels ? std::string(kOwnColorsNote) : label_note(image);
 }
 
 std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeImage> image,
@@ -241,6 +261,9 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   volume.table_maker = static_cast<TableMaker>(maker - kTableMakerNames.begin());
   volume.storage.memory = static_cast<std::uint64_t>(std::ldexp(options.volume.gpu_memory, 20));
   volume.shading = options.volume.shading;
+  volume.shadows = options.volume.shadows;
+  volume.illustrated = options.volume.illustration;
+  volume.context_fade = options.volume.context_fade;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
     const std::vector<Lens> appearances =
         lens_appearances(volume, options.volume.focus, options.common.threads);
@@ -253,8 +276,13 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
       volume.planes.shown || options.volume.window || options.volume.level || volume.panes.layout > 1;
   if (asked && !volume.planes.window && image->lowest <= image->highest)
     complete_window(volume.planes, options.volume,
-                    histogram_of(*image, image->lowest, options.common.threads));
+                    histogram_of(*image, options.common.threads));
   return volume;
+}
+
+bool values_in_hounsfield(const Input& input) {
+  const FileInfo* const file = input.file();
+  return file != nullptr && file->units.ends_with("values in HU");
 }
 
 SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, const Document& options,
@@ -277,6 +305,8 @@ SceneView make_volume_scene(const Input& input, const TangibleVolume& shown, con
     stated.volume.window = window->width;
     stated.volume.level = window->level;
   }
+  if (stated.volume.transfer.empty() && values_in_hounsfield(input) && shows_tissue(*image))
+    stated.volume.transfer = name_of(ColorPreset::kCt);
   view.volume = make_volume_view(shown, stated);
   return view;
 }

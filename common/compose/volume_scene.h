@@ -51,6 +51,9 @@ inline constexpr const char* kOwnColorsNote =
     "drawn in the voxels' own colours: a transfer function gives the opacity, by their magnitude, and no colour; a "
     "fourth number is left out, and slices show the magnitude; --field colors:0, 1 or 2 shows one of them";
 
+/// What is said of the colours of an image: of its own, of labels, and where its numbers may be labels; else nothing.
+[[nodiscard]] std::string color_note(const VolumeImage& image);
+
 /// `image` with the colours of its points, where `colors` holds red, green and blue from 0 to 255 (a fourth
 /// number is left out) for each; else as it is. They are drawn in place of those of transfer functions, which
 /// give opacity alone.
@@ -68,6 +71,10 @@ inline constexpr const char* kOwnColorsNote =
 
 /// What is known of the coordinates of `input`, for images that are made of it.
 [[nodiscard]] ImageSpace space_of(const Input& input);
+
+/// Whether its file says that values are Hounsfield units: then the preset of computed tomography is the transfer function
+/// where none is named.
+[[nodiscard]] bool values_in_hounsfield(const Input& input);
 
 /// What the file states of black and white; nothing where it says nothing that can be.
 [[nodiscard]] std::optional<ValueWindow> stated_window(const Input& input);

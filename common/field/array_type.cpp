@@ -60,6 +60,31 @@ TypedArray in_type(std::span<const double> values, ScalarType type) {
   });
 }
 
+ClampedArray clamped_to(const DataArray& values, ScalarType type) {
+  return with_type(type, [&](auto zero) {
+    using T = decltype(zero);
+    ClampedArray result;
+    auto numbers = std::make_shared<std::vector<T>>(values.tuples);
+    for (std::size_t i = 0; i < values.tuples; ++i) {
+      const double value = values.at(i);
+      T& number = (*numbers)[i];
+      if (std::isnan(value) && std::is_integral_v<T>) {
+        ++result.missing;
+      } else if (!holds<T>(value)) {
+        number = value < 0.0 ? std::numeric_limits<T>::lowest() : std::numeric_limits<T>::max();
+        ++result.clamped;
+      } else {
+        number = static_cast<T>(std::is_integral_v<T> ? std::round(value) : value);
+        result.rounded += std::isnan(value) || static_cast<double>(number) == value ? 0 : 1;
+      }
+    }
+    result.array = {.name = values.name, .type = type, .tuples = values.tuples};
+    result.array.bytes = std::as_bytes(std::span<const T>(*numbers));
+    result.array.owner = std::move(numbers);
+    return result;
+  });
+}
+
 bool looks_like_labels(const DataArray& values, const Index3& points) {
   if (!is_whole(values.type) || values.components != 1 || values.tuples == 0) return false;
   constexpr std::size_t kFew = 64;

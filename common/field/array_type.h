@@ -50,6 +50,15 @@ struct TypedArray {
 /// @throws Error (work failed) that names the first number that the type does not reach: NaN, where it has whole ones.
 [[nodiscard]] TypedArray in_type(std::span<const double> values, ScalarType type);
 
+struct ClampedArray {
+  DataArray array;          ///< one component, named as the values
+  std::size_t rounded = 0;  ///< numbers that are not exactly what they were, but for the following
+  std::size_t clamped = 0;  ///< beyond what the type holds: its nearest number
+  std::size_t missing = 0;  ///< NaN, which whole numbers have none for: 0
+};
+/// `values` in `type`, which may hold less. Infinite ones are clamped in whole types. @pre one component.
+[[nodiscard]] ClampedArray clamped_to(const DataArray& values, ScalarType type);
+
 /// Whether whole numbers name parts of an image, between which nothing can be interpolated: few different
 /// ones, or most neighbours above the lowest one alike. @param points along the axes. @pre not sparse.
 [[nodiscard]] bool looks_like_labels(const DataArray& values, const Index3& points);

@@ -48,6 +48,38 @@ ValueHistogram count_values(std::size_t count, const std::function<double(std::s
   return histogram;
 }
 
+ValueHistogram bulk_histogram(const std::function<ValueHistogram(double lower, double upper)>& count,
+                              double lower, double upper) {
+  constexpr double kFew = 0.0005, kNarrow = 1.0 / 256.0;
+  constexpr int kMostTimes = 16;  // each takes eight binary exponents off: from the largest single precision to 1
+  const ValueHistogram whole = count(lower, upper);
+  ValueHistogram bulk = whole;
+  for (int time = 0; time < kMostTimes && bulk.lower < bulk.upper; ++time) {
+    // Bins are taken off the ends, the emptier end first, as long as only a few values go.
+    std::size_t first = 0, last = bulk.counts.size();
+    const std::uint64_t few = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(kFew * static_cast<double>(whole.total)));
+    std::uint64_t gone = whole.total - bulk.total;
+    while (last - first > 1) {
+      const std::uint64_t below = bulk.counts[first], above = bulk.counts[last - 1];
+      if (gone + std::min(below, above) > few) break;
+      gone += std::min(below, above);
+      if (below <= above) {
+        ++first;
+      } else {
+        --last;
+      }
+    }
+    const auto bins = static_cast<double>(bulk.counts.size());
+    if (!(static_cast<double>(last - first) < kNarrow * bins)) return bulk;
+    const double half_width = (0.5 * bulk.upper - 0.5 * bulk.lower) / bins;
+    const double from = bulk.lower + 2.0 * half_width * static_cast<double>(first);
+    const double to = last == bulk.counts.size() ? bulk.upper : bulk.lower + 2.0 * half_width * static_cast<double>(last);
+    if (!(bulk.lower < from || to < bulk.upper) || !(from < to)) return whole;
+    bulk = count(from, to);
+  }
+  return whole;  // all but a few are the same
+}
+
 double otsu_threshold(const ValueHistogram& histogram) noexcept {
   const std::size_t bins = histogram.counts.size();
   double sum = 0.0;  // of bin numbers: the scale of the values does not matter
@@ -124,11 +156,12 @@ ValueWindow default_window(const ValueHistogram& histogram) noexcept {
   return {width, histogram.lower + 0.5 * width};
 }
 
-ValueHistogram value_histogram(const ScalarField& field) {
+namespace {
+
+/// Local values.
+ValueHistogram counted_between(const ScalarField& field, double lowest, double highest) {
   constexpr std::size_t kBins = 1024;
   const double scale = field.value_scale();
-  const double lowest = field.lowest() * scale;
-  const double highest = field.highest() * scale;
   if (const AnalyticScalar* formula = field.analytic()) {
     constexpr std::size_t kSide = 65;
     const Box box = formula->bounds();
@@ -150,10 +183,21 @@ ValueHistogram value_histogram(const ScalarField& field) {
       field.values().values);
 }
 
+}  // namespace
+
+ValueHistogram value_histogram(const ScalarField& field) {
+  const double scale = field.value_scale();
+  return counted_between(field, field.lowest() * scale, field.highest() * scale);
+}
+
 double otsu_threshold(const ScalarField& field) {
   if (field.lowest() > field.highest()) return 0.0;
   if (!(field.local_range() > 0.0)) return field.lowest();
-  return otsu_threshold(value_histogram(field)) / field.value_scale();
+  const double scale = field.value_scale();
+  const ValueHistogram histogram =
+      bulk_histogram([&](double lower, double upper) { return counted_between(field, lower, upper); },
+                     field.lowest() * scale, field.highest() * scale);
+  return otsu_threshold(histogram) / scale;
 }
 
 }  // namespace palpate

@@ -48,6 +48,13 @@ class HistogramBins {
                                           const std::function<double(std::size_t)>& value_at, double lower,
                                           double upper, std::size_t bins, int threads);
 
+/// A histogram that a few values far from all others do not flatten: where all but one value in two thousand at most
+/// (one of fewer) lie in less than a 256th of the range, what lies there is counted anew, again and again. Where these are all of one value, the
+/// whole range stays: what is rare may be what is looked for.
+/// @param count bins over [lower, upper] (count_values()); at least 512 of them. @pre lower <= upper, finite.
+[[nodiscard]] ValueHistogram bulk_histogram(
+    const std::function<ValueHistogram(double lower, double upper)>& count, double lower, double upper);
+
 /// Otsu's threshold (Otsu 1979): the border between bins by which the mean values of both classes differ
 /// most,
 ///
@@ -87,7 +94,7 @@ struct ValueWindow {
 /// asked on a lattice. @pre field.lowest() <= field.highest().
 [[nodiscard]] ValueHistogram value_histogram(const ScalarField& field);
 
-/// Otsu's threshold (value_histogram.h) of value_histogram(), data units. The lowest value where there is no
+/// Otsu's threshold of bulk_histogram(), data units. The lowest value where there is no
 /// range; 0 where no value is finite.
 [[nodiscard]] double otsu_threshold(const ScalarField& field);
 

@@ -102,6 +102,15 @@ std::pair<double, double> HapticData::measure_range(LinearMeasure measure) const
   return values;
 }
 
+const ScalarStatistics* HapticData::statistics() const {
+  if (!open_.scalar) return nullptr;
+  if (counted_ != open_.scalar) {
+    statistics_ = scalar_statistics(*open_.scalar);
+    counted_ = open_.scalar;
+  }
+  return &statistics_;
+}
+
 void HapticData::follow(const HapticChain& made) {
   surfaces_of_ = made.surfaces_of;
   chain_isovalues_ = made.isovalues;

@@ -15,6 +15,7 @@
 #include "common/hand/drawn/local_lines.h"
 #include "common/hand/mode/chain_description.h"
 #include "common/hand/mode/haptic_surfaces.h"
+#include "common/hand/mode/linear_proposal.h"
 #include "common/haptics/workspace.h"
 #include "common/render/camera.h"
 
@@ -83,6 +84,9 @@ class HapticData {
   /// Steepness up to that of all values within an eighth of the diagonal, which little exceeds.
   [[nodiscard]] std::pair<double, double> measure_range(LinearMeasure measure) const;
 
+  /// Of the scalar, counted once for it; null where there is none.
+  [[nodiscard]] const ScalarStatistics* statistics() const;
+
   /// From now on what this chain feels is drawn.
   void follow(const HapticChain& made);
   /// The isovalues that are asked for; of count 0: those that the chain chose.
@@ -114,6 +118,8 @@ class HapticData {
   double workspace_scale_;
   int threads_;
   NamedField open_;
+  mutable std::shared_ptr<const ScalarField> counted_;  ///< of statistics()
+  mutable ScalarStatistics statistics_;
   std::shared_ptr<const ScalarField> surfaces_of_, noise_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, chosen_;
   std::function<void()> wake_;

@@ -73,6 +73,7 @@ bool ProbeSession::set_field(NamedField open) {
   closed_ = forgets_ = false;
   hand_.let_go();
   data_.open(std::move(open));
+  take_proposal();
   hand_.open_data();
   trail_.open_data();
   if (servo_.replaying()) return true;  // its chains are built; what is shown behind it is the user's affair
@@ -171,9 +172,17 @@ double ProbeSession::box_reach() const {
   return choice_.settings.grid_axis.threshold / data_.workspace().scale();
 }
 
+void ProbeSession::take_proposal() {
+  LinearSettings& linear = choice_.settings.linear;
+  const ScalarStatistics* const statistics =
+      linear.measure == LinearMeasure::kAuto ? data_.statistics() : nullptr;
+  if (statistics != nullptr) linear = proposed(linear, *statistics);
+}
+
 void ProbeSession::choose(const TouchChoice& choice) {
   if (choice == choice_) return;
   const TouchChoice before = std::exchange(choice_, choice);
+  take_proposal();
   hand_.put_on_grid(mode() == kGridMode);
   // Planes stay where the hand has put them while another mode is felt.
   if (choice.mode != before.mode && planes()) choice_.settings.plane_widget.poses = planes()->poses;

@@ -113,6 +113,8 @@ class ProbeSession {
   void finish();
 
  private:
+  /// Where the measure of mode `linear` is kAuto and there is a scalar: makes it and the curves.
+  void take_proposal();
   /// Whether isosurfaces or layers that are felt are in the picture. A heart's layer is there with its fibres:
   /// all that are felt would lie over it.
   [[nodiscard]] bool shows_surfaces() const { return choice_.show_surface.value_or(!data_.has_wall()); }

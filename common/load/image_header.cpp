@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <system_error>
 
@@ -121,6 +122,8 @@ std::optional<ImageHeader> said_by_nifti(std::string_view bytes) {
     for (std::size_t i = 0; i < 3; ++i) header.intent_parameters[i] = layout.single(56, 80, i);
     header.intent_name = layout.text(328, 508, 16);
   }
+  constexpr int kLabels = 1002;  // NIFTI_INTENT_LABEL
+  if (intent == kLabels) header.labels = LabelTable();
   header.shown = {layout.single(128, 200), layout.single(124, 192)};
   header.time = {layout.single(76, 104, 4), layout.single(136, 216)};
   const double slope = layout.real(112, 176), intercept = layout.real(116, 184);
@@ -131,11 +134,43 @@ std::optional<ImageHeader> said_by_nifti(std::string_view bytes) {
   return header;
 }
 
+/// Takes one key of a segment, "Segment3_Name" and the like.
+void take_segment(std::string_view key, std::string_view value, std::map<std::string, Label, std::less<>>& segments) {
+  const std::size_t bar = key.find('_');
+  if (!key.starts_with("Segment") || bar == std::string_view::npos) return;
+  const std::string_view what = key.substr(bar + 1);
+  const std::string segment(key.substr(0, bar));
+  if (what == "LabelValue") {
+    if (const auto number = parsed<double>(value)) segments[segment].value = *number;
+  } else if (what == "Name") {
+    segments[segment].name = value;
+  } else if (what == "Color") {
+    const auto parts = split(value, ' ');
+    for (std::size_t c = 0; c < 3 && c < parts.size(); ++c) {
+      if (const auto part = parsed<double>(parts[c]))
+        segments[segment].color[static_cast<int>(c)] = static_cast<float>(std::clamp(*part, 0.0, 1.0));
+    }
+  }
+}
+
 std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
   ImageHeader header;
+  std::map<std::string, Label, std::less<>> segments;
+  const auto finish = [&] {
+    std::vector<Label> labels;
+    for (const auto& [key, label] : segments) {
+      if (label.value != 0.0) labels.push_back(label);
+    }
+    if (!labels.empty()) header.labels = LabelTable(std::move(labels));
+    return header;
+  };
   for (const std::string_view whole : split(text, '\n')) {
     const std::string_view line = trimmed(whole);
-    if (line.empty()) return header;
+    if (line.empty()) return finish();
+    if (const std::size_t equal = line.find(":="); equal != std::string_view::npos) {
+      take_segment(line.substr(0, equal), line.substr(equal + 2), segments);
+      continue;
+    }
     const std::size_t colon = line.find(": ");
     if (colon == std::string_view::npos || line.front() == '#') continue;
     const std::string field = lowered(line.substr(0, colon)), value(trimmed(line.substr(colon + 2)));
@@ -143,7 +178,7 @@ std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
     if (field == "encoding")
       header.packed = lowered(value).starts_with("gz") || lowered(value).starts_with("bz");
   }
-  return header;
+  return finish();
 }
 
 }  // namespace
@@ -151,7 +186,7 @@ std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
 ImageHeader ImageHeader::of_others() const {
   ImageHeader header = *this;
   header.intent = 0, header.intent_parameters = {}, header.intent_name.clear();
-  header.shown = {}, header.scaling.reset();
+  header.shown = {}, header.scaling.reset(), header.labels.reset();
   return header;
 }
 

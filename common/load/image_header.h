@@ -7,10 +7,11 @@
 #include <string>
 
 #include "common/field/data_set.h"
+#include "common/field/transfer/label_table.h"
 
 namespace palpate {
 
-/// The words are NIfTI's (nifti1.h); of NRRD there are the description, and whether the voxels are packed.
+/// The words are NIfTI's (nifti1.h); of NRRD there are the description, labels, and whether the voxels are packed.
 struct ImageHeader {
   /// How stored numbers become values: slope * number + intercept.
   struct Scaling {
@@ -20,6 +21,9 @@ struct ImageHeader {
 
   std::string description;  ///< `descrip`; `content` of NRRD
   bool packed = false;      ///< the file is compressed
+  /// Where the file says that its numbers are labels, with the names and colours that it has for them: NIfTI's intent
+  /// (no names), segments of 3D Slicer's .seg.nrrd.
+  std::optional<LabelTable> labels;
   bool nifti = false;       ///< what follows is stated
   int units = 0;            ///< `xyzt_units`: of lengths in the lowest three bits, of times above them
   int sform_code = 0, qform_code = 0;  ///< 0, too, of forms that cannot be used

@@ -21,6 +21,9 @@ void show_volume(const SceneState& scene, bool as_made, SceneView& view) {
   const bool same_field = std::exchange(view.volume_label, scene.volume_label) == scene.volume_label;
   if (!view.volume || !before || as_made) return;
   view.volume->shading = before->shading;
+  view.volume->shadows = before->shadows;
+  view.volume->illustrated = before->illustrated;
+  view.volume->context_fade = before->context_fade;
   view.volume->samples_per_voxel = before->samples_per_voxel;
   view.volume->far_sampling = before->far_sampling;
   view.volume->shown = before->shown;

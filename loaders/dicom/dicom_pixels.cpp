@@ -181,7 +181,7 @@ void put(const DicomFrame& frame, const Pixels& pixels, T* out, std::size_t stri
 }
 
 template <typename T>
-DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>& volumes,
+DataArray read_values(const DicomSeries& series, ScalarType type, const std::vector<std::size_t>& volumes,
                       const std::function<void(double)>& on_progress) {
   const auto slices = as_size(series.topology.points.z);
   const std::size_t pixels = as_size(series.topology.points.x) * as_size(series.topology.points.y);
@@ -214,7 +214,7 @@ DataArray read_values(const DicomSeries& series, const std::vector<std::size_t>&
   }
   DataArray array;
   array.components = static_cast<int>(stride);
-  array.type = dicom_value_type(series);
+  array.type = type;
   array.tuples = pixels * slices;
   array.bytes = std::as_bytes(std::span<const T>(*values));
   array.owner = std::move(values);
@@ -233,13 +233,41 @@ std::pair<double, double> range_of(const DicomFrame& frame) noexcept {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// The least and the largest number that it does hold, rescaled; those that it may hold where its pixels are packed or
+/// have bits beside them.
+std::pair<double, double> range_within(const DicomFrame& frame) {
+  const bool plain = frame.pixels_at && !frame.table && frame.bits == 16 && frame.bits_stored == 16 &&
+                     frame.high_bit == 15 && !frame.big_endian;
+  if (!plain) return range_of(frame);
+  const MappedFile mapped(frame.file);
+  const std::uint64_t first = *frame.pixels_at + frame.number * frame.bytes();
+  check_voxel_counts(frame.file, {.wanted = first + frame.bytes(), .found = mapped.text().size()});
+  const std::string_view numbers = mapped.text().substr(first, frame.bytes());
+  const auto of = [&]<typename T>(T) {
+    T least = std::numeric_limits<T>::max(), most = std::numeric_limits<T>::lowest();
+    for (std::size_t at = 0; at + sizeof(T) <= numbers.size(); at += sizeof(T)) {
+      T number;
+      std::memcpy(&number, numbers.data() + at, sizeof(T));
+      least = std::min(least, number);
+      most = std::max(most, number);
+    }
+    const double a = frame.slope * static_cast<double>(least) + frame.intercept,
+                 b = frame.slope * static_cast<double>(most) + frame.intercept;
+    return std::pair{std::min(a, b), std::max(a, b)};
+  };
+  return frame.is_signed ? of(std::int16_t{}) : of(std::uint16_t{});
+}
+
+bool fits_int16(double low, double high) noexcept { return low >= -32768.0 && high <= 32767.0; }
+bool fits_uint16(double low, double high) noexcept { return low >= 0.0 && high <= 65535.0; }
+
 }  // namespace
 
 int dicom_components(const DicomSeries& series) noexcept {
   return series.frames.front().colors == DicomColors::kNone ? 1 : 3;
 }
 
-ScalarType dicom_value_type(const DicomSeries& series) noexcept {
+ScalarType dicom_value_type(const DicomSeries& series) {
   const DicomFrame& first = series.frames.front();
   if (first.colors == DicomColors::kPalette) return ScalarType::kUint8;
   bool missing = false, rescaled = false, whole = true;
@@ -254,8 +282,16 @@ ScalarType dicom_value_type(const DicomSeries& series) noexcept {
   }
   if (rescaled || missing) {
     const bool small = whole && !missing;
-    if (small && low >= -32768.0 && high <= 32767.0) return ScalarType::kInt16;
-    if (small && low >= 0.0 && high <= 65535.0) return ScalarType::kUint16;
+    if (small && !fits_int16(low, high) && !fits_uint16(low, high)) {
+      low = HUGE_VAL, high = -HUGE_VAL;
+      for (const DicomFrame& frame : series.frames) {
+        const auto [least, most] = range_within(frame);
+        low = std::min(low, least), high = std::max(high, most);
+        if (!fits_int16(low, high) && !fits_uint16(low, high)) break;
+      }
+    }
+    if (small && fits_int16(low, high)) return ScalarType::kInt16;
+    if (small && fits_uint16(low, high)) return ScalarType::kUint16;
     return first.bits > 16 ? ScalarType::kFloat64 : ScalarType::kFloat32;
   }
   if (first.bits == 8) return first.is_signed ? ScalarType::kInt8 : ScalarType::kUint8;
@@ -263,25 +299,26 @@ ScalarType dicom_value_type(const DicomSeries& series) noexcept {
   return first.is_signed ? ScalarType::kInt32 : ScalarType::kUint32;
 }
 
-DataArray read_dicom_values(const DicomSeries& series, const std::vector<std::size_t>& volumes,
+DataArray read_dicom_values(const DicomSeries& series, ScalarType type,
+                            const std::vector<std::size_t>& volumes,
                             const std::function<void(double)>& on_progress) {
-  switch (dicom_value_type(series)) {
+  switch (type) {
     case ScalarType::kInt8:
-      return read_values<std::int8_t>(series, volumes, on_progress);
+      return read_values<std::int8_t>(series, type, volumes, on_progress);
     case ScalarType::kUint8:
-      return read_values<std::uint8_t>(series, volumes, on_progress);
+      return read_values<std::uint8_t>(series, type, volumes, on_progress);
     case ScalarType::kInt16:
-      return read_values<std::int16_t>(series, volumes, on_progress);
+      return read_values<std::int16_t>(series, type, volumes, on_progress);
     case ScalarType::kUint16:
-      return read_values<std::uint16_t>(series, volumes, on_progress);
+      return read_values<std::uint16_t>(series, type, volumes, on_progress);
     case ScalarType::kInt32:
-      return read_values<std::int32_t>(series, volumes, on_progress);
+      return read_values<std::int32_t>(series, type, volumes, on_progress);
     case ScalarType::kUint32:
-      return read_values<std::uint32_t>(series, volumes, on_progress);
+      return read_values<std::uint32_t>(series, type, volumes, on_progress);
     case ScalarType::kFloat32:
-      return read_values<float>(series, volumes, on_progress);
+      return read_values<float>(series, type, volumes, on_progress);
     default:
-      return read_values<double>(series, volumes, on_progress);
+      return read_values<double>(series, type, volumes, on_progress);
   }
 }
 

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <openvdb/io/File.h>
 #include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 #include <sys/resource.h>
@@ -44,18 +44,53 @@ bool with_grid(const openvdb::GridBase& grid, F f) {
   return grid.apply<Read>(f);
 }
 
-// Where the grids of a file end, which openvdb::io::File keeps to itself.
+// Walks over metadata and what stands before them: of noise OpenVDB would make thousands of millions of texts, each as long as
+// noise says.
+class Walk {
+ public:
+  Walk(std::istream& in, std::int64_t end) : in_(in), end_(end) {}
+
+  std::uint32_t number() {
+    std::uint32_t value = 0;
+    in_.read(reinterpret_cast<char*>(&value), sizeof(value));
+    check(0);
+    return value;
+  }
+  void pass(std::uint32_t bytes) {
+    check(bytes);
+    in_.seekg(bytes, std::ios::cur);
+  }
+  void text() { pass(number()); }
+  void metadata() {
+    for (std::uint32_t left = number(); left > 0; --left) {
+      text();  // name
+      text();  // type
+      text();  // value, with its size before it
+    }
+  }
+
+ private:
+  void check(std::uint32_t bytes) {
+    if (!in_ || in_.tellg() + std::int64_t{bytes} > end_) throw openvdb::IoError("has metadata that go on beyond their end");
+  }
+
+  std::istream& in_;
+  std::int64_t end_;
+};
+
+// Where the grids of a file end, which OpenVDB keeps to itself.
 class Ends : private openvdb::io::Archive {
  public:
   // Nothing where the file ends amid the head of a grid. @throws openvdb::Exception and others where heads
   // make no sense.
-  static std::optional<std::int64_t> last(const std::string& file) {
+  static std::optional<std::int64_t> last(const std::string& file, std::uint64_t bytes) {
     Ends archive;
+    const auto all = static_cast<std::int64_t>(bytes);
     std::ifstream in(file, std::ios::binary);
     archive.readHeader(in);
     archive.setFormatVersion(in);  // what descriptors hold depends on it
-    openvdb::MetaMap().readMeta(in);
     if (!in) return {};
+    Walk(in, all).metadata();
     std::int64_t last = in.tellg();
     for (std::int32_t left = readGridCount(in); left > 0; --left) {
       openvdb::io::GridDescriptor grid;
@@ -64,6 +99,13 @@ class Ends : private openvdb::io::Archive {
       // Never back: a file whose grids lead to one another would be read for ever.
       if (grid.getEndPos() <= last) throw openvdb::IoError("has grids that overlap");
       last = grid.getEndPos();
+      if (last <= all) {
+        grid.seekToGrid(in);
+        Walk walk(in, last);
+        if (archive.fileVersion() >= openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION) (void)walk.number();
+        walk.metadata();
+        walk.text();  // kind of transform
+      }
       grid.seekToEnd(in);
     }
     if (!in) return {};
@@ -83,15 +125,17 @@ class VdbLoader : public Loader {
     FileInfo info;
     try {
       check_ends();
-      openvdb::io::File file(file_);
-      file.setCopyMaxBytes(0);
-      file.open(false);
-      const openvdb::GridPtrVecPtr grids = file.getGrids();
+      // Where the file ends early, each read fails at once, in place of as many as noise asks for.
+      std::ifstream in(file_, std::ios::binary);
+      in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+      const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, false).getGrids();
       for (const openvdb::GridBase::Ptr& grid : *grids) take(grid, info.notes);
     } catch (const Error&) {
       throw;
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const std::ios_base::failure&) {
+      throw damaged("it ends amid its voxels");
     } catch (const std::exception& error) {
       throw damaged(error.what());
     }
@@ -127,7 +171,7 @@ class VdbLoader : public Loader {
 
   void check_ends() const {
     const std::uint64_t there = read_head(file_, 0).file_size;
-    const std::optional<std::int64_t> end = Ends::last(file_);
+    const std::optional<std::int64_t> end = Ends::last(file_, there);
     if (!end) throw input_error({file_, "", "ends amid the head of a grid", "", "the file may be truncated"});
     if (static_cast<std::uint64_t>(*end) > there) {
       throw input_error({file_, "", "has " + std::to_string(there) + " bytes",

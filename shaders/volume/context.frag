@@ -28,8 +28,12 @@ void main() {
   vec2 parts[2] = vec2[2](vec2(ray.first, min(span.x, ray.last)), vec2(max(span.y, ray.first), ray.last));
   // Software rasterisers compute a step of a loop for rays that skip it, unless all of them end the loop.
   int last = span.x < span.y && parts[1].x < parts[1].y ? 1 : 0;
-  for (int i = parts[0].x < parts[0].y ? 0 : 1; i <= last && seen[0].a <= volume.opaque; ++i)
+  for (int i = parts[0].x < parts[0].y ? 0 : 1; i <= last && seen[0].a <= volume.opaque; ++i) {
+#ifdef ILLUSTRATED
+    fading = i == 0 && span.x < span.y ? volume.context_fade : 0.0;
+#endif
     march(ray, shapes.parts[0], parts[i].x, parts[i].y, seen[i]);
+  }
   front = seen[0];
   back = seen[1];
 }

@@ -103,6 +103,9 @@ void main() {
       }
     }
     bool seen = shapes.parts[owner].content != kCutAway;
+#ifdef ILLUSTRATED
+    fading = owner == 0 && t < span.x && span.x < span.y ? volume.context_fade : 0.0;
+#endif
 #ifdef BLENDED
     begin_blending(owner - 1);
 #endif

@@ -49,7 +49,7 @@ vec3 painted(vec4 seen, Part part, vec3 g) {
 void gather(vec4 seen, vec3 direction, Part part, vec3 g, inout vec4 gathered) {
   seen.rgb = painted(seen, part, g);
 #ifdef SHADED
-  if (part.shaded == 1) seen.rgb = shaded(seen, direction, g);
+  seen = shaded(seen, direction, part, g);
 #endif
   gathered += (1.0 - gathered.a) * seen;
 }

@@ -60,7 +60,7 @@ void march_regions(Ray ray, Part part, float from, float to, inout vec4 gathered
     if (!(inside > n)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.first_layer), next - t);
     seen.rgb = painted(seen, part, point_at(ray, 0.5 * (t + next)));
 #ifdef SHADED
-    if (part.shaded == 1) seen.rgb = lit(seen, ray.direction, 0.5 * (front.slope + back.slope));
+    seen = looked_at(seen, ray.direction, part, point_at(ray, 0.5 * (t + next)), 0.5 * (front.slope + back.slope));
 #endif
     gathered += (1.0 - gathered.a) * seen;
     t = next;

@@ -9,11 +9,12 @@ const int kFaceRoom = 256 * ROOM;
 const int kCutRoom = 128 * ROOM;
 
 const int kTransferColors = 0, kCutAway = 1, kVoxelColors = 2;  // contents of a part
+const int kLit = 1, kShadows = 2, kIllustrated = 4;  // bits of its looks
 // A part of the volume with a way of its own to be drawn.
 struct Part {
   int transfer;  // number of its transfer function
   float samples;  // a voxel
-  int shaded;  // 1 or 0
+  int looks;  // of the bits below
   int content;
 };
 

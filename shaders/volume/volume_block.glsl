@@ -36,6 +36,7 @@ layout(std140, binding = 1) uniform Volume {
   float far_first;  // nearest t of the volume of the context
   float far_rate;  // 1 / depth of it in t
   float far_doublings;  // log2 of how many times as long steps are at its far end
+  float context_fade;  // share of its opacity that matter before a lens loses
   Transfer transfers[kTransferRoom];
   Field fields[FIELDS];
 } volume;

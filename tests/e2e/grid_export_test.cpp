@@ -1,4 +1,5 @@
 // Images that `grid` writes of images: the type, the missing values and the header of what they are made of.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -195,6 +196,52 @@ TEST_F(GridExport, SlopesStay) {
     for (int x = 0; x < kN; ++x) wanted.insert(static_cast<std::int16_t>(x + 90 * y - 210));
   EXPECT_EQ(std::set<std::int16_t>(numbers.begin(), numbers.end()), wanted);
   expect_header(written({"slice", "s.nii", "--plane=1,2,2,110"}), 16);
+}
+
+// Another type, and what it costs; the header stays, but for a slope that would store it in the old one.
+TEST_F(GridExport, AnotherTypeIsCounted) {
+  NiftiHeader header = header_of_type(4);
+  header.slope = 0.5F;
+  folder_.write("s.nii", file_of<std::int16_t>(header, [](int x, int y, int z) { return 50 * x + y - z; }));
+  const std::string bytes = written({"clip", "s.nii", "--box=-99,-99,-99,99,99,99", "--type", "uint8"});
+  expect_header(bytes, 2);
+  EXPECT_EQ(number_at<float>(bytes, 112), 1.0F);
+  std::size_t beyond = 0, rounded = 0;
+  std::vector<std::uint8_t> wanted;
+  for (int z = 0; z < kN; ++z) {
+    for (int y = 0; y < kN; ++y) {
+      for (int x = 0; x < kN; ++x) {
+        const double value = 0.5 * (50 * x + y - z), whole = std::round(value);
+        wanted.push_back(static_cast<std::uint8_t>(std::clamp(whole, 0.0, 255.0)));
+        beyond += whole < 0.0 || whole > 255.0 ? 1 : 0;
+        rounded += whole >= 0.0 && whole <= 255.0 && whole != value ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_EQ(voxels_of<std::uint8_t>(bytes), wanted);
+  EXPECT_NE(said_.find(std::to_string(beyond) + " values beyond its range"), std::string::npos) << said_;
+  EXPECT_NE(said_.find(std::to_string(rounded) + " values rounded"), std::string::npos) << said_;
+  const std::string slice = written({"slice", "s.nii", "--plane", "axial:42", "--type", "float64"});
+  EXPECT_EQ(number_at<std::int16_t>(slice, 70), 64);
+  EXPECT_EQ(run({"clip", "s.nii", "--box=-99,-99,-99,99,99,99", "--type", "float16", "--out", "x.nii"}).exit_code, 2);
+}
+
+// Labels are drawn in the colours of their table, with the names, on slices too.
+TEST_F(GridExport, LabelsHaveColoursAndNames) {
+  NiftiHeader header = header_of_type(4);
+  header.intent = 1002;
+  folder_.write("l.nii", file_of<std::int16_t>(header, [](int x, int, int) { return x < 6 ? 3 : 7; }));
+  folder_.write("names.txt", "3 liver 255 0 0 255\n7 kidney 0 0 255 255\n");
+  const ProgramResult result =
+      run({"slice", "l.nii", "--layout", "2", "--labels", "names.txt", "--size", "320x160", "--out", "l.png"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("2 parts of a label map"), std::string::npos) << result.err;
+  const ProgramResult plain = run({"slice", "l.nii", "--layout", "2", "--size", "320x160", "--out", "p.png"});
+  EXPECT_NE(plain.err.find("2 parts of a label map"), std::string::npos) << "the header says so: " << plain.err;
+  header.intent = 0;
+  folder_.write("w.nii", file_of<std::int16_t>(header, [](int x, int, int) { return x < 6 ? 3 : 7; }));
+  const ProgramResult wary = run({"slice", "w.nii", "--layout", "2", "--size", "320x160", "--out", "w.png"});
+  EXPECT_NE(wary.err.find("--labels on draws these"), std::string::npos) << "nothing says so: " << wary.err;
 }
 
 // What states no orientation gets none.

@@ -29,6 +29,30 @@ TEST_F(DicomTest, RescalesAndExtendsTheSign) {
   expect_truth(open(folder_.path()).read({"scalars"}).front(), -500.0);
 }
 
+// A CT as scanners write it, 16 bits with a sign and an intercept of -1024, might hold -33792: where it does not, its
+// voxels are whole numbers of 16 bits.
+TEST_F(DicomTest, NumbersThatFitStayWholeNumbers) {
+  for (const bool far : {false, true}) {
+    const TempFolder folder;
+    for (int k : {2, 0, 3, 1}) {
+      DicomImage image = slice(k);
+      image.is_signed = true;
+      image.slope = 1.0;
+      image.intercept = -1024.0;
+      if (far && k == 3) image.pixels[5] = 0x8000;
+      (void)folder.write("im" + std::to_string(k), image.bytes());
+    }
+    Source source = open(folder.path());
+    const DataSet block = source.read({"scalars"}).front();
+    EXPECT_EQ(block.arrays.front().type, far ? ScalarType::kFloat32 : ScalarType::kInt16);
+    if (!far) {
+      expect_truth(block, -1024.0);
+    } else {
+      EXPECT_EQ(block.arrays.front().at(3 * 12 + 5), -32768.0 - 1024.0);
+    }
+  }
+}
+
 // Types that the file does not say are those of the dictionary: "1 " and "-1024 " are words. Neither preamble nor
 // meta information is needed to see how a file is written.
 TEST_F(DicomTest, TypesFollowFromTheDictionaryWhereTheFileDoesNotSayThem) {

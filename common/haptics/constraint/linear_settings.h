@@ -41,11 +41,12 @@ inline constexpr int kLinearReferenceCount = 5;
 enum class LinearMeasure : std::uint8_t {
   kValue,     ///< the scalar; of a flow its speed, unless another scalar was chosen
   kGradient,  ///< the steepness of that
-  kSpeed      ///< of the flow
+  kSpeed,     ///< of the flow
+  kAuto       ///< not chosen yet: it and the curves are made from the data (hand/mode/linear_proposal.h)
 };
-inline constexpr int kLinearMeasureCount = 3;
+inline constexpr int kLinearMeasureCount = 4;
 [[nodiscard]] constexpr std::string_view name_of(LinearMeasure measure) noexcept {  ///< "gradient"
-  constexpr std::array<std::string_view, kLinearMeasureCount> kNames{"value", "gradient", "speed"};
+  constexpr std::array<std::string_view, kLinearMeasureCount> kNames{"value", "gradient", "speed", "auto"};
   return kNames[as_size(measure)];
 }
 

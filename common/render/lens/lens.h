@@ -89,6 +89,7 @@ struct Lens {
   std::size_t field = 0;
   double samples_per_voxel = 4.0;  ///< > 0
   bool shading = true;
+  bool illustrated = false;  ///< as VolumeView::illustrated
   bool cut = false;  ///< cut away: nothing is drawn inside
   /// Colours are those of the voxels, in the context's field; the transfer function gives opacities alone.
   bool colored = false;

@@ -173,6 +173,21 @@ void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float righ
     pen.list().AddLine(place(i), place(i + 1), pen.faint_ink(), std::max(1.0F, em / 12.0F));
 }
 
+// The parts of a label map by name; of many the first ones.
+void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable& table, float right, float middle,
+                 float length) {
+  const auto most = as_size(std::max(1, static_cast<int>(length / (1.45F * pen.text_height()))));
+  const std::vector<Label>& labels = table.labels();
+  std::vector<LegendEntry> entries;
+  for (const Label& label : labels) {
+    if (entries.size() == most) break;
+    entries.push_back({{label.color.r, label.color.g, label.color.b}, label.name});
+  }
+  const std::size_t left_out = labels.size() - entries.size();
+  draw_legend(pen, view.volume_label + (left_out > 0 ? ", " + std::to_string(left_out) + " more" : ""), entries,
+              right, middle);
+}
+
 void draw_directions(const OverlayPen& pen, bool anatomical, float right, float middle) {
   const std::array<const char*, 3> axes =
       anatomical ? std::array<const char*, 3>{"left, right", "back, front", "feet, head"}
@@ -216,6 +231,10 @@ void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend
   // Room for the letter of the right border.
   const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
   const bool volume = view.volume && view.volume->shown;
+  if (volume && view.volume->image->labels) {
+    draw_labels(pen, view, *view.volume->image->labels, right, 0.5F * h, 0.7F * h);
+    return;
+  }
   if (volume && has_colored_parts(*view.volume)) {
     // Directions have no scale: their legend stands above that of the volume.
     draw_directions(pen, view.anatomical, right, 0.2F * h);

@@ -192,7 +192,9 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
   view.background = scene.background;
   view.show_outline = view.show_color_bar = false;
   view.show_axes = !scene.anatomical;  // letters say more
-  view.title = plane_title(panes, plane, scene.anatomical, length_unit(scene));
+  SlicePanes titled = panes;
+  if (volume.image->labels) titled.slab = 0.0;
+  view.title = plane_title(titled, plane, scene.anatomical, length_unit(scene));
   view.anatomical = scene.anatomical;
   for (const NoteView& note : scene.notes) {
     if (crosses(note, view.camera, 0.5 * std::max(panes.slab, volume.image->step_along(view.camera.axes[2]))))

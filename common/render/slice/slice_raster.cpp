@@ -34,12 +34,16 @@ struct SparseReader {
   }
 };
 
+/// The same number everywhere in a voxel, as labels are.
+enum class Between : std::uint8_t { kLinear, kNearest };
+
 /// Values of an image at places in grid coordinates.
 template <typename Numbers>
 class Sampler {
  public:
   Sampler(const VolumeImage& image, Numbers numbers)
-      : numbers_(numbers),
+      : between_(image.labels ? Between::kNearest : Between::kLinear),
+        numbers_(numbers),
         points_(image.points),
         lower_(image.lower() - kGridRounding),
         upper_(image.upper() + kGridRounding),
@@ -60,6 +64,7 @@ class Sampler {
       const int cell = std::min(static_cast<int>(inside), last_cell_[a]);
       double u = inside - cell;
       // On a point its neighbours have no say.
+      if (between_ == Between::kNearest) u = u < 0.5 ? 0.0 : 1.0;
       if (u <= kGridRounding) u = 0.0;
       if (u >= 1.0 - kGridRounding) u = 1.0;
       const auto i = as_size(a);
@@ -79,6 +84,7 @@ class Sampler {
   }
 
  private:
+  Between between_;
   Numbers numbers_;
   Index3 points_;
   Vec3 lower_, upper_;
@@ -101,7 +107,7 @@ Pixels pixels_of(const VolumeImage& image, const SliceView& slice, const Camera&
   pixels.right = pixel * camera.axes[0];
   pixels.down = -pixel * camera.axes[1];
   pixels.first = camera.focal_point - 0.5 * (width - 1) * pixels.right - 0.5 * (height - 1) * pixels.down;
-  if (!(slice.slab > 0.0)) return pixels;
+  if (!(slice.slab > 0.0) || image.labels) return pixels;  // of labels there is no mean
   // What of the slab the volume reaches, along the normal from the plane.
   const Vec3& back = camera.axes[2];
   const Box bounds = image.bounds();
@@ -211,7 +217,30 @@ void color_picture(const VolumeImage& image, const Pixels& pixels, int threads, 
   });
 }
 
+using Pixel = std::array<std::uint8_t, 4>;
+
+/// Black where there is no part.
+Pixel label_pixel(const LabelTable& labels, double value) {
+  const Label* const label = labels.find(std::round(value));
+  if (label == nullptr) return {0, 0, 0, 255};
+  return {byte_of_part(label->color.r), byte_of_part(label->color.g), byte_of_part(label->color.b), 255};
+}
+
+/// Parts of one opacity, and nothing between them.
+void blend_labels(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i]) || std::round(values[i]) == 0.0) continue;
+    const Pixel over = label_pixel(*blend.image->labels, values[i]);
+    std::uint8_t* const pixel = image.rgba.data() + 4 * i;
+    const double under = pixel[3] > 0 ? 1.0 : 0.0;
+    for (std::size_t c = 0; c < 3; ++c)
+      pixel[c] = byte_of_part((blend.opacity * over[c] + (1.0 - blend.opacity) * under * pixel[c]) / 255.0);
+    pixel[3] = 255;
+  }
+}
+
 void blend_over(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
+  if (blend.image->labels) return blend_labels(blend, values, image);
   const double low = blend.image->lowest, range = blend.image->highest - low;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
@@ -246,6 +275,10 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
     if (!std::isfinite(value)) continue;
+    if (image.labels) {
+      std::ranges::copy(label_pixel(*image.labels, value), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      continue;
+    }
     const std::uint8_t grey = byte_of_part(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
     const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
     std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));

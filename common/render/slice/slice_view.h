@@ -71,7 +71,7 @@ struct SliceImage {
 struct SliceBlend {
   std::shared_ptr<const VolumeImage> image;
   ColorMap map = ColorMap::kHeat;
-  double opacity = 0.0;  ///< of its highest value; lower ones are clearer, in proportion
+  double opacity = 0.0;  ///< of its highest value; lower ones are clearer, in proportion; of labels, of all of them
 
   bool operator==(const SliceBlend&) const = default;
 };
@@ -85,7 +85,7 @@ struct SliceTrace {
 };
 
 /// A slice as the background of a picture: where the plane through the focal point of an orthographic camera,
-/// across its line of sight, cuts the volume. What the slab reaches lies half before and half behind it.
+/// across its line of sight, cuts the volume. Labels have their colours, and no slab. What the slab reaches lies half before and half behind it.
 struct SliceView {
   std::shared_ptr<const VolumeImage> image;
   ValueWindow window;  ///< of black and white

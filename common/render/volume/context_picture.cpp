@@ -65,6 +65,7 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   room_ = ShapeRoom::of(view_);
   std::vector<std::string> defines = textures_.shader_defines();
   defines.push_back(room_.shader_define());
+  std::ranges::copy(look_defines(view), std::back_inserter(defines));
   if (defines != defines_) {
     unlit_.reset();
     shaded_.reset();
@@ -106,11 +107,12 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
   glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 2, kAnyKind.data());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
-  GlProgram& program = view_.shading ? shaded_ : unlit_;
+  const bool lit = view_.shading || has_illustration(view_);
+  GlProgram& program = lit ? shaded_ : unlit_;
   if (!program)
     program = compile_program("volume/volume.vert",
                               ShaderVariant{.fragment = "volume/context.frag",
-                                            .defines = view_.shading ? std::vector<std::string>{"SHADED"}
+                                            .defines = lit ? std::vector<std::string>{"SHADED"}
                                                                      : std::vector<std::string>{}},
                               defines_);
   glUseProgram(program.name());

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <span>
 #include <utility>
 
@@ -27,14 +28,17 @@ enum class Content : std::int32_t { kTransferColors, kCutAway, kVoxelColors };
 struct PartBlock {
   std::int32_t transfer = 0;
   float samples = 0.0F;
-  std::int32_t shaded = 0;
+  std::int32_t looks = 0;  ///< kLit and the other bits of shaders/volume/shape_block.glsl
   Content content = Content::kTransferColors;
 };
 
-PartBlock part_of(std::size_t transfer, double samples, bool shaded, Content content) {
+/// @param view that the part belongs to: its light casts shadows in all parts or in none.
+PartBlock part_of(const VolumeView& view, std::size_t transfer, double samples, bool shaded, bool illustrated,
+                  Content content) {
+  constexpr std::int32_t kLit = 1, kShadows = 2, kIllustrated = 4;
   return {.transfer = static_cast<std::int32_t>(transfer),
           .samples = static_cast<float>(samples),
-          .shaded = shaded ? 1 : 0,
+          .looks = (shaded ? kLit : 0) | (shaded && view.shadows ? kShadows : 0) | (illustrated ? kIllustrated : 0),
           .content = content};
 }
 
@@ -48,14 +52,15 @@ Content content_of(bool colored) { return colored ? Content::kVoxelColors : Cont
 std::vector<PartBlock> parts_of(const VolumeView& view) {
   const std::vector<FieldTransfer> transfers = transfers_of(view);
   PALPATE_CHECK(transfers.size() <= kMostTransfers);
-  std::vector<PartBlock> parts{part_of(0, view.samples_per_voxel, view.shading, content_of(view.colored))};
+  std::vector<PartBlock> parts{part_of(view, 0, view.samples_per_voxel, view.shading,
+                                       view.illustrated, content_of(view.colored))};
   for (const Lens& lens : view.lenses) {
     std::size_t place = 0;
     if (!lens.cut && (lens.field > 0 || lens.transfer || lens.regions)) {
       const auto found = std::find(transfers.begin(), transfers.end(), transfer_of(view, lens));
       place = as_size(found - transfers.begin());
     }
-    parts.push_back(part_of(place, lens.samples_per_voxel, lens.shading,
+    parts.push_back(part_of(view, place, lens.samples_per_voxel, lens.shading, lens.illustrated,
                             lens.cut ? Content::kCutAway : content_of(lens.colored && lens.field == 0)));
   }
   return parts;
@@ -84,6 +89,7 @@ void VolumeVariant::update(const VolumeView& view, const SceneFrame& frame, cons
   room = ShapeRoom::of(view);
   std::vector<std::string> wanted = textures.shader_defines();
   wanted.push_back(room.shader_define());
+  std::ranges::copy(look_defines(view), std::back_inserter(wanted));
   if (wanted != defines) {
     program.reset();
     defines = std::move(wanted);
@@ -138,6 +144,13 @@ std::vector<std::byte> make_shape_block(const VolumeView& view, const SceneFrame
   arrays.add(planes, ShapeRoom::kFaceRoom * room.times);
   arrays.add(circles, lenses);
   return std::move(arrays).bytes();
+}
+
+std::vector<std::string> look_defines(const VolumeView& view) {
+  std::vector<std::string> defines;
+  if (view.shadows) defines.emplace_back("SHADOWED");
+  if (has_illustration(view)) defines.emplace_back("ILLUSTRATED");
+  return defines;
 }
 
 void bind_shape_block(const GlBuffer& block, ShapeRoom room) {

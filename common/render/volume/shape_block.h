@@ -38,6 +38,9 @@ struct ShapeRoom {
 [[nodiscard]] std::vector<std::byte> make_shape_block(const VolumeView& view, const SceneFrame& frame,
                                                       ShapeRoom room);
 
+/// What shaders are told of light and lines (compile_program()): nothing of what no part of `view` has.
+[[nodiscard]] std::vector<std::string> look_defines(const VolumeView& view);
+
 /// For shaders compiled with `room`.
 void bind_shape_block(const GlBuffer& block, ShapeRoom room);
 

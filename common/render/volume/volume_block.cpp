@@ -178,6 +178,7 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
   block.layer_count = static_cast<float>(steps.layers);
   block.opaque = view.stop_where_opaque ? kOpaque : 2.0F;
   block.asks_tiles = asks_tiles(view) ? 1.0F : 0.0F;
+  block.context_fade = static_cast<float>(view.context_fade);
   block.lens_count = static_cast<int>(view.lenses.size());
   block.cut_count = static_cast<int>(
       std::count_if(view.cuts.begin(), view.cuts.end(), [](const CuttingPlane& cut) { return cut.on; }));

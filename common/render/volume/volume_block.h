@@ -91,7 +91,8 @@ struct VolumeBlock {
   std::int32_t lens_count = 0;
   std::int32_t cut_count = 0;
   FarRange far;
-  std::array<float, 3> unused{};
+  float context_fade = 0.0F;  ///< VolumeView::context_fade
+  std::array<float, 2> unused{};
   std::array<TransferBlock, kMostTransfers> transfers{};
   std::array<FieldBlock, kMostFields> fields{};
 };

@@ -74,7 +74,7 @@ Variant variant_of(const VolumeView& view) {
     return has_colored_parts(view) ? Variant::kMagnifiedColored : Variant::kMagnified;
   if (has_colored_parts(view)) return Variant::kColored;
   if (!view.lenses.empty()) return Variant::kLenses;
-  return view.shading ? Variant::kShaded : Variant::kPlain;
+  return view.shading || has_illustration(view) ? Variant::kShaded : Variant::kPlain;
 }
 
 // What there is for the voxels that are not those of a coarser context.
@@ -125,7 +125,7 @@ struct VolumePass::State {
   }
 
   [[nodiscard]] bool caches_slabs() const {
-    return shown.cache_slabs && !context && layers == nullptr && !has_regions(shown) &&
+    return shown.cache_slabs && !shown.shadows && !context && layers == nullptr && !has_regions(shown) &&
            !samples_less_far(shown) && !is_colored(variant);
   }
 
@@ -366,6 +366,7 @@ void VolumePass::update(const VolumeView& asked, const SceneFrame& frame, const 
   s.room = ShapeRoom::of(view);
   std::vector<std::string> defines = s.textures.shader_defines();
   defines.push_back(s.room.shader_define());
+  std::ranges::copy(look_defines(view), std::back_inserter(defines));
   if (samples_less_far(view)) defines.emplace_back("FAR");
   if (s.layers != nullptr) defines.emplace_back(kLayersDefine);
   if (defines != s.defines) {

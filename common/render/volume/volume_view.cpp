@@ -12,8 +12,10 @@ namespace palpate {
 bool same_picture(const VolumeView& a, const VolumeView& b) {
   return a.image == b.image && a.transfer == b.transfer && a.regions == b.regions && a.fields == b.fields &&
          a.opacity_length == b.opacity_length && a.samples_per_voxel == b.samples_per_voxel &&
-         a.far_sampling == b.far_sampling && a.shading == b.shading && a.lenses == b.lenses &&
-         a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.slice_images == b.slice_images && a.colored == b.colored &&
+         a.far_sampling == b.far_sampling && a.shading == b.shading && a.shadows == b.shadows &&
+         a.illustrated == b.illustrated && a.context_fade == b.context_fade && a.lenses == b.lenses &&
+         a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.slice_images == b.slice_images &&
+         a.colored == b.colored &&
          a.shown == b.shown && a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
          a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
          a.stop_where_opaque == b.stop_where_opaque && a.cache_slabs == b.cache_slabs &&
@@ -116,6 +118,12 @@ std::vector<Vec3> shown_section(const VolumeView& view, std::size_t cut) {
 bool has_magnified_parts(const VolumeView& view) {
   return std::any_of(view.lenses.begin(), view.lenses.end(),
                      [](const Lens& lens) { return magnifies(lens); });
+}
+
+bool has_illustration(const VolumeView& view) noexcept {
+  return view.illustrated || (view.context_fade > 0.0 && !view.lenses.empty()) ||
+         std::any_of(view.lenses.begin(), view.lenses.end(),
+                     [](const Lens& lens) { return lens.illustrated && !lens.cut; });
 }
 
 bool draws_context_alone(const VolumeView& view) {

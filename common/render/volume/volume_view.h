@@ -104,6 +104,11 @@ struct VolumeView {
   /// samples of its own.
   double far_sampling = 1.0;
   bool shading = true;   ///< Phong, with gradients of the values as normals
+  bool shadows = false;  ///< where there is light: what lies between a place and it darkens the place, in lenses too
+  /// Outside lenses: opacities by the angle between surface and ray (shaders/volume/illustration.glsl), silhouettes whole.
+  bool illustrated = false;
+  /// In [0, 1]: share of its opacity that matter before a lens on the ray loses, by that angle (same file).
+  double context_fade = 0.0;
   bool colored = false;  ///< as Lens::colored, outside lenses
   bool shown = true;
   /// The first wins; at most kMostLenses, with kMostTransfers transfer functions between them and the
@@ -160,6 +165,9 @@ inline constexpr std::size_t kMostTransfers = 9;
 
 /// Whether some part takes its colours from the voxels; never where these have none.
 [[nodiscard]] bool has_colored_parts(const VolumeView& view) noexcept;
+
+/// Whether some part is drawn as lines are, or fades.
+[[nodiscard]] bool has_illustration(const VolumeView& view) noexcept;
 
 /// Whether samples far from the viewer are fewer.
 [[nodiscard]] bool samples_less_far(const VolumeView& view) noexcept;

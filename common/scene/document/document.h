@@ -120,6 +120,9 @@ struct VolumeOptions {
   double gpu_memory = 0.0;              ///< that voxels may take there [2^20 bytes]; 0: no bound
   std::string tables = "faster";        ///< VolumeView::table_maker
   bool shading = true;                  ///< Phong
+  bool shadows = false;                 ///< VolumeView::shadows
+  bool illustration = false;            ///< VolumeView::illustrated
+  double context_fade = 0.0;            ///< VolumeView::context_fade
   std::string projection = "perspective";
 };
 
@@ -146,6 +149,7 @@ struct SliceOptions {
   std::optional<double> window, level;
   std::string contours;  ///< v,v,...: lines of equal value, to be written in place of an image
   std::string box;       ///< x,y,z,x,y,z: the part of a volume that is kept; empty: all of it
+  std::string type;      ///< name_of(ScalarType) of voxels that are written; empty: that of the data
 };
 
 /// How diffusion tensors are drawn.

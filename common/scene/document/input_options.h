@@ -29,6 +29,7 @@ struct InputTexts {
       regions;  ///< of hearts: numbers of those that are taken, grammar of parse_regions(); empty: all
   std::vector<std::string> paint;  ///< of hearts: corrections of their surfaces, grammar of parse_paint()
   std::string mesher;  ///< what fills a heart's wall: cells, delaunay, tetgen; empty: the verb's default
+  std::string labels = "auto";  ///< of volumes: auto, on, off, or a file of names: labels_of()
   double largest_volume = 0.0;  ///< tetgen: of a tetrahedron, in the cube of the data's unit; 0: as sampled
   Remesher remesher;            ///< fills hearts by these two; empty: the file's cells are taken
   std::string cache = "auto";   ///< keeping_from_name()

@@ -55,6 +55,7 @@ enum class Group : std::uint8_t {
   kPanesSize,    ///< size of a picture of such slices
   kSlice,        ///< which slice is written
   kPart,         ///< a part of a volume
+  kVoxelType,    ///< type of voxels that are written
   kFocal,        ///< where a view that a hand moves turns about
   kTurn,         ///< tracts that are compared and turned
   kCalibrate,    ///< measurements, and how a model is fitted to them

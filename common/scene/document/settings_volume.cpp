@@ -38,7 +38,7 @@ const Setting kVolumeRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kFlowsAndVolumes,
-     .otherwise = "made from the histogram",
+     .otherwise = "ct where the file says that values are Hounsfield units, else made from the histogram",
      .alias = "--context-tf",
      .file = true},
     {.name = "transfer-function",
@@ -58,8 +58,8 @@ const Setting kVolumeRows[] = {
              "halfspace:nx,ny,nz,d (where n.x > d) or screen:x,y,r (a circle that stays on the screen, in "
              "heights of the picture from its middle); behind it ',cut' cuts it away (',off' with it: a "
              "half-space does not for now), ',magnify=M' enlarges, ',blend=B' has values go over into those "
-             "of --context-level along that share of the way to its middle, ',samples=N' and ',shading=on' "
-             "or 'off' are its own, ',field=NAME' shows another scalar of the file, or of another one (FILE "
+             "of --context-level along that share of the way to its middle, ',samples=N', ',shading=on' "
+             "or 'off' and ',illustration=on' or 'off' are its own, ',field=NAME' shows another scalar of the file, or of another one (FILE "
              "or FILE:NAME), on its own grid, and last ',tf=' its own transfer function, as --focus-tf has "
              "it; may be repeated, the first one wins",
      .value = "SHAPE",
@@ -140,6 +140,31 @@ const Setting kVolumeRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kAllButHearts},
+    {.name = "shadows",
+     .place = kVolumeAt<&VolumeOptions::shadows>,
+     .help = "matter between a place and the light darkens it, where --shading is on; a picture takes about "
+             "three times as long",
+     .value = "on|off",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kAllButHearts},
+    {.name = "illustration",
+     .place = kVolumeAt<&VolumeOptions::illustration>,
+     .help = "drawn as lines are: matter whose surface is seen from the side stays, what faces the viewer or has "
+             "no surface is clear; also ',illustration=on' of a lens",
+     .value = "on|off",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kAllButHearts},
+    {.name = "context-fade",
+     .place = kVolumeAt<&VolumeOptions::context_fade>,
+     .help = "share of the opacity that what lies before a lens loses, so that the lens is seen through it: most "
+             "where its surface faces the viewer",
+     .value = "SHARE",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kAllButHearts,
+     .range = kShare},
     {.name = "gpu-memory",
      .place = kVolumeAt<&VolumeOptions::gpu_memory>,
      .help = "memory of the graphics card that voxels may take: a volume that needs more is stored in "

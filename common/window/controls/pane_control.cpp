@@ -75,7 +75,6 @@ std::string PaneControl::words_under_mouse(const PictureArea& picture, const std
   const Vec3 x = place_under(camera_of_pane(scene, *scene.volume, parts, *pane), *pane, x_ - picture.left,
                              y_ - picture.top);
   const Vec3 g = image.grid_point(x);
-  const double value = image.value_at(x);
   const auto place = [](const Vec3& v) {
     return short_number(v.x) + ", " + short_number(v.y) + ", " + short_number(v.z);
   };
@@ -85,7 +84,16 @@ std::string PaneControl::words_under_mouse(const PictureArea& picture, const std
   std::string words = place(x) + (length.empty() ? "" : " " + length);
   if (!inside) return words + ": outside";
   words += ", voxel " + place(glm::round(g)) + ": " + (shown.colored ? "FA " : "");
-  return words + (std::isfinite(value) ? value_text(value) : "no value");
+  const auto said = [&x](const VolumeImage& of) {
+    const double value = of.labels ? of.nearest_value(x) : of.value_at(x);
+    if (!std::isfinite(value)) return std::string("no value");
+    if (!of.labels || value == 0.0) return value_text(value);
+    return value_text(value) + " (" + of.labels->at(value).name + ")";
+  };
+  words += said(image);
+  if (scene.volume->panes.blend > 0.0 && !scene.volume->fields.empty())
+    words += "; " + scene.volume->fields.front().name + ": " + said(*scene.volume->fields.front().image);
+  return words;
 }
 
 void PaneControl::follow(const InputEvent& event, const PictureArea& picture, const VolumeView* volume) {

@@ -115,7 +115,7 @@ std::filesystem::path SavedFiles::save_annotations(std::span<const Annotation> a
 }
 
 SavedFiles::SavedRegion SavedFiles::save_region(const VolumeImage& image, const Box& region,
-                                                const std::string& ending, ImageSpace space) const {
+                                                const std::string& ending, const ImageOrigin& origin) const {
   const UniformTopology grid{.points = image.points, .origin = image.origin, .axes = image.axes};
   const auto part = points_in(grid, region);
   PALPATE_CHECK(part.has_value());
@@ -128,7 +128,7 @@ SavedFiles::SavedRegion SavedFiles::save_region(const VolumeImage& image, const 
     }
   }
   SavedRegion saved{.file = free_name("crop", ending)};
-  write_image(saved.file, part_of(grid, *part), as_stored(values, image, saved.exact), false, space);
+  saved.lost = write_image(saved.file, part_of(grid, *part), as_stored(values, image, saved.exact), false, origin);
   return saved;
 }
 

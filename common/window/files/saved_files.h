@@ -11,7 +11,7 @@
 
 #include "common/geometry/annotation.h"
 #include "common/hand/drawn/drawn_lines.h"
-#include "common/load/write/write_image.h"
+#include "common/load/write/image_origin.h"
 #include "common/render/lens/lens.h"
 #include "common/render/png.h"
 #include "common/render/scene_view.h"
@@ -42,12 +42,13 @@ class SavedFiles {
   struct SavedRegion {
     std::filesystem::path file;
     bool exact = true;  ///< false: wide numbers, of which a picture has the digits of single precision alone
+    std::vector<std::string> lost;  ///< what the format has no place for
   };
   /// Saves the voxels of `image` in `region` as `crop` and `ending`, .nii.gz, .nrrd or .vti, under the first
-  /// number that is free: in the type of the data, as the verb `clip` does, or in doubles where not exact.
+  /// number that is free: with the header of `origin`, in the type of the data, as the verb `clip` does, or in doubles where not exact.
   /// @pre some are in it.
   [[nodiscard]] SavedRegion save_region(const VolumeImage& image, const Box& region,
-                                        const std::string& ending, ImageSpace space) const;
+                                        const std::string& ending, const ImageOrigin& origin) const;
   /// Saves a picture under the first number that is free.
   [[nodiscard]] std::filesystem::path save_picture(const Image& image,
                                                    const std::vector<PngText>& texts) const;

@@ -33,6 +33,18 @@ TEST(InType, KeepsWhatFractionsHold) {
   EXPECT_EQ(in_type(values, ScalarType::kFloat64).rounded, 0U);
 }
 
+TEST(ClampedTo, CountsWhatATypeDoesNotHold) {
+  const std::vector<double> values{-300.0, 0.5, 12.0, 128.0, std::nan(""), HUGE_VAL};
+  const ClampedArray taken =
+      clamped_to(make_array("ct", Association::kPoint, 1, std::span<const double>(values)), ScalarType::kInt8);
+  EXPECT_EQ(taken.array.name, "ct");
+  EXPECT_EQ(taken.clamped, 3U);
+  EXPECT_EQ(taken.rounded, 1U);
+  EXPECT_EQ(taken.missing, 1U);
+  const std::vector<double> wanted{-128.0, 1.0, 12.0, 127.0, 0.0, 127.0};
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(taken.array.at(i), wanted[i]) << i;
+}
+
 // The ends of every type, and the next number beyond them that a double has.
 TEST(InType, RefusesWhatATypeDoesNotReach) {
   const auto check = [](ScalarType type, double lowest, double beyond_lowest, double highest, double beyond) {

@@ -1,5 +1,6 @@
 #include "common/field/value_histogram.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -34,6 +35,32 @@ TEST(ValueHistogram, DoesNotDependOnTheNumberOfThreads) {
   std::vector<double> values(3'000'000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
   EXPECT_EQ(histogram_of(values, -1.0, 1.0, 100, 1).counts, histogram_of(values, -1.0, 1.0, 100, 3).counts);
+}
+
+ValueHistogram bulk_of(const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return bulk_histogram(
+      [&](double lower, double upper) { return histogram_of(values, lower, upper, 1024); }, *low, *high);
+}
+
+TEST(BulkHistogram, AVoxelFarFromAllOthersDoesNotFlattenIt) {
+  std::vector<double> values(4000);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i % 100);
+  for (const double far : {1e20, -1e20, 3e38}) {
+    values[17] = far;
+    const ValueHistogram bulk = bulk_of(values);
+    EXPECT_LE(bulk.upper, 99.0 + 1e-3 * 99.0 + 300.0) << far;
+    EXPECT_GE(bulk.lower, -300.0) << far;
+    EXPECT_GE(bulk.total, 3999U) << far;
+  }
+}
+
+TEST(BulkHistogram, WhatIsRareBesideOneValueStays) {
+  std::vector<double> values(10'000, 0.0);
+  for (std::size_t i = 0; i < 5; ++i) values[1000 * i] = 1.0;
+  EXPECT_EQ(bulk_of(values).upper, 1.0);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = i % 7 == 0 ? 1000.0 : static_cast<double>(i % 5);
+  EXPECT_EQ(bulk_of(values).upper, 1000.0) << "a seventh is not rare";
 }
 
 // Two heaps of equal width: every border in the empty bins between them parts them equally well.

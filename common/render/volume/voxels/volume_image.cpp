@@ -183,6 +183,15 @@ double VolumeImage::value_at(const Vec3& place) const noexcept {
   return sum;
 }
 
+double VolumeImage::nearest_value(const Vec3& place) const noexcept {
+  const Vec3 g = grid_point(place);
+  const Vec3 first = lower(), last = upper();
+  for (int a = 0; a < 3; ++a) {
+    if (!(g[a] >= first[a] && g[a] <= last[a])) return std::numeric_limits<double>::quiet_NaN();
+  }
+  return value(index_in(points, glm::clamp(Index3(glm::round(g)), Index3(0), points - 1)));
+}
+
 std::size_t VolumeImage::point_count() const noexcept { return count_of(points); }
 
 void VolumeImage::copy(const PointBox& box, std::byte* to) const noexcept {

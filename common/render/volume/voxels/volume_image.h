@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/transfer/label_table.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -32,6 +33,8 @@ struct VolumeImage {
   /// A colour for each point, sRGB with an unused fourth byte, for parts that are drawn in it
   /// (Lens::colored), trilinear between points; null: none.
   std::shared_ptr<const std::vector<std::array<std::uint8_t, 4>>> colors;
+  /// Where not null the numbers are labels, and these are those that occur, but for 0: `colors` are theirs.
+  std::shared_ptr<const LabelTable> labels;
   double scale = 1.0;  ///< value = offset + scale * number
   double offset = 0.0;
   double lowest = 0.0;  ///< of the finite values; lowest > highest where there are none
@@ -48,6 +51,8 @@ struct VolumeImage {
   [[nodiscard]] double step_along(const Vec3& direction) const noexcept;
   /// At a place in data coordinates, trilinear; NaN outside and where a value about it is not finite.
   [[nodiscard]] double value_at(const Vec3& place) const noexcept;
+  /// That of the nearest point; NaN outside.
+  [[nodiscard]] double nearest_value(const Vec3& place) const noexcept;
   [[nodiscard]] std::size_t point_count() const noexcept;
   /// Bytes of all numbers, those of sparse ones each by itself.
   [[nodiscard]] std::uint64_t byte_count() const noexcept { return point_count() * byte_size(type); }

@@ -72,7 +72,27 @@ bool edit(const Canvas& canvas, const CurveRange& range, HapticTransferFunction&
   return !(function == before);
 }
 
-void draw(const Canvas& canvas, const CurveRange& range, const HapticTransferFunction& function, int marked) {
+/// Bars as roots, so that rare measures show.
+void draw_bars(const Canvas& canvas, const CurveRange& range, const ValueHistogram& histogram) {
+  if (histogram.counts.empty() || !(histogram.lower < histogram.upper)) return;
+  constexpr std::size_t kBars = 96;
+  std::array<double, kBars> bars{};
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i)
+    bars[i * kBars / histogram.counts.size()] += static_cast<double>(histogram.counts[i]);
+  const double most = std::sqrt(*std::ranges::max_element(bars));
+  if (!(most > 0.0)) return;
+  const ImU32 ink = ImGui::GetColorU32(ImGuiCol_PlotHistogram, 0.35F);
+  const double width = (histogram.upper - histogram.lower) / static_cast<double>(kBars);
+  for (std::size_t i = 0; i < kBars; ++i) {
+    const double from = histogram.lower + width * static_cast<double>(i);
+    const double height = std::lerp(range.low_value, range.high_value, std::sqrt(bars[i]) / most);
+    ImGui::GetWindowDrawList()->AddRectFilled(canvas.pixel({from, height}),
+                                              canvas.pixel({from + width, range.low_value}), ink);
+  }
+}
+
+void draw(const Canvas& canvas, const CurveRange& range, const HapticTransferFunction& function, int marked,
+          const ValueHistogram* histogram) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 low = canvas.pixel({range.low_measure, range.low_value});
   const ImVec2 high = canvas.pixel({range.high_measure, range.high_value});
@@ -85,6 +105,7 @@ void draw(const Canvas& canvas, const CurveRange& range, const HapticTransferFun
     points[as_size(i)] = canvas.pixel({measure, function(measure)});
   }
   list.PushClipRect(upper_left, lower_right, true);
+  if (histogram != nullptr && !function.constant()) draw_bars(canvas, range, *histogram);
   list.AddPolyline(points.data(), static_cast<int>(points.size()), ImGui::GetColorU32(ImGuiCol_PlotLines), 0,
                    1.5F);
   list.PopClipRect();
@@ -98,7 +119,8 @@ void draw(const Canvas& canvas, const CurveRange& range, const HapticTransferFun
 
 }  // namespace
 
-bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, HapticTransferFunction& function) {
+bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, HapticTransferFunction& function,
+                       const ValueHistogram* histogram) {
   ImGui::PushID(labels.name.c_str());
   int& dragged = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("dragged"), kNoKnot);
   const CurveRange shown = grown(range, function);
@@ -109,7 +131,8 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
   bool changed = edit(canvas, shown, function, dragged);
   const auto near = knot_near(function, canvas.knot(ImGui::GetIO().MousePos), kReach, shown);
   const bool hovered = ImGui::IsItemHovered();
-  draw(canvas, shown, function, dragged >= 0 ? dragged : hovered && near ? static_cast<int>(*near) : kNoKnot);
+  draw(canvas, shown, function, dragged >= 0 ? dragged : hovered && near ? static_cast<int>(*near) : kNoKnot,
+       histogram);
   if (hovered && near) {
     ImGui::SetTooltip("%s", knot_text(function.knots()[*near], function, labels).c_str());
   } else if (hovered) {

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "common/field/value_histogram.h"
 #include "common/window/controls/curve_edit.h"
 
 namespace palpate {
@@ -17,6 +18,8 @@ struct CurveLabels {
 };
 
 /// Draws the editor over the width of the panel, and edits `function`. @return whether it changed.
-bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, HapticTransferFunction& function);
+/// @param histogram of the measure, behind the curve; null: none.
+bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, HapticTransferFunction& function,
+                       const ValueHistogram* histogram = nullptr);
 
 }  // namespace palpate

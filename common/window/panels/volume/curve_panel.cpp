@@ -74,12 +74,18 @@ void edit_linear(LinearSettings& settings, const ProbeSession& session) {
   const auto [lowest, highest] = session.data().measure_range(settings.measure);
   CurveRange range{.low_measure = lowest, .high_measure = highest};
   const std::string measure(name_of(settings.measure));
+  const ScalarStatistics* const statistics =
+      settings.measure == LinearMeasure::kSpeed ? nullptr : session.data().statistics();
+  const ValueHistogram* const histogram = statistics == nullptr ? nullptr
+                                          : settings.measure == LinearMeasure::kGradient
+                                              ? &statistics->gradients
+                                              : &statistics->values;
   if (shown.kappa) {
-    draw_curve_editor({.name = "kappa", .measure = measure}, range, axis.kappa);
+    draw_curve_editor({.name = "kappa", .measure = measure}, range, axis.kappa, histogram);
   } else {
     range.high_value = kFarthest;
     draw_curve_editor({.name = "tau", .measure = measure, .unit = "mm", .units = kMillimetres}, range,
-                      axis.tau);
+                      axis.tau, histogram);
   }
   if (open) settings.axes[2] = settings.axes[1];
   edit_setting("friction", settings.friction);

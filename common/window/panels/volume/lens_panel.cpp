@@ -113,6 +113,8 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
                   ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     hint("samples a voxel along a ray, in the lens");
     checkbox("shading", &lens.shading);
+    checkbox("silhouettes", &lens.illustrated);
+    explain("illustration");
     hint("light on what is in the lens");
     ImGui::SameLine();
   }

@@ -61,6 +61,9 @@ void draw_rays(VolumeView& volume) {
   edit_setting("samples", volume.samples_per_voxel);
   edit_setting("far-sampling", volume.far_sampling);
   edit_setting("shading", volume.shading);
+  if (volume.shading) edit_setting("shadows", volume.shadows);
+  edit_setting("illustration", volume.illustrated);
+  if (!volume.lenses.empty()) edit_setting("context-fade", volume.context_fade);
 }
 
 EditedTransfer focus_of(const VolumeView& volume, const SceneState& scene) {

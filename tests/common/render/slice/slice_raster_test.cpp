@@ -256,5 +256,32 @@ TEST(SliceRaster, BlendsASecondImage) {
   }
 }
 
+// A label is that of the nearest voxel, whatever number lies between two of them, and has its own colour.
+TEST(SliceRaster, LabelsAreNotMixed) {
+  VolumeImage image;
+  image.points = {2, 1, 1};
+  image.type = image.stored = ScalarType::kUint8;
+  auto numbers = std::make_shared<std::vector<std::uint8_t>>(std::vector<std::uint8_t>{2, 9});
+  image.bytes = std::as_bytes(std::span<const std::uint8_t>(*numbers));
+  image.owner = numbers;
+  image.lowest = 2.0;
+  image.highest = 9.0;
+  image.labels = std::make_shared<const LabelTable>(
+      std::vector<Label>{{2.0, "a", {1.0F, 0.0F, 0.0F}}, {5.0, "between", {0.0F, 1.0F, 0.0F}}, {9.0, "b", {0.0F, 0.0F, 1.0F}}});
+  SliceView slice{.image = std::make_shared<const VolumeImage>(image), .window = {1.0, 0.5}, .blend = {}, .traces = {}};
+  Camera camera;
+  camera.focal_point = {0.5, 0.0, 0.0};
+  camera.axes = Mat3(1.0);
+  camera.view_height = 1.0;
+  constexpr int kWidth = 16, kHeight = 16;
+  const Image picture = slice_raster(slice, camera, kWidth, kHeight, 1);
+  for (int x = 0; x < kWidth; ++x) {
+    const std::uint8_t* const pixel = picture.rgba.data() + 4 * (kWidth * (kHeight / 2) + x);
+    EXPECT_EQ(pixel[0], x < kWidth / 2 ? 255 : 0) << x;
+    EXPECT_EQ(pixel[1], 0) << x;
+    EXPECT_EQ(pixel[2], x < kWidth / 2 ? 0 : 255) << x;
+  }
+}
+
 }  // namespace
 }  // namespace palpate
