@@ -134,14 +134,11 @@ void StudyWork::make() {
        {"tasks at a place of the session", balance.tasks_at_place}}};
   Json json{
       {"out", folder.path().string()}, {"trials", folder.design().size()}, {"sequences", balance.sequences}};
-  // What was asked for may be too little for anything to come of it.
   if (asked_.recorded < 2 * kLeastOfCondition)
     context_.console.note("--recorded " + std::to_string(asked_.recorded) + " is too few: analyse needs " +
                           std::to_string(kLeastOfCondition) +
                           " trials of each condition of a participant, and leaves everybody out; " +
                           std::to_string(2 * kLeastOfCondition) + " or more are needed");
-  if (asked_.participants < 2)
-    context_.console.note("--participants 1 is too few: analyse compares participants, of whom it needs 2");
   std::string off;
   for (const auto& [what, difference] : counts) {
     json["imbalance"][what] = difference;

@@ -28,10 +28,10 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg", "fit_angle.svg",
      "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg",
      "volume_error.svg", "volume_error.csv", "tracker_position.svg", "tracker_orientation.svg",
-     "head_errors.svg", "heart_errors.svg", "position_effects.svg", "position_errors.svg", "time_effects.svg", "completion_times.svg", "error_time_1.svg",
-     "error_time_2.svg", "error_time_3.svg", "error_time_4.svg", "trials.csv", "trials.json",
-     "participants.csv", "participants.json", "fibre_lines.svg", "distortion_lines.png",
-     "orientation_icons.png", "field_icons.png"});
+     "head_errors.svg", "heart_errors.svg", "position_effects.svg", "position_errors.svg", "time_effects.svg",
+     "completion_times.svg", "error_time_1.svg", "error_time_2.svg", "error_time_3.svg", "error_time_4.svg",
+     "trials.csv", "trials.json", "participants.csv", "participants.json", "fibre_lines.svg",
+     "distortion_lines.png", "orientation_icons.png", "field_icons.png"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
