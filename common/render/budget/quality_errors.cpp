@@ -9,33 +9,24 @@
 namespace palpate {
 namespace {
 
-void add_square(PartError& sum, const PartError& error) noexcept {
+template <std::size_t N>
+void add_squares(PartError& sum, const std::array<double, N>& shares, double share,
+                 const std::array<PartError, N>& errors) noexcept {
+  const auto* const found = std::find(shares.begin(), shares.end(), share);
+  if (found == shares.end()) return;
+  const PartError& error = errors[as_size(found - shares.begin())];
   sum.focus += error.focus * error.focus;
   sum.context += error.context * error.context;
-}
-
-// Of a share; nothing where that is 1.
-template <std::size_t N>
-std::optional<std::size_t> place_of(const std::array<double, N>& shares, double share) noexcept {
-  const auto* const found = std::find(shares.begin(), shares.end(), share);
-  if (found == shares.end()) return std::nullopt;
-  return as_size(found - shares.begin());
 }
 
 }  // namespace
 
 PartError QualityErrors::of(const FrameQuality& quality) const noexcept {
   PartError sum{asked.focus * asked.focus, asked.context * asked.context};
-  if (const auto k = place_of(kContextShares, quality.context)) add_square(sum, context[*k]);
-  if (const auto k = place_of(kFocusShares, quality.focus)) add_square(sum, focus[*k]);
-  const auto coarser = place_of(kViewportShares, quality.viewport);
-  const auto smaller = place_of(kResolutionShares, quality.resolution);
-  if (coarser && smaller && pixels) {
-    add_square(sum, (*pixels)[*coarser][*smaller]);
-  } else {
-    if (coarser) add_square(sum, viewport[*coarser]);
-    if (smaller) add_square(sum, resolution[*smaller]);
-  }
+  add_squares(sum, kContextShares, quality.context, context);
+  add_squares(sum, kFocusShares, quality.focus, focus);
+  add_squares(sum, kViewportShares, quality.viewport, viewport);
+  add_squares(sum, kResolutionShares, quality.resolution, resolution);
   return {std::sqrt(sum.focus), std::sqrt(sum.context)};
 }
 

@@ -8,13 +8,10 @@
 ///
 ///   e(q)^2 = b^2 + sum_k a_k(q)^2                                                                  (1)
 ///
-/// Two savings are no independent causes: a context from a quarter of the pixels of a picture that has a quarter of them itself
-/// is one from a sixteenth, which is far more than both errors. They are one saving, measured as such.
 /// a_k is measured on a sparse set of pixels of a picture at rest (volume/saving_estimate.h).
 #pragma once
 
 #include <array>
-#include <optional>
 
 #include "common/render/budget/frame_quality.h"
 
@@ -36,8 +33,6 @@ struct QualityErrors {
   std::array<PartError, kFocusShares.size()> focus{};
   std::array<PartError, kViewportShares.size()> viewport{};
   std::array<PartError, kResolutionShares.size()> resolution{};
-  /// a of less pixels of the context and of the picture together, by both places; absent: not measured, taken as independent.
-  std::optional<std::array<std::array<PartError, kResolutionShares.size()>, kViewportShares.size()>> pixels;
   double focus_share = 0.0;  ///< of the pixels, that show some of a lens
 
   /// (1). @pre the shares of `quality` are 1 or of the lists.

@@ -149,42 +149,20 @@ bool SavingEstimate::add(VolumePass& pass) {
 
 void SavingEstimate::look_at_pixels(bool lenses) {
   const Image& image = picture_->shown;
-  const auto for_each_place = [&](const auto& visit) {
+  const auto error_of = [&](double share, const Image* without) {
+    PartSum sum;
     for (std::size_t at = 0; at < in_lens_.size(); ++at) {
       const int x = lattice_.place(static_cast<int>(at) % lattice_.columns);
       const int y = image.height - 1 - lattice_.place(static_cast<int>(at) / lattice_.columns);
-      visit(in_lens_[at], x, y);
+      sum.add(in_lens_[at],
+              minus(coarsened_pixel(image, without, share, x, y), color_at(image, without, x, y)));
     }
-  };
-  const auto error_of = [&](double share, const Image* without) {
-    PartSum sum;
-    for_each_place([&](bool focus, int x, int y) {
-      sum.add(focus, minus(coarsened_pixel(image, without, share, x, y), color_at(image, without, x, y)));
-    });
     return sum.error();
   };
   for (std::size_t k = 0; k < kResolutionShares.size(); ++k)
     errors_.resolution[k] = error_of(kResolutionShares[k], nullptr);
   for (std::size_t k = 0; lenses && k < kViewportShares.size(); ++k)
     errors_.viewport[k] = {0.0, error_of(kViewportShares[k], &picture_->behind).context};
-  if (lenses) {
-    // What the volume adds from the product of both shares, what is opaque from the picture's.
-    auto& pixels = errors_.pixels.emplace();
-    for (std::size_t k = 0; k < kViewportShares.size(); ++k) {
-      for (std::size_t n = 0; n < kResolutionShares.size(); ++n) {
-        const double share = kResolutionShares[n];
-        PartSum sum;
-        for_each_place([&](bool focus, int x, int y) {
-          const Color volume = coarsened_pixel(image, &picture_->behind, kViewportShares[k] * share, x, y);
-          const Color opaque = coarsened_pixel(picture_->behind, nullptr, share, x, y);
-          const Color whole = color_at(image, nullptr, x, y);
-          sum.add(focus, {volume[0] + opaque[0] - whole[0], volume[1] + opaque[1] - whole[1],
-                          volume[2] + opaque[2] - whole[2]});
-        });
-        pixels[k][n] = {errors_.resolution[n].focus, sum.error().context};
-      }
-    }
-  }
   errors_.focus_share = static_cast<double>(std::count(in_lens_.begin(), in_lens_.end(), true)) /
                         static_cast<double>(std::max<std::size_t>(1, in_lens_.size()));
 }

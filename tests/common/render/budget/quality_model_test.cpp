@@ -30,18 +30,6 @@ TEST(QualityErrors, AddAsThoseOfIndependentCauses) {
   EXPECT_EQ(errors.of({.viewport = 0.25}).context, 0.02) << "another share";
 }
 
-// A quarter of a quarter of the pixels is a sixteenth of them: one saving.
-TEST(QualityErrors, OfLessPixelsTwiceAreMeasuredTogether) {
-  QualityErrors errors;
-  errors.viewport[0] = {0.0, 0.03};
-  errors.resolution[2] = {0.0, 0.04};
-  EXPECT_NEAR(errors.of({.viewport = 0.5, .resolution = 0.5}).context, 0.05, 1e-15);
-  errors.pixels.emplace()[0][2] = {0.0, 0.09};
-  EXPECT_NEAR(errors.of({.viewport = 0.5, .resolution = 0.5}).context, 0.09, 1e-15);
-  EXPECT_NEAR(errors.of({.viewport = 0.5}).context, 0.03, 1e-15);
-  EXPECT_NEAR(errors.of({.resolution = 0.5}).context, 0.04, 1e-15);
-}
-
 TEST(QualityErrors, UsualOnesGrowAsMoreIsGivenUp) {
   const QualityErrors& usual = usual_errors();
   for (const FrameQuality& a : frame_qualities(true, true)) {
