@@ -10,6 +10,7 @@
 #include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/slice_panes_text.h"
 #include "common/compose/view_keep.h"
 #include "common/field/tensor/tensor_measure.h"
 #include "common/field/transfer/color_transfer.h"
@@ -141,6 +142,9 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
   }
   if (made.tensors) {
     complete_panes(document.panes, *state.tensors, *state.volume);
+    if (state.volume->panes.layout > 1) {
+      if (std::string note = panes_note(*state.volume); !note.empty()) state.notes.push_back(std::move(note));
+    }
     return state;
   }
   // Where there are no tensors, the scene is as large as what is shown in their place.

@@ -7,6 +7,7 @@
 
 #include "apps/dtmri/dtmri_verbs.h"
 #include "common/base/clock.h"
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
@@ -143,6 +144,18 @@ ExitCode run_fit(const Document& options, const VerbContext& context) {
   return finish(options, context, input, made, ImageContent::kTensor, rows_of(made), std::move(summary));
 }
 
+/// Zero would be a direction that is known for sure: where there is no cone, it is open.
+void open_unknown_cones(std::vector<float>& degrees, const std::string& input, Console& console) {
+  constexpr float kOpen = 90.0F;
+  const auto unknown = static_cast<std::size_t>(
+      std::ranges::count_if(degrees, [](float cone) { return std::isnan(cone); }));
+  if (unknown == degrees.size())
+    throw work_error(input +
+                     ": seven volumes determine a tensor and nothing of its noise: no cone is known, more are needed");
+  for (float& cone : degrees) cone = std::isnan(cone) ? kOpen : cone;
+  if (unknown > 0) console.note(input + ": " + counted(unknown, "voxel") + " without a tensor, 90 degrees there");
+}
+
 ExitCode run_measure(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const TensorMeasure measure = measure_from_name(options.output.measure);
@@ -154,8 +167,10 @@ ExitCode run_measure(const Document& options, const VerbContext& context) {
   const Stopwatch watch;
   std::vector<float> values =
       measure_tensors(made.image, made.choice, measure, options.common.threads, westin);
+  if (measure == TensorMeasure::kCone) open_unknown_cones(values, input.title(), context.console);
   ImageSummary summary;
   summary.what = std::string(name_of(measure));
+  if (measure == TensorMeasure::kCone) summary.what += " [degrees]";
   const bool shape = measure == TensorMeasure::kLinear || measure == TensorMeasure::kPlanar ||
                      measure == TensorMeasure::kSpherical;
   if (shape)

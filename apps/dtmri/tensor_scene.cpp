@@ -201,9 +201,9 @@ TractView make_tract_view(std::shared_ptr<const TractBundle> bundle, const Tract
 
 void complete_panes(const PanesOptions& options, TensorView& tensors, VolumeView& volume) {
   if (tensors.underlay) volume.slice_images.push_back(slice_image_of(*tensors.underlay));
+  if (volume.panes.layout == 1) return;
   const Vec3& cross = volume.panes.cross;
-  const bool asked = !options.cross.empty() && tensors.image->contains(tensors.image->grid_coordinates(cross));
-  if (volume.panes.layout > 1 && asked) {
+  if (!options.cross.empty() && tensors.image->contains(tensors.image->grid_coordinates(cross))) {
     tensors.position = cross;
   } else if (options.cross.empty()) {
     volume.panes.cross = tensors.position;

@@ -68,6 +68,7 @@ std::string panes_note(const VolumeView& volume) {
     usual.cross = usual.center = bounds.center();
     usual.first = panes.first;
     usual.radiological = panes.radiological;
+    usual.shown = PanesOptions{}.shown;
     return panes == usual
                ? std::string()
                : "there are no slices in the picture that --cross, --slab and the like are of: --layout 2 and "
