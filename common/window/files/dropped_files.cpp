@@ -1,12 +1,14 @@
 #include "common/window/files/dropped_files.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
@@ -36,6 +38,30 @@ bool is_tractogram(const std::filesystem::path& file) {
   return std::ranges::any_of(format_rows(), [ending = file.extension().string()](const FormatRow& row) {
     return row.holds == "tracts" && names_ending(row, ending);
   });
+}
+
+bool is_gradient_table(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 5> kEndings{".bval", ".bvals", ".bvec", ".bvecs", ".eddy_rotated_bvecs"};
+  return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
+}
+
+/// Takes out gradient tables that an image of the set finds by itself, for they have its name and lie beside it.
+/// @throws Error (usage) for others.
+void take_gradients(std::vector<std::filesystem::path>& data) {
+  const auto tables = std::stable_partition(
+      data.begin(), data.end(), [](const std::filesystem::path& file) { return !is_gradient_table(file); });
+  if (tables == data.begin()) return;  // alone they are none that could be opened, as the model says
+  for (auto table = tables; table != data.end(); ++table) {
+    const std::string name = table->stem().string() + ".";
+    const bool found = std::any_of(data.begin(), tables, [&](const std::filesystem::path& image) {
+      return image.parent_path() == table->parent_path() && image.filename().string().starts_with(name);
+    });
+    if (!found)
+      throw usage_error(table->filename().string() +
+                        " is no table of an image that came with it: the image would have its name, " + name +
+                        "nii.gz; else start with --bval and --bvec");
+  }
+  data.erase(tables, data.end());
 }
 
 enum class Table : std::uint8_t { kNone, kSeeds, kTransfer };
@@ -80,6 +106,7 @@ InputFiles sort_dropped(const std::vector<std::filesystem::path>& files, const I
     }
   }
   std::vector<std::filesystem::path>& data = sorted.files;
+  take_gradients(data);
   const auto tracts = std::stable_partition(
       data.begin(), data.end(), [](const std::filesystem::path& file) { return !is_tractogram(file); });
   // Alone they are what is opened, beside what is open or in place of it.
