@@ -17,6 +17,15 @@ constexpr double kWorthKeeping = 0.5;      // [s]
 constexpr std::size_t kDigestDigits = 64;  // hexadecimal
 static_assert(std::endian::native == std::endian::little, "numbers are cached as they lie in memory");
 
+/// Makes a folder and those above it, but none in one that is read-only, also where root may write to it.
+bool make_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return true;
+  if (folder == folder.root_path() || !make_folder(folder.parent_path()) || !may_cache_beside(folder))
+    return false;
+  return std::filesystem::create_directory(folder, ignored);
+}
+
 }  // namespace
 
 Keeping keeping_from_name(const std::string& name) {
@@ -75,9 +84,7 @@ void CachedFile::note_found(bool found) {
 
 bool CachedFile::wants(double seconds) {
   if (keeping_ == Keeping::kOff || (keeping_ == Keeping::kAuto && seconds < kWorthKeeping)) return false;
-  std::error_code ignored;
-  if (!file_.empty()) std::filesystem::create_directories(file_.parent_path(), ignored);
-  if (!file_.empty() && may_cache_beside(file_)) return true;
+  if (!file_.empty() && make_folder(file_.parent_path()) && may_cache_beside(file_)) return true;
   notes_.push_back(std::string(kind_.what) + " not cached for the next opening: " +
                    (file_.empty() ? "the user has no folder for it"
                                   : "the folder of " + file_.string() + " is read-only"));
