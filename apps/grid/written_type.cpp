@@ -37,7 +37,7 @@ std::string take_type(const SliceOptions& options, DataArray& values, ImageOrigi
     return count > 0 ? (", " + counted(count, "value") + what) : std::string();
   };
   const std::string lost = part(taken.clamped, " beyond its range at its ends") +
-                           part(taken.rounded, " rounded") + part(taken.missing, " that is none at 0");
+                           part(taken.rounded, " rounded") + part(taken.missing, " without a number, at 0");
   return lost.empty() ? "" : "written as " + options.type + lost;
 }
 

@@ -108,7 +108,7 @@ ColorTransfer label_transfer(const VolumeImage& image) {
   const std::vector<Label>& labels = image.labels->labels();
   const bool few = !labels.empty() && labels.size() <= kFew && labels.front().value > 0.0;
   const Vec3f first = few ? labels.front().color : Vec3f{0.8F};
-  std::vector<ColorPoint> points{{kBetween, first, 0.0}, {kBetween, first, kOpacity}};
+  std::vector<ColorPoint> points{{0.0, first, 0.0}, {kBetween, first, 0.0}, {kBetween, first, kOpacity}};
   for (std::size_t i = 1; few && i < labels.size(); ++i) {
     const double border = 0.5 * (labels[i - 1].value + labels[i].value);
     points.push_back({border, labels[i - 1].color, kOpacity});

@@ -95,8 +95,8 @@ void take_curve(std::span<const Knot> knots, HapticTransferFunction& function) {
 }  // namespace
 
 bool ScalarStatistics::has_boundaries() const noexcept {
-  constexpr double kFewest = 5e-4;
-  return boundary > noise && boundaries >= kFewest;
+  constexpr double kFewest = 5e-4, kStandsOut = 2.0;
+  return boundary > kStandsOut * noise && boundaries >= kFewest;
 }
 
 ScalarStatistics scalar_statistics(const ScalarField& field) {

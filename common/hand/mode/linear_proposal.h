@@ -27,6 +27,7 @@ struct ScalarStatistics {
   double boundaries = 0.0;         ///< share of places with m above b and the tenth
   std::vector<double> materials;   ///< by rising value, at most four
 
+  /// Whether some stand out from the noise: B > 2 b, at one place in two thousand or more.
   [[nodiscard]] bool has_boundaries() const noexcept;
 };
 [[nodiscard]] ScalarStatistics scalar_statistics(const ScalarField& field);

@@ -148,11 +148,23 @@ std::vector<ColorSample> deepest_colors(const RegionTransfer& regions, const Val
   return samples;
 }
 
+// The values that a bar spreads its colours over: all of them, but where a transfer function tells apart no more than a 256th
+// of their range, those of its points.
+ValueRange told_apart(const VolumeView& volume) {
+  const ValueRange all{volume.image->lowest, volume.image->highest};
+  const auto& points = volume.transfer.points();
+  if (volume.regions || points.empty()) return all;
+  constexpr double kNarrow = 1.0 / 256.0;
+  const ValueRange told{points.front().value, points.back().value};
+  const bool narrow = told.lower < told.upper && told.upper - told.lower < kNarrow * (all.upper - all.lower);
+  return narrow ? told : all;
+}
+
 // The values of a volume: their colours, and beside them how opaque they are.
 void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float right, float middle,
                         float length) {
   const VolumeView& volume = *view.volume;
-  const ValueRange range{volume.image->lowest, volume.image->highest};
+  const ValueRange range = told_apart(volume);
   if (!(range.lower < range.upper)) return;
   constexpr std::size_t kEntries = 128;
   const std::vector<ColorSample> samples = volume.regions
@@ -162,8 +174,12 @@ void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float righ
   colors.reserve(samples.size());
   for (const ColorSample& sample : samples)
     colors.push_back({sample.color.r, sample.color.g, sample.color.b});
-  const float left = draw_color_bar(pen, {.label = view.volume_label, .table = colors, .range = range}, right,
-                                    middle, length);
+  const float left = draw_color_bar(pen, {.label = view.volume_label,
+                                    .table = colors,
+                                    .range = range,
+                                    .values_below = volume.image->lowest < range.lower,
+                                    .values_above = volume.image->highest > range.upper},
+                                    right, middle, length);
   const float em = pen.text_height(), base = left - 0.3F * em, widest = 2.0F * em;
   const auto place = [&](std::size_t i) {
     const float y = middle + length * (0.5F - static_cast<float>(i) / static_cast<float>(kEntries - 1));

@@ -65,7 +65,7 @@ TEST(VolumeLooks, WhatLiesBeforeALensFades) {
   const Rgba seen = faded.at(kSize / 2, kSize / 2);
   EXPECT_GT(seen[0] - seen[2], 0.8);
   // Beside the lens nothing changes.
-  EXPECT_GT(faded.at(kSize / 2 + kSize / 4, kSize / 2)[3], 0.98);
+  EXPECT_GT(faded.at(kSize / 2 + kSize / 8, kSize / 2)[3], 0.98);
   view.context.viewport = 0.5;  // the context as a picture of its own
   const Rgba apart = picture.draw(view, camera).at(kSize / 2, kSize / 2);
   EXPECT_GT(apart[0] - apart[2], 0.7);
@@ -80,7 +80,7 @@ TEST(VolumeLooks, MatterCastsItsShadowAwayFromTheLight) {
   view.shadows = true;
   const FloatImage shadowed = picture.draw(view, camera);
   // Rows run from the bottom: what faces the light, up and to the left, stays; the far side darkens.
-  const int off = kSize / 5;
+  const int off = kSize / 12;
   const auto share = [&](int x, int y) { return shadowed.at(x, y)[1] / bright.at(x, y)[1]; };
   const double lit = share(kSize / 2 - off, kSize / 2 + off), dark = share(kSize / 2 + off, kSize / 2 - off);
   EXPECT_LT(dark, lit - 0.1);
