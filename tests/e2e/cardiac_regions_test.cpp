@@ -107,9 +107,7 @@ TEST_F(CardiacRegions, AreSaidAndRefusedByNumber) {
   EXPECT_NE(none.err.find("no array that numbers the regions"), std::string::npos) << none.err;
 }
 
-TEST_F(CardiacRegions, ComeBackFromASessionAndAreThoseOfEveryVerb) {
-  std::ofstream(folder_.path("s.palpate.toml"))
-      << "program = \"cardiac\"\nfile = \"tube.vtk\"\n[options]\nregions = \"7\"\n";
+TEST_F(CardiacRegions, AreThoseOfEveryVerb) {
   (void)json(
       {"trace", "tube.vtk", "--regions", "7", "--layer", "0.5", "--seeds", "grid:5,5,3", "--out", "a.csv"});
   std::istringstream rows(read_file(folder_.path("a.csv")));
