@@ -87,7 +87,7 @@ void vrpn(std::span<const std::uint8_t> bytes, std::size_t piece) {
                 vrpn_settings({{"at", "Tracker0@fuzzer"}, {"cap", "3"}}));
   constexpr int kRounds = 300;
   for (int n = 0; n < kRounds; ++n) {
-    (void)round_with(link, n % 4 == 0 ? Vec3{0.0} : Vec3{10.0 * std::sin(n), -5.0, 1.0 * n});
+    (void)test::round_with(link, n % 4 == 0 ? Vec3{0.0} : Vec3{10.0 * std::sin(n), -5.0, 1.0 * n});
     require(is_finite(link.atoms().position));
     for (const double value : link.atoms().valuators) require(std::abs(value) <= 1.0);
   }

@@ -45,8 +45,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
         static_cast<const LoadRequest&>(document.input);
     expect("request", files, solution, refine, series, gaps, markers);
     const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, regions, paint,
-                 mesher, volume, remesher, cache] = static_cast<const InputTexts&>(document.input);
-    expect("input", example, field, time, cells, directions, regions, paint, mesher, volume, cache);
+                 mesher, labels, volume, remesher, cache] = static_cast<const InputTexts&>(document.input);
+    expect("input", example, field, time, cells, directions, regions, paint, mesher, labels, volume, cache);
     const auto& [a, b, c, d, e, f] = raw;
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
@@ -59,8 +59,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tracing", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = document.tracts;
-    expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = document.tracts;
+    expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
@@ -68,24 +68,24 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("view", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = document.volume;
-    expect("volume", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = document.volume;
+    expect("volume", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j] = document.panes;
-    expect("panes", a, b, c, d, e, f, g, h, i, j);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = document.panes;
+    expect("panes", a, b, c, d, e, f, g, h, i, j, k, l, m);
   }
   {
-    const auto& [a, b, c, d, e, f] = document.slice;
-    expect("slice", a, b, c, d, e, f);
+    const auto& [a, b, c, d, e, f, g] = document.slice;
+    expect("slice", a, b, c, d, e, f, g);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = document.tensors;
     expect("tensors", a, b, c, d, e, f, g, h, i, j, k, l);
   }
   {
-    const auto& [a, b, c] = document.tract_appearance;
-    expect("tract_appearance", a, b, c);
+    const auto& [a, b, c, d] = document.tract_appearance;
+    expect("tract_appearance", a, b, c, d);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = document.heart;
