@@ -78,8 +78,9 @@ std::optional<Label> label_of(std::string_view line) {
 LabelTable::LabelTable(std::vector<Label> labels) : labels_(std::move(labels)) {
   std::ranges::reverse(labels_);
   std::ranges::stable_sort(labels_, {}, &Label::value);
-  const auto rest = std::ranges::unique(labels_, {}, &Label::value);
-  labels_.erase(rest.begin(), rest.end());
+  // std::ranges::unique returns what Clang 14 cannot compile.
+  const auto same = [](const Label& a, const Label& b) { return a.value == b.value; };
+  labels_.erase(std::unique(labels_.begin(), labels_.end(), same), labels_.end());
 }
 
 const Label* LabelTable::find(double value) const noexcept {
