@@ -99,7 +99,8 @@ DtmriContent DtmriModel::read(Input& input, const Document& document, Progress& 
   progress.begin("colouring the voxels", 0);
   const auto voxels = make_tensor_voxels(field, input.title(), document.common.threads);
   SceneView view = make_tensor_scene(
-      input, {.tensors = make_tensor_view(voxels, document.tensors), .tracts = {}, .made = &made}, document, 1.0);
+      input, {.tensors = make_tensor_view(voxels, document.tensors), .tracts = {}, .made = &made}, document,
+      1.0);
   SceneState state = begin_state(input, {});
   state.info = info_of(input, view);
   state.volume = std::move(view.volume);
@@ -108,8 +109,8 @@ DtmriContent DtmriModel::read(Input& input, const Document& document, Progress& 
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
   add_fix(made.orientation, document, state);
   const DataArray* const cones = made.image.find(std::string(kConeArray), Association::kPoint);
-  return std::make_shared<const DtmriScene>(
-      DtmriScene{.state = std::move(state), .cones = cones != nullptr ? std::optional(*cones) : std::nullopt});
+  return std::make_shared<const DtmriScene>(DtmriScene{
+      .state = std::move(state), .cones = cones != nullptr ? std::optional(*cones) : std::nullopt});
 }
 
 SceneState DtmriModel::present(Input& input, const DtmriContent& content, const Document& document,

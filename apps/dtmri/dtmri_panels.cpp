@@ -207,7 +207,8 @@ void edit_tracing(TractTracingOptions& tracts, const TensorView& tensors) {
   }
   edit_length("step", tracts.step, kVoxels * edge);
   auto steps = static_cast<int>(std::min<std::int64_t>(tracts.max_steps, 1'000'000));
-  if (slider_int("max steps", &steps, 1, 1'000'000, "%d", ImGuiSliderFlags_Logarithmic)) tracts.max_steps = steps;
+  if (slider_int("max steps", &steps, 1, 1'000'000, "%d", ImGuiSliderFlags_Logarithmic))
+    tracts.max_steps = steps;
   explain("max-steps");
 }
 
@@ -325,7 +326,8 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
 }  // namespace
 
 std::vector<PanelPart> dtmri_panels() {
-  return {[choice = TractSeedChoice(), regions = RegionsPanel(), texts = ReadingTexts()](PanelContext& on) mutable {
+  return {[choice = TractSeedChoice(), regions = RegionsPanel(),
+           texts = ReadingTexts()](PanelContext& on) mutable {
     if (on.scene.tensors && on.view.tensors) {
       draw_tensors(on.state, on.scene, choice, on.view);
       if (on.view.tensors->image->field) draw_reading(texts, on.state.document.input.tensor);

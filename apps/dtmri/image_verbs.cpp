@@ -147,13 +147,15 @@ ExitCode run_fit(const Document& options, const VerbContext& context) {
 /// Zero would be a direction that is known for sure: where there is no cone, it is open.
 void open_unknown_cones(std::vector<float>& degrees, const std::string& input, Console& console) {
   constexpr float kOpen = 90.0F;
-  const auto unknown = static_cast<std::size_t>(
-      std::ranges::count_if(degrees, [](float cone) { return std::isnan(cone); }));
+  const auto unknown =
+      static_cast<std::size_t>(std::ranges::count_if(degrees, [](float cone) { return std::isnan(cone); }));
   if (unknown == degrees.size())
-    throw work_error(input +
-                     ": seven volumes determine a tensor and nothing of its noise: no cone is known, more are needed");
+    throw work_error(
+        input +
+        ": seven volumes determine a tensor and nothing of its noise: no cone is known, more are needed");
   for (float& cone : degrees) cone = std::isnan(cone) ? kOpen : cone;
-  if (unknown > 0) console.note(input + ": " + counted(unknown, "voxel") + " without a tensor, 90 degrees there");
+  if (unknown > 0)
+    console.note(input + ": " + counted(unknown, "voxel") + " without a tensor, 90 degrees there");
 }
 
 ExitCode run_measure(const Document& options, const VerbContext& context) {
@@ -162,8 +164,8 @@ ExitCode run_measure(const Document& options, const VerbContext& context) {
   const WestinScale westin = westin_from_name(options.output.westin);
   check_request(options, "measure", options.output.measure + ".nii.gz");
   Input input = open_input(options, context);
-  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress,
-                                                   measure == TensorMeasure::kCone);
+  const TensorImage made =
+      input.load_tensor_image(options.common.threads, &context.progress, measure == TensorMeasure::kCone);
   const Stopwatch watch;
   std::vector<float> values =
       measure_tensors(made.image, made.choice, measure, options.common.threads, westin);

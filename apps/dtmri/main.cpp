@@ -69,7 +69,8 @@ int main(int argc, char** argv) {
                            "--anisotropy-curve 0:0,0.3:6,smooth --out log.csv",
                            "stops where diffusion is isotropic; with a curve of its own"}}),
               fit_verb(
-                  {{"dtmri fit dwi.nii.gz --out tensor.nii.gz", "b-values and gradients lie next to the file"},
+                  {{"dtmri fit dwi.nii.gz --out tensor.nii.gz",
+                    "b-values and gradients lie next to the file"},
                    {"dtmri fit dwi.nii.gz --bval b.txt --bvec g.txt --mask brain.nii.gz --out tensor.nrrd",
                     "or are named, and so is the mask"}}),
               measure_verb({{"dtmri measure tensor.nii.gz --measure fa --out fa.nii.gz", "from tensors"},

@@ -16,8 +16,8 @@ Verb open_tensors_verb(std::vector<UsageExample> examples) {
   return make_open_verb(
       {.summary =
            "look at tensors in a window, and trace tracts by hand (the verb that FILE alone stands for)",
-       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kTouch, Group::kRecord, Group::kReplay,
-                  Group::kNotes},
+       .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kTouch, Group::kRecord,
+                  Group::kReplay, Group::kNotes},
        .window = user_window(dtmri_panels()),
        .modes = modes_of(FieldKind::kTensor),
        .render = tensor_render_verb({}),

@@ -100,10 +100,11 @@ std::string region_text(const RegionShape& shape) {
 }
 
 TractRegion tract_region(const RegionShape& shape) {
-  return std::visit(
-      Overloaded{[](const std::string& file) -> TractRegion { throw work_error(file + ": a mask is no shape"); },
-                 [](const auto& known) { return TractRegion(known); }},
-      shape);
+  return std::visit(Overloaded{[](const std::string& file) -> TractRegion {
+                                 throw work_error(file + ": a mask is no shape");
+                               },
+                               [](const auto& known) { return TractRegion(known); }},
+                    shape);
 }
 
 std::vector<RegionEntry> regions_of(const TractTracingOptions& options) {
@@ -135,22 +136,21 @@ void set_regions(const std::vector<RegionEntry>& regions, TractTracingOptions& o
 RegionView region_view(RegionRole role, const RegionShape& shape) {
   RegionView view{.shapes = {}, .color = color_of(role)};
   std::visit(
-      Overloaded{
-          [&](const Sphere& ball) { view.shapes.push_back(make_sphere(ball.center, ball.radius)); },
-          [&](const Box& box) {
-            const Vec3 half = 0.5 * box.size();
-            view.shapes.push_back(
-                make_box(box.center(), Mat3{half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z}));
-          },
-          [&](const HalfSpace& beyond) {
-            const ConvexShape::HalfSpace face{.outward = -beyond.normal, .offset = -beyond.offset};
-            view.shapes.push_back({.quadric = {}, .half_spaces = {face}});
-          },
-          [&](const BrushStroke& stroke) {
-            for (const Vec3& center : stroke.centers)
-              view.shapes.push_back(make_sphere(center, stroke.radius));
-          },
-          [](const std::string&) {}},
+      Overloaded{[&](const Sphere& ball) { view.shapes.push_back(make_sphere(ball.center, ball.radius)); },
+                 [&](const Box& box) {
+                   const Vec3 half = 0.5 * box.size();
+                   view.shapes.push_back(
+                       make_box(box.center(), Mat3{half.x, 0.0, 0.0, 0.0, half.y, 0.0, 0.0, 0.0, half.z}));
+                 },
+                 [&](const HalfSpace& beyond) {
+                   const ConvexShape::HalfSpace face{.outward = -beyond.normal, .offset = -beyond.offset};
+                   view.shapes.push_back({.quadric = {}, .half_spaces = {face}});
+                 },
+                 [&](const BrushStroke& stroke) {
+                   for (const Vec3& center : stroke.centers)
+                     view.shapes.push_back(make_sphere(center, stroke.radius));
+                 },
+                 [](const std::string&) {}},
       shape);
   return view;
 }
@@ -169,7 +169,8 @@ std::vector<std::string> write_regions(const std::filesystem::path& file, const 
                                        bool left_handed, const UniformTopology& image,
                                        const ImageOrigin& origin, bool overwrite) {
   const std::vector<RegionEntry> regions = regions_of(options);
-  if (regions.empty()) throw usage_error("there is no region to write: --seeds, --include, --exclude, --stop");
+  if (regions.empty())
+    throw usage_error("there is no region to write: --seeds, --include, --exclude, --stop");
   if (lower_ending(file) == ".csv") {
     OutputFile table(file, overwrite);
     table.write("role,region\n");
@@ -205,8 +206,8 @@ std::vector<std::string> write_regions(const std::filesystem::path& file, const 
       notes.push_back(std::string("WARNING: the ") + kRegionRoleNames[as_size(role)] +
                       " regions hold the centre of no voxel: the image shows nothing of them");
   }
-  for (std::string& line : write_image(file, image, ImageContent::kScalar, values, ImageConvention::kMrtrix,
-                                       overwrite, origin))
+  for (std::string& line :
+       write_image(file, image, ImageContent::kScalar, values, ImageConvention::kMrtrix, overwrite, origin))
     notes.push_back(std::move(line));
   return notes;
 }

@@ -162,10 +162,9 @@ std::string save_regions(const RegionsPanel& panel, const PanelContext& on) {
   try {
     ImageOrigin origin;
     origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
-    const auto notes =
-        write_regions(panel.file, on.state.document.tracts,
-                      on.state.document.input.tensor.handedness == "left",
-                      {voxels.points, voxels.origin, voxels.axes}, origin, true);
+    const auto notes = write_regions(panel.file, on.state.document.tracts,
+                                     on.state.document.input.tensor.handedness == "left",
+                                     {voxels.points, voxels.origin, voxels.axes}, origin, true);
     std::string said = "saved " + panel.file;
     for (const std::string& note : notes) said += "; " + note;
     return said;

@@ -27,8 +27,9 @@ ViewTracts tracts_of(const Document& options, const VerbContext& context,
     const TensorField* const field = tensors ? tensors->image->field.get() : nullptr;
     return read_view_tracts(options.tract_appearance, field, options.common.threads, &context.progress);
   }
-  ViewTracts tracts = trace_view_tracts(
-      options, *tensors->image, made.image.find(std::string(kConeArray), Association::kPoint), &context.progress);
+  ViewTracts tracts =
+      trace_view_tracts(options, *tensors->image,
+                        made.image.find(std::string(kConeArray), Association::kPoint), &context.progress);
   if (tracts.bundle->order.empty()) throw work_error("no tract to draw: " + tracts.why_none);
   return tracts;
 }
@@ -103,7 +104,8 @@ Verb tensor_slice_verb(std::vector<UsageExample> examples) {
             const bool said = std::ranges::find(given.given, "layout") != given.given.end();
             if (!said) options.panes.layout = "4";
             if (options.panes.layout == "1")
-              throw usage_error("slice draws slices: --layout 2 or 4; layout 1, the picture alone, is what render draws");
+              throw usage_error(
+                  "slice draws slices: --layout 2 or 4; layout 1, the picture alone, is what render draws");
             return run_render(options, context);
           }};
 }

@@ -23,14 +23,12 @@ std::vector<SliceImage> slice_images_of(const TensorImage& made,
                                         const std::shared_ptr<const VolumeImage>& anisotropy,
                                         const std::string& file, int threads) {
   const ValueWindow whole{.width = 1.0, .level = 0.5};
-  std::vector<SliceImage> images{
-      {.name = "direction", .image = anisotropy, .window = whole, .colored = true},
-      {.name = "fa", .image = anisotropy, .window = whole}};
+  std::vector<SliceImage> images{{.name = "direction", .image = anisotropy, .window = whole, .colored = true},
+                                 {.name = "fa", .image = anisotropy, .window = whole}};
   DataSet block;
   block.topology = made.image.topology;
-  block.arrays.push_back(
-      make_array("md", Association::kPoint, 1,
-                 measure_tensors(made.image, made.choice, TensorMeasure::kMd, threads)));
+  block.arrays.push_back(make_array("md", Association::kPoint, 1,
+                                    measure_tensors(made.image, made.choice, TensorMeasure::kMd, threads)));
   for (const auto& [name, array] : {std::pair{"b0", kBaselineArray}, std::pair{"cone", kConeArray}}) {
     const DataArray* const found = made.image.find(std::string(array), Association::kPoint);
     if (found == nullptr) continue;

@@ -193,10 +193,8 @@ VolumeView make_tensor_volume(std::shared_ptr<const VolumeImage> anisotropy, con
 }
 
 TractView make_tract_view(std::shared_ptr<const TractBundle> bundle, const TractAppearance& look) {
-  return {.bundle = std::move(bundle),
-          .width = look.width,
-          .opacity = look.opacity,
-          .slab_thickness = look.slab};
+  return {
+      .bundle = std::move(bundle), .width = look.width, .opacity = look.opacity, .slab_thickness = look.slab};
 }
 
 void complete_panes(const PanesOptions& options, TensorView& tensors, VolumeView& volume) {

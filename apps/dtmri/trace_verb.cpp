@@ -11,9 +11,9 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
+#include "common/field/tensor/tensor_measure.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
-#include "common/field/tensor/tensor_measure.h"
 #include "common/scene/tensor/tensor_spec.h"
 
 namespace palpate {
@@ -132,7 +132,8 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.output = options.output.file.string();
   summary.threads = resolve_threads(threads);
 
-  const TensorImage image = input.load_tensor_image(threads, &context.progress, options.tracts.max_cone.has_value());
+  const TensorImage image =
+      input.load_tensor_image(threads, &context.progress, options.tracts.max_cone.has_value());
   for (const std::string& note : image.notes) console.note(input.title() + ": " + note);
   summary.seconds_load = input.seconds_open() + input.seconds_read();
   const Stopwatch prepare;
@@ -140,11 +141,12 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   for (const std::string& note : field->notes().lines) console.note(input.title() + ": " + note);
   summary.field = input.field_label();
   std::vector<std::string> of_masks = check_regions(request, image.image);
-  std::vector<Vec3> seeds = tract_seeds(options.tracts, left_handed, options.common.seed, *field,
-                                              image.image, of_masks, &context.progress);
+  std::vector<Vec3> seeds = tract_seeds(options.tracts, left_handed, options.common.seed, *field, image.image,
+                                        of_masks, &context.progress);
   if (options.tracts.max_cone)
     stop_where_unsure(options.tracts, field->voxels().value_or(UniformTopology()),
-                      image.image.find(std::string(kConeArray), Association::kPoint), request, seeds, of_masks);
+                      image.image.find(std::string(kConeArray), Association::kPoint), request, seeds,
+                      of_masks);
   for (const std::string& note : of_masks) console.note(note);
   summary.options = request.options;
   summary.seeds = seeds.size();

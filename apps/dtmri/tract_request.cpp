@@ -144,8 +144,8 @@ ViewTracts read_view_tracts(const TractAppearance& appearance, const TensorField
   return tracts;
 }
 
-ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels,
-                             const DataArray* cones, Progress* progress) {
+ViewTracts trace_view_tracts(const Document& document, const TensorVoxels& voxels, const DataArray* cones,
+                             Progress* progress) {
   const TractTracingOptions& options = document.tracts;
   const bool left_handed = parse_tensor_spec(document.input.tensor).left_handed;
   TractRequest request = tract_request(options, left_handed, document.common.threads, progress);

@@ -30,8 +30,8 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   TractogramFile file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
   const bool cones = options.output.measure == name_of(TensorMeasure::kCone);
-  const TensorImage made =
-      input.load_tensor_image(options.common.threads, &context.progress, cones && !options.output.profile.empty());
+  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress,
+                                                   cones && !options.output.profile.empty());
   const auto field =
       make_tensor_field(made.image, made.choice, input.title(), options.common.threads, made.notes);
   context.progress.begin("comparing", 0);

@@ -178,11 +178,12 @@ ExitCode run_clip(const Document& options, const VerbContext& context) {
 }  // namespace
 
 Verb clip_verb(std::vector<UsageExample> examples) {
-  return {.name = "clip",
-          .summary = "cut the volume by planes and a box: a picture, or an image of what is left",
-          .groups = {Group::kInput, Group::kView, Group::kOut, Group::kPicture, Group::kPart, Group::kVoxelType},
-          .examples = std::move(examples),
-          .run = run_clip};
+  return {
+      .name = "clip",
+      .summary = "cut the volume by planes and a box: a picture, or an image of what is left",
+      .groups = {Group::kInput, Group::kView, Group::kOut, Group::kPicture, Group::kPart, Group::kVoxelType},
+      .examples = std::move(examples),
+      .run = run_clip};
 }
 
 }  // namespace palpate

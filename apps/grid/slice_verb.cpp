@@ -96,11 +96,12 @@ Greys greys_of(const DataArray& values, const SliceOptions& slice, int threads) 
   constexpr std::size_t kBins = 1024;
   if (greys.lowest < greys.highest) {
     const auto between = [&](double lower, double upper) {
-      return values.sparse ? count_values(
-                                 *values.sparse, [](double number) { return number; }, lower, upper, kBins, threads)
-                           : count_values(
-                                 values.tuples, [&values](std::size_t i) { return values.at(i); }, lower, upper,
-                                 kBins, threads);
+      return values.sparse
+                 ? count_values(
+                       *values.sparse, [](double number) { return number; }, lower, upper, kBins, threads)
+                 : count_values(
+                       values.tuples, [&values](std::size_t i) { return values.at(i); }, lower, upper, kBins,
+                       threads);
     };
     histogram = bulk_histogram(between, greys.lowest, greys.highest);
   }
@@ -348,7 +349,8 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
 Verb slice_verb(std::vector<UsageExample> examples) {
   return {.name = "slice",
           .summary = "write a slice through the volume as a picture or an image, or several side by side",
-          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes, Group::kPanesSize, Group::kVoxelType},
+          .groups = {Group::kInput, Group::kOut, Group::kSlice, Group::kPanes, Group::kPanesSize,
+                     Group::kVoxelType},
           .examples = std::move(examples),
           .run = run_slice};
 }

@@ -22,8 +22,9 @@ std::optional<ScalarType> type_of(const std::string& name) {
 
 void check_type(const SliceOptions& options) {
   if (options.type.empty() || type_of(options.type)) return;
-  throw usage_error("--type: unknown '" + options.type +
-                    "'; known are int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64");
+  throw usage_error(
+      "--type: unknown '" + options.type +
+      "'; known are int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64");
 }
 
 std::string take_type(const SliceOptions& options, DataArray& values, ImageOrigin& origin) {

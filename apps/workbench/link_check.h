@@ -39,7 +39,8 @@ struct LinkCheck {
 
 /// How long after its sample each force would be told to a device that is ready, by a servo of 1 kHz that asks for
 /// none, for `seconds`. @pre link is not null. @throws Cancelled.
-[[nodiscard]] TimeHistogram force_delays(std::shared_ptr<DriverLink> link, double seconds, Progress& progress);
+[[nodiscard]] TimeHistogram force_delays(std::shared_ptr<DriverLink> link, double seconds,
+                                         Progress& progress);
 
 /// What to do about it, a sentence a line, for people; empty where all is well.
 [[nodiscard]] std::vector<std::string> advice_on(const LinkCheck& check);

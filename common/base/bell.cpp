@@ -13,7 +13,8 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 
 // Waits of std::atomic have no time limit.
-long futex(const std::atomic<std::uint32_t>& word, int act, std::uint32_t value, const timespec* until) noexcept {
+long futex(const std::atomic<std::uint32_t>& word, int act, std::uint32_t value,
+           const timespec* until) noexcept {
   static_assert(sizeof(word) == sizeof(std::uint32_t));
   return syscall(SYS_futex, &word, act | FUTEX_PRIVATE_FLAG, value, until, nullptr, FUTEX_BITSET_MATCH_ANY);
 }

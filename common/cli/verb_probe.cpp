@@ -220,7 +220,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
   const Workspace workspace = touch_workspace(
       options.touch, haptic.diagonal, frame_of(haptic.field.get(), haptic.scalar.get(), haptic.tensor.get()));
   summary.settings = touch_settings(options.touch, haptic.field.get(), workspace);
-  if (LinearSettings& linear = summary.settings.linear; linear.measure == LinearMeasure::kAuto && haptic.scalar) {
+  if (LinearSettings& linear = summary.settings.linear;
+      linear.measure == LinearMeasure::kAuto && haptic.scalar) {
     const ScalarStatistics statistics = scalar_statistics(*haptic.scalar);
     linear = proposed(linear, statistics);
     console.note(proposal_text(linear, statistics));

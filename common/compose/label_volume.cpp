@@ -85,7 +85,8 @@ std::shared_ptr<const VolumeImage> with_labels(std::shared_ptr<const VolumeImage
     if (value == 0.0 || !std::isfinite(value)) continue;
     auto known = colors.find(value);
     if (known == colors.end()) {
-      if (colors.size() == kMost) throw usage_error("--labels: more than " + std::to_string(kMost) + " parts");
+      if (colors.size() == kMost)
+        throw usage_error("--labels: more than " + std::to_string(kMost) + " parts");
       present.push_back(asked->at(value));
       Color color{0, 0, 0, 255};
       for (std::size_t c = 0; c < 3; ++c)

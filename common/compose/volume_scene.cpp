@@ -275,8 +275,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   const bool asked =
       volume.planes.shown || options.volume.window || options.volume.level || volume.panes.layout > 1;
   if (asked && !volume.planes.window && image->lowest <= image->highest)
-    complete_window(volume.planes, options.volume,
-                    histogram_of(*image, options.common.threads));
+    complete_window(volume.planes, options.volume, histogram_of(*image, options.common.threads));
   return volume;
 }
 

@@ -51,13 +51,15 @@ ValueHistogram count_values(std::size_t count, const std::function<double(std::s
 ValueHistogram bulk_histogram(const std::function<ValueHistogram(double lower, double upper)>& count,
                               double lower, double upper) {
   constexpr double kFew = 0.0005, kNarrow = 1.0 / 256.0;
-  constexpr int kMostTimes = 16;  // each takes eight binary exponents off: from the largest single precision to 1
+  constexpr int kMostTimes =
+      16;  // each takes eight binary exponents off: from the largest single precision to 1
   const ValueHistogram whole = count(lower, upper);
   ValueHistogram bulk = whole;
   for (int time = 0; time < kMostTimes && bulk.lower < bulk.upper; ++time) {
     // Bins are taken off the ends, the emptier end first, as long as only a few values go.
     std::size_t first = 0, last = bulk.counts.size();
-    const std::uint64_t few = std::max<std::uint64_t>(1, static_cast<std::uint64_t>(kFew * static_cast<double>(whole.total)));
+    const std::uint64_t few =
+        std::max<std::uint64_t>(1, static_cast<std::uint64_t>(kFew * static_cast<double>(whole.total)));
     std::uint64_t gone = whole.total - bulk.total;
     while (last - first > 1) {
       const std::uint64_t below = bulk.counts[first], above = bulk.counts[last - 1];
@@ -73,7 +75,8 @@ ValueHistogram bulk_histogram(const std::function<ValueHistogram(double lower, d
     if (!(static_cast<double>(last - first) < kNarrow * bins)) return bulk;
     const double half_width = (0.5 * bulk.upper - 0.5 * bulk.lower) / bins;
     const double from = bulk.lower + 2.0 * half_width * static_cast<double>(first);
-    const double to = last == bulk.counts.size() ? bulk.upper : bulk.lower + 2.0 * half_width * static_cast<double>(last);
+    const double to =
+        last == bulk.counts.size() ? bulk.upper : bulk.lower + 2.0 * half_width * static_cast<double>(last);
     if (!(bulk.lower < from || to < bulk.upper) || !(from < to)) return whole;
     bulk = count(from, to);
   }

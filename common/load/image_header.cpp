@@ -135,7 +135,8 @@ std::optional<ImageHeader> said_by_nifti(std::string_view bytes) {
 }
 
 /// Takes one key of a segment, "Segment3_Name" and the like.
-void take_segment(std::string_view key, std::string_view value, std::map<std::string, Label, std::less<>>& segments) {
+void take_segment(std::string_view key, std::string_view value,
+                  std::map<std::string, Label, std::less<>>& segments) {
   const std::size_t bar = key.find('_');
   if (!key.starts_with("Segment") || bar == std::string_view::npos) return;
   const std::string_view what = key.substr(bar + 1);

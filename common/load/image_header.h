@@ -24,8 +24,8 @@ struct ImageHeader {
   /// Where the file says that its numbers are labels, with the names and colours that it has for them: NIfTI's intent
   /// (no names), segments of 3D Slicer's .seg.nrrd.
   std::optional<LabelTable> labels;
-  bool nifti = false;       ///< what follows is stated
-  int units = 0;            ///< `xyzt_units`: of lengths in the lowest three bits, of times above them
+  bool nifti = false;  ///< what follows is stated
+  int units = 0;       ///< `xyzt_units`: of lengths in the lowest three bits, of times above them
   int sform_code = 0, qform_code = 0;  ///< 0, too, of forms that cannot be used
   /// Where the qform puts what lies at x [RAS+ mm]: turn x + shift.
   Mat3 qform_turn{1.0};

@@ -58,7 +58,7 @@ struct SceneRenderer::State {
   std::optional<LayeredLines> layered;  // what `layers` held in the last picture
   ColoredLines lines;
   LineSet outline;
-  std::vector<LineSet> regions;  // of each
+  std::vector<LineSet> regions;      // of each
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
@@ -96,7 +96,8 @@ struct SceneRenderer::State {
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
-        shown_outline == view.outline && shown_regions == view.regions && shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
+        shown_outline == view.outline && shown_regions == view.regions &&
+        shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
         shown_tracts == (view.tracts ? view.tracts->bundle : nullptr)) {
       return;
     }

@@ -20,7 +20,7 @@ namespace palpate {
 
 class TickPace {
  public:
-  static constexpr int kSteady = 8;                     ///< ticks
+  static constexpr int kSteady = 8;                      ///< ticks
   static constexpr std::int64_t kPause = 1'000'000'000;  ///< [ns]
   static constexpr std::int64_t kPart = 8;
 

@@ -8,7 +8,7 @@
 
 #include "common/render/lens/lens.h"
 #include "common/render/volume/volume_picture.h"
-#include "lab/extremes/picture_bench.h"
+#include "lab/extremes/picture_stage.h"
 
 namespace palpate {
 namespace {
@@ -29,7 +29,7 @@ class Extremes {
   void same(const std::string& name, const std::string& meaning, const VolumeView& view, const Camera& camera,
             const VolumeView& other, const Camera& other_camera) {
     const FloatImage picture = draw(view, camera);
-    add(name, worst_difference(picture, draw(other, other_camera)), PictureBench::kStep, meaning);
+    add(name, worst_difference(picture, draw(other, other_camera)), PictureStage::kStep, meaning);
   }
 
   /// A picture of numbers from 0 to 1.
@@ -51,7 +51,7 @@ class Extremes {
   }
 
   Progress* progress_;
-  PictureBench picture_;
+  PictureStage picture_;
   std::vector<StabilityCase> cases_;
 };
 

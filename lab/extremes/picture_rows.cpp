@@ -10,7 +10,7 @@
 #include "common/field/data_set.h"
 #include "common/render/lens/lens.h"
 #include "lab/extremes/extreme.h"
-#include "lab/extremes/picture_bench.h"
+#include "lab/extremes/picture_stage.h"
 
 // Made volumes are seen along an axis through a block of one value, whose opacity along a way d is 1 - (1 - alpha)^(d / l)
 // (Ikits 2006, eq. 2.1; color_transfer.h).
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kOpacity = 0.3;  // alpha
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = PictureBench::kStep;
+constexpr double kStep = PictureStage::kStep;
 const char* const kUnit = "of full scale";
 
 /// A block of numbers; its longest side is 1 wide about the origin, unless `stretch` and `away` say otherwise.
@@ -74,27 +74,27 @@ Camera along_z(const VolumeView& view) {
 }
 
 double middle_opacity(const FloatImage& image) {
-  return image.at(PictureBench::kPixels / 2, PictureBench::kPixels / 2)[3];
+  return image.at(PictureStage::kPixels / 2, PictureStage::kPixels / 2)[3];
 }
 
-using Bench = std::shared_ptr<PictureBench>;
+using Stage = std::shared_ptr<PictureStage>;
 
 /// A block seen along z, against the closed form; the view may be altered, the picture may not.
-double depth_error(PictureBench& bench, const Block& block,
+double depth_error(PictureStage& stage, const Block& block,
                    const std::function<void(VolumeView&)>& alter = {}) {
   const double depth = image_of(block)->bounds().size().z, length = 0.5 * depth;
   VolumeView view = view_of(block, length);
   const Camera camera = along_z(view);
   if (alter) alter(view);
   const double expected = 1.0 - std::pow(1.0 - kOpacity, depth / length);
-  return std::abs(middle_opacity(bench.draw(view, camera)) - expected);
+  return std::abs(middle_opacity(stage.draw(view, camera)) - expected);
 }
 
-void add_volumes(std::vector<Extreme>& rows, const Bench& bench) {
+void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
   const auto depth = [&](const std::string& name, const std::string& builder, const Block& block,
                          double limit = kStep) {
     rows.push_back({ExtremeKind::kVolume, name, builder, "opacity against the closed form", limit, kUnit,
-                    [bench, block] { return depth_error(*bench, block); }});
+                    [stage, block] { return depth_error(*stage, block); }});
   };
   depth("one value", "16 x 16 x 16 points", {});
   depth("two points a side", "the fewest that make cells", {.points = Index3(2)});
@@ -116,11 +116,11 @@ void add_volumes(std::vector<Extreme>& rows, const Bench& bench) {
   const auto nothing = [&](const std::string& name, const std::string& builder, const Block& block,
                            const std::function<void(VolumeView&)>& alter) {
     rows.push_back({ExtremeKind::kVolume, name, builder, "the brightest number: nothing is to be seen", 0.0,
-                    kUnit, [bench, block, alter] {
+                    kUnit, [stage, block, alter] {
                       VolumeView view = view_of(block, 0.5);
                       const Camera camera = along_z(view);
                       if (alter) alter(view);
-                      return brightest(bench->draw(view, camera));
+                      return brightest(stage->draw(view, camera));
                     }});
   };
   nothing("all NaN", "no value at all", {.value = [](const Index3&) { return kNaN; }}, {});
@@ -139,12 +139,12 @@ void add_volumes(std::vector<Extreme>& rows, const Bench& bench) {
   });
 }
 
-void add_lenses(std::vector<Extreme>& rows, const Bench& bench) {
+void add_lenses(std::vector<Extreme>& rows, const Stage& stage) {
   // A lens that shows what is shown without it leaves the picture as it is, wherever it lies.
   const auto lens = [&](const std::string& name, const ConvexShape& shape) {
     rows.push_back({ExtremeKind::kLens, name, "shows what is shown without it, over 16^3 points of one value",
-                    "opacity against the closed form", kStep, kUnit, [bench, shape] {
-                      return depth_error(*bench, {}, [&](VolumeView& view) {
+                    "opacity against the closed form", kStep, kUnit, [stage, shape] {
+                      return depth_error(*stage, {}, [&](VolumeView& view) {
                         view.lenses.push_back({.shape = shape});
                         view.lenses.back().samples_per_voxel = view.samples_per_voxel;
                         view.lenses.back().shading = view.shading;
@@ -164,23 +164,23 @@ void add_lenses(std::vector<Extreme>& rows, const Bench& bench) {
        make_box(Vec3(0.5), Mat3(Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 1e-6))));
   // One that cuts all away leaves nothing.
   rows.push_back({ExtremeKind::kLens, "that cuts all away", "a ball around 16^3 points of one value",
-                  "the brightest number: nothing is to be seen", 0.0, kUnit, [bench] {
+                  "the brightest number: nothing is to be seen", 0.0, kUnit, [stage] {
                     VolumeView view = view_of({}, 0.5);
                     view.lenses.push_back({.shape = make_sphere(Vec3(0.5), 100.0), .cut = true});
-                    return brightest(bench->draw(view, along_z(view)));
+                    return brightest(stage->draw(view, along_z(view)));
                   }});
 }
 
-void add_cameras(std::vector<Extreme>& rows, const Bench& bench) {
+void add_cameras(std::vector<Extreme>& rows, const Stage& stage) {
   // From within, what lies before the eye: along z from a depth on.
   const auto sound = [&](const std::string& name, const std::string& builder,
                          const std::function<void(Camera&)>& move) {
     rows.push_back({ExtremeKind::kCamera, name, builder, "the brightest number, none of them NaN", 1.0 + 1e-5,
-                    kUnit, [bench, move] {
+                    kUnit, [stage, move] {
                       const VolumeView view = view_of({}, 0.5);
                       Camera camera = make_camera(view.image->bounds(), {}, 1.0);
                       move(camera);
-                      return brightest(bench->draw(view, camera));
+                      return brightest(stage->draw(view, camera));
                     }});
   };
   sound("within", "the eye next to the middle of the volume", [](Camera& c) { c.view_height *= 1e-3; });
@@ -197,11 +197,11 @@ void add_cameras(std::vector<Extreme>& rows, const Bench& bench) {
   const auto empty = [&](const std::string& name, const std::string& builder,
                          const std::function<void(Camera&)>& move) {
     rows.push_back({ExtremeKind::kCamera, name, builder, "the brightest number: nothing is to be seen", 0.0,
-                    kUnit, [bench, move] {
+                    kUnit, [stage, move] {
                       const VolumeView view = view_of({}, 0.5);
                       Camera camera = along_z(view);
                       move(camera);
-                      return brightest(bench->draw(view, camera));
+                      return brightest(stage->draw(view, camera));
                     }});
   };
   empty("aside", "a view that passes the volume by", [](Camera& c) { c.focal_point.x += 100.0; });
@@ -212,21 +212,21 @@ void add_cameras(std::vector<Extreme>& rows, const Bench& bench) {
   });
   rows.push_back(
       {ExtremeKind::kCamera, "a thousand times too near", "without perspective, on 16^3 points of one value",
-       "opacity against the closed form", kStep, kUnit, [bench] {
+       "opacity against the closed form", kStep, kUnit, [stage] {
          const VolumeView view = view_of({}, 0.5);
          Camera camera = along_z(view);
          camera.view_height *= 1e-3;
-         return std::abs(middle_opacity(bench->draw(view, camera)) - (1.0 - std::pow(1.0 - kOpacity, 2.0)));
+         return std::abs(middle_opacity(stage->draw(view, camera)) - (1.0 - std::pow(1.0 - kOpacity, 2.0)));
        }});
 }
 
 }  // namespace
 
 void add_picture_rows(std::vector<Extreme>& rows) {
-  const auto bench = std::make_shared<PictureBench>();
-  add_volumes(rows, bench);
-  add_lenses(rows, bench);
-  add_cameras(rows, bench);
+  const auto stage = std::make_shared<PictureStage>();
+  add_volumes(rows, stage);
+  add_lenses(rows, stage);
+  add_cameras(rows, stage);
 }
 
 }  // namespace palpate

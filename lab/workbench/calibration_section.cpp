@@ -56,7 +56,8 @@ ReportSection calibration_section(const FitReport& report) {
                              std::to_string(report.degrees_of_freedom) + " degrees of freedom; " +
                              three_digits(100.0 * report.chi_square_probability) +
                              " % of correct models would have a larger one.");
-  if (!report.weak.empty()) out.paragraphs.push_back("Hardly distinguished: " + joined(report.weak, "; ") + ".");
+  if (!report.weak.empty())
+    out.paragraphs.push_back("Hardly distinguished: " + joined(report.weak, "; ") + ".");
   for (const std::string& advice : report.advice) out.paragraphs.push_back("Next: " + advice + ".");
   if (!report.outliers.empty()) {
     std::vector<std::string> rows;

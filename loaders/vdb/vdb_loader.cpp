@@ -71,7 +71,8 @@ class Walk {
 
  private:
   void check(std::uint32_t bytes) {
-    if (!in_ || in_.tellg() + std::int64_t{bytes} > end_) throw openvdb::IoError("has metadata that go on beyond their end");
+    if (!in_ || in_.tellg() + std::int64_t{bytes} > end_)
+      throw openvdb::IoError("has metadata that go on beyond their end");
   }
 
   std::istream& in_;

@@ -152,8 +152,10 @@ TEST_F(DtmriPanes, BoxesAndHalfSpacesTraceAsTheySay) {
   EXPECT_EQ(inside, all);
   EXPECT_EQ(lines({"--exclude", "beyond:0,0,1,1000"}), all);
   EXPECT_LT(lines({"--exclude", "beyond:1,0,0,15"}), all);
-  EXPECT_GT(json({"trace", "--example", "helix", "--seeds", "box:-25,-25,-5,25,25,5"})["seeds"].get<int>(), 10);
-  EXPECT_EQ(run({"trace", "--example", "helix", "--seeds", "fa:0.6", "--max-cone", "10", "--json"}).exit_code, 2)
+  EXPECT_GT(json({"trace", "--example", "helix", "--seeds", "box:-25,-25,-5,25,25,5"})["seeds"].get<int>(),
+            10);
+  EXPECT_EQ(run({"trace", "--example", "helix", "--seeds", "fa:0.6", "--max-cone", "10", "--json"}).exit_code,
+            2)
       << "tensors that were not fitted have no cone";
 }
 

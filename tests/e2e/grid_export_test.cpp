@@ -223,7 +223,9 @@ TEST_F(GridExport, AnotherTypeIsCounted) {
   EXPECT_NE(said_.find(std::to_string(rounded) + " values rounded"), std::string::npos) << said_;
   const std::string slice = written({"slice", "s.nii", "--plane", "axial:42", "--type", "float64"});
   EXPECT_EQ(number_at<std::int16_t>(slice, 70), 64);
-  EXPECT_EQ(run({"clip", "s.nii", "--box=-99,-99,-99,99,99,99", "--type", "float16", "--out", "x.nii"}).exit_code, 2);
+  EXPECT_EQ(
+      run({"clip", "s.nii", "--box=-99,-99,-99,99,99,99", "--type", "float16", "--out", "x.nii"}).exit_code,
+      2);
 }
 
 // Labels are drawn in the colours of their table, with the names, on slices too.
@@ -232,12 +234,13 @@ TEST_F(GridExport, LabelsHaveColoursAndNames) {
   header.intent = 1002;
   folder_.write("l.nii", file_of<std::int16_t>(header, [](int x, int, int) { return x < 6 ? 3 : 7; }));
   folder_.write("names.txt", "3 liver 255 0 0 255\n7 kidney 0 0 255 255\n");
-  const ProgramResult result =
-      run({"slice", "l.nii", "--layout", "2", "--labels", "names.txt", "--size", "320x160", "--out", "l.png"});
+  const ProgramResult result = run(
+      {"slice", "l.nii", "--layout", "2", "--labels", "names.txt", "--size", "320x160", "--out", "l.png"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.err.find("2 parts of a label map"), std::string::npos) << result.err;
   const ProgramResult plain = run({"slice", "l.nii", "--layout", "2", "--size", "320x160", "--out", "p.png"});
-  EXPECT_NE(plain.err.find("2 parts of a label map"), std::string::npos) << "the header says so: " << plain.err;
+  EXPECT_NE(plain.err.find("2 parts of a label map"), std::string::npos)
+      << "the header says so: " << plain.err;
   header.intent = 0;
   folder_.write("w.nii", file_of<std::int16_t>(header, [](int x, int, int) { return x < 6 ? 3 : 7; }));
   const ProgramResult wary = run({"slice", "w.nii", "--layout", "2", "--size", "320x160", "--out", "w.png"});

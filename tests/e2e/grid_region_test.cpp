@@ -34,7 +34,8 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
   region.upper.x += 0.1 * image->bounds().size().x;
   const SavedFiles files(folder_.path(), "grid");
   for (const std::string ending : {".nrrd", ".vti", ".nii.gz"}) {
-    const auto cropped = files.save_region(*image, region, ending, {.space = ImageSpace::kUnknown, .header = {}}).file;
+    const auto cropped =
+        files.save_region(*image, region, ending, {.space = ImageSpace::kUnknown, .header = {}}).file;
     const auto clipped = "clip" + ending;
     const ProgramResult result =
         run({"clip", "--example", "shells", "--box", box_text(region), "--out", clipped});
@@ -43,7 +44,8 @@ TEST_F(GridRegion, TheWindowCropsToWhatClipWrites) {
     EXPECT_FALSE(wanted.empty());
     EXPECT_EQ(bytes_of(cropped), wanted) << ending;
     // Never over a file that is there.
-    EXPECT_NE(files.save_region(*image, region, ending, {.space = ImageSpace::kUnknown, .header = {}}).file, cropped);
+    EXPECT_NE(files.save_region(*image, region, ending, {.space = ImageSpace::kUnknown, .header = {}}).file,
+              cropped);
   }
 }
 
@@ -65,7 +67,8 @@ TEST_F(GridRegion, TheWindowCropsInTheTypeOfTheData) {
     const Box region = new_region(image->bounds());
     write_image(folder_.path("whole.nrrd"), std::get<UniformTopology>(block.topology), block.arrays.at(0),
                 true, ImageSpace::kUnknown);
-    const auto cropped = files.save_region(*image, region, ".nrrd", {.space = ImageSpace::kUnknown, .header = {}});
+    const auto cropped =
+        files.save_region(*image, region, ".nrrd", {.space = ImageSpace::kUnknown, .header = {}});
     EXPECT_EQ(cropped.exact, exact);
     const ProgramResult clipped =
         run({"clip", "whole.nrrd", "--box", box_text(region), "--out", "clipped.nrrd", "--force"});
@@ -81,7 +84,8 @@ TEST_F(GridRegion, TheWindowCropsInTheTypeOfTheData) {
   block.visible.assign(values.size(), 1);
   block.visible[values.size() / 2] = 0;
   const auto holed = make_volume_image(block, kVolumeArray, "shells");
-  const auto hole = files.save_region(*holed, holed->bounds(), ".nrrd", {.space = ImageSpace::kUnknown, .header = {}});
+  const auto hole =
+      files.save_region(*holed, holed->bounds(), ".nrrd", {.space = ImageSpace::kUnknown, .header = {}});
   EXPECT_TRUE(hole.exact);
   EXPECT_NE(bytes_of(hole.file).find("type: double"), std::string::npos);
   block.visible.clear();

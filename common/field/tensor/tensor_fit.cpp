@@ -208,7 +208,8 @@ double cone_of_uncertainty(std::span<const Row> rows, std::span<const double> we
   const double largest = mean + std::hypot(0.5 * (spread(0, 0) - spread(1, 1)), spread(0, 1));
   constexpr double kOutside = 0.05;
   const double twice_quantile = freedom * (std::pow(kOutside, -2.0 / freedom) - 1.0);
-  const double angle = std::atan(std::sqrt(twice_quantile * std::max(0.0, largest))) * 180.0 / std::numbers::pi;
+  const double angle =
+      std::atan(std::sqrt(twice_quantile * std::max(0.0, largest))) * 180.0 / std::numbers::pi;
   return std::isfinite(angle) ? angle : kAny;
 }
 

@@ -36,7 +36,7 @@ enum class NegativeEigenvalues : std::uint8_t {
 struct FitOptions {
   FitWeights weights = FitWeights::kSignal;
   NegativeEigenvalues negative = NegativeEigenvalues::kKept;
-  int threads = 0;  ///< the result does not depend on it
+  int threads = 0;       ///< the result does not depend on it
   bool details = false;  ///< cones and baselines, too
 };
 

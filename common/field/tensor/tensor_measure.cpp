@@ -15,8 +15,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::string_view, kTensorMeasureCount> kNames{"fa", "md",   "cl", "cp",
-                                                                   "cs", "mode", "v1", "color", "v1-cone"};
+constexpr std::array<std::string_view, kTensorMeasureCount> kNames{"fa",   "md", "cl",    "cp",     "cs",
+                                                                   "mode", "v1", "color", "v1-cone"};
 
 double number_of(TensorMeasure measure, const Vec3& eigenvalues, WestinScale westin) {
   switch (measure) {

@@ -19,7 +19,8 @@ Vec3f own_color(double value) {
   const double hue = 6.0 * (value * kGolden - std::floor(value * kGolden));
   const auto part = [hue](double from) {
     const double k = std::fmod(from + hue, 6.0);
-    return static_cast<float>(kLightest - kLightest * kSaturation * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
+    return static_cast<float>(kLightest -
+                              kLightest * kSaturation * std::clamp(std::min(k, 4.0 - k), 0.0, 1.0));
   };
   return {part(5.0), part(3.0), part(1.0)};
 }

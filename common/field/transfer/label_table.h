@@ -10,8 +10,8 @@ namespace palpate {
 
 struct Label {
   double value = 0.0;
-  std::string name;    ///< "label 7" where nobody gave one
-  Vec3f color{0.0F};   ///< sRGB, components in [0, 1]
+  std::string name;   ///< "label 7" where nobody gave one
+  Vec3f color{0.0F};  ///< sRGB, components in [0, 1]
 
   bool operator==(const Label&) const = default;
 };

@@ -22,10 +22,10 @@ namespace palpate {
 /// Of a scalar, data units.
 struct ScalarStatistics {
   ValueHistogram values, gradients;
-  double noise = 0.0;              ///< b of (1)
-  double boundary = 0.0;           ///< B of (2); 0: there is none
-  double boundaries = 0.0;         ///< share of places with m above b and the tenth
-  std::vector<double> materials;   ///< by rising value, at most four
+  double noise = 0.0;             ///< b of (1)
+  double boundary = 0.0;          ///< B of (2); 0: there is none
+  double boundaries = 0.0;        ///< share of places with m above b and the tenth
+  std::vector<double> materials;  ///< by rising value, at most four
 
   /// Whether some stand out from the noise: B > 2 b, at one place in two thousand or more.
   [[nodiscard]] bool has_boundaries() const noexcept;

@@ -224,7 +224,8 @@ Writer writer_for(const std::filesystem::path& path) {
   if (ending == ".trk") return write_trk_lines;
   if (ending == ".trx") return write_trx_lines;
   if (ending == ".csv") return write_csv;
-  throw usage_error(path.string() + ": lines are written as .vtp, .tck, .trk, .trx or .csv, not '" + ending + "'");
+  throw usage_error(path.string() + ": lines are written as .vtp, .tck, .trk, .trx or .csv, not '" + ending +
+                    "'");
 }
 
 }  // namespace

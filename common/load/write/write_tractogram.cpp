@@ -131,7 +131,8 @@ TractWriter tract_writer_for(const std::filesystem::path& path) {
   if (ending == ".trx") return write_trx;
   if (ending == ".vtp") return write_vtp;
   if (ending == ".csv") return write_csv;
-  throw usage_error(path.string() + ": tracts are written as .tck, .trk, .trx, .vtp or .csv, not '" + ending + "'");
+  throw usage_error(path.string() + ": tracts are written as .tck, .trk, .trx, .vtp or .csv, not '" + ending +
+                    "'");
 }
 
 }  // namespace

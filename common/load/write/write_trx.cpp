@@ -27,7 +27,8 @@ class StoredZip {
     const std::uint64_t at = written_;
     if (at + bytes.size() + name.size() + kHead > kMost)
       throw work_error("four gigabytes and more do not go into a .trx file; write .tck or .vtp");
-    Member member{.name = name, .size = static_cast<std::uint32_t>(bytes.size()),
+    Member member{.name = name,
+                  .size = static_cast<std::uint32_t>(bytes.size()),
                   .place = static_cast<std::uint32_t>(at)};
     uLong sum = crc32_z(0, nullptr, 0);
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());

@@ -90,7 +90,7 @@ struct Lens {
   double samples_per_voxel = 4.0;  ///< > 0
   bool shading = true;
   bool illustrated = false;  ///< as VolumeView::illustrated
-  bool cut = false;  ///< cut away: nothing is drawn inside
+  bool cut = false;          ///< cut away: nothing is drawn inside
   /// Colours are those of the voxels, in the context's field; the transfer function gives opacities alone.
   bool colored = false;
   /// >= 1: matter about center_of() is seen this many times as large (shaders/volume/magnify.glsl); it

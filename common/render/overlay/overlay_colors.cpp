@@ -150,21 +150,22 @@ std::vector<ColorSample> deepest_colors(const RegionTransfer& regions, const Val
 
 // The values that a bar spreads its colours over: all of them, but where a transfer function tells apart no more than a 256th
 // of their range, those of its points.
-ValueRange told_apart(const VolumeView& volume) {
+ValueRange distinguished(const VolumeView& volume) {
   const ValueRange all{volume.image->lowest, volume.image->highest};
   const auto& points = volume.transfer.points();
   if (volume.regions || points.empty()) return all;
   constexpr double kNarrow = 1.0 / 256.0;
-  const ValueRange told{points.front().value, points.back().value};
-  const bool narrow = told.lower < told.upper && told.upper - told.lower < kNarrow * (all.upper - all.lower);
-  return narrow ? told : all;
+  const ValueRange shown{points.front().value, points.back().value};
+  const bool narrow =
+      shown.lower < shown.upper && shown.upper - shown.lower < kNarrow * (all.upper - all.lower);
+  return narrow ? shown : all;
 }
 
 // The values of a volume: their colours, and beside them how opaque they are.
 void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float right, float middle,
                         float length) {
   const VolumeView& volume = *view.volume;
-  const ValueRange range = told_apart(volume);
+  const ValueRange range = distinguished(volume);
   if (!(range.lower < range.upper)) return;
   constexpr std::size_t kEntries = 128;
   const std::vector<ColorSample> samples = volume.regions
@@ -174,12 +175,13 @@ void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float righ
   colors.reserve(samples.size());
   for (const ColorSample& sample : samples)
     colors.push_back({sample.color.r, sample.color.g, sample.color.b});
-  const float left = draw_color_bar(pen, {.label = view.volume_label,
-                                    .table = colors,
-                                    .range = range,
-                                    .values_below = volume.image->lowest < range.lower,
-                                    .values_above = volume.image->highest > range.upper},
-                                    right, middle, length);
+  const float left = draw_color_bar(
+      pen,
+      {.label = view.volume_label,
+       .table = colors,
+       .range = range,
+       .values_below = volume.image->lowest<range.lower, .values_above = volume.image->highest> range.upper},
+      right, middle, length);
   const float em = pen.text_height(), base = left - 0.3F * em, widest = 2.0F * em;
   const auto place = [&](std::size_t i) {
     const float y = middle + length * (0.5F - static_cast<float>(i) / static_cast<float>(kEntries - 1));
@@ -190,8 +192,8 @@ void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float righ
 }
 
 // The parts of a label map by name; of many the first ones.
-void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable& table, float right, float middle,
-                 float length) {
+void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable& table, float right,
+                 float middle, float length) {
   const auto most = as_size(std::max(1, static_cast<int>(length / (1.45F * pen.text_height()))));
   const std::vector<Label>& labels = table.labels();
   std::vector<LegendEntry> entries;
@@ -200,8 +202,8 @@ void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable&
     entries.push_back({{label.color.r, label.color.g, label.color.b}, label.name});
   }
   const std::size_t left_out = labels.size() - entries.size();
-  draw_legend(pen, view.volume_label + (left_out > 0 ? ", " + std::to_string(left_out) + " more" : ""), entries,
-              right, middle);
+  draw_legend(pen, view.volume_label + (left_out > 0 ? ", " + std::to_string(left_out) + " more" : ""),
+              entries, right, middle);
 }
 
 void draw_directions(const OverlayPen& pen, bool anatomical, float right, float middle) {

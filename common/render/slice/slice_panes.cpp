@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-constexpr int kGap = 2;               // pixels between panes
+constexpr int kGap = 2;                // pixels between panes
 constexpr double kSlabOfVoxels = 2.0;  // of tracts over a slice, where no thickness is said
 constexpr std::array<SlicePlane, 3> kPlanes{SlicePlane::kSagittal, SlicePlane::kCoronal, SlicePlane::kAxial};
 

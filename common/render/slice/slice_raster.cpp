@@ -204,11 +204,11 @@ void color_picture(const VolumeImage& image, const Pixels& pixels, int threads, 
       for (int x = 0; x < picture.width; ++x) {
         std::uint8_t* const pixel = picture.rgba.data() + 4 * (row * as_size(picture.width) + as_size(x));
         if (pixel[3] == 0) continue;
-        const Index3 at = glm::clamp(Index3(glm::round(first + static_cast<double>(row) * down +
-                                                       static_cast<double>(x) * right)),
-                                     Index3(0), image.points - 1);
-        const auto& color = (*image.colors)[as_size(at.x) +
-                                            as_size(image.points.x) *
+        const Index3 at = glm::clamp(
+            Index3(glm::round(first + static_cast<double>(row) * down + static_cast<double>(x) * right)),
+            Index3(0), image.points - 1);
+        const auto& color =
+            (*image.colors)[as_size(at.x) + as_size(image.points.x) *
                                                 (as_size(at.y) + as_size(image.points.y) * as_size(at.z))];
         for (std::size_t c = 0; c < 3; ++c)
           pixel[c] = static_cast<std::uint8_t>((pixel[c] * color[c] + 127) / 255);
@@ -260,8 +260,8 @@ void blend_over(const SliceBlend& blend, const std::vector<double>& values, Imag
 }  // namespace
 
 bool same_pixels(const SliceView& a, const SliceView& b) {
-  return a.image == b.image && a.window == b.window && a.colored == b.colored && a.slab == b.slab && a.rule == b.rule &&
-         a.most_planes == b.most_planes && a.blend == b.blend;
+  return a.image == b.image && a.window == b.window && a.colored == b.colored && a.slab == b.slab &&
+         a.rule == b.rule && a.most_planes == b.most_planes && a.blend == b.blend;
 }
 
 Image slice_raster(const SliceView& slice, const Camera& camera, int width, int height, int threads) {
@@ -276,14 +276,16 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
     const double value = values[i];
     if (!std::isfinite(value)) continue;
     if (image.labels) {
-      std::ranges::copy(label_pixel(*image.labels, value), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
+      std::ranges::copy(label_pixel(*image.labels, value),
+                        picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
       continue;
     }
     const std::uint8_t grey = byte_of_part(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
     const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
     std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
-  if (slice.colored && image.colors) color_picture(image, pixels_of(image, slice, camera, width, height), threads, picture);
+  if (slice.colored && image.colors)
+    color_picture(image, pixels_of(image, slice, camera, width, height), threads, picture);
   if (slice.blend && slice.blend->opacity > 0.0)
     blend_over(*slice.blend, all_values(*slice.blend->image), picture);
   return picture;

@@ -71,7 +71,8 @@ struct SliceImage {
 struct SliceBlend {
   std::shared_ptr<const VolumeImage> image;
   ColorMap map = ColorMap::kHeat;
-  double opacity = 0.0;  ///< of its highest value; lower ones are clearer, in proportion; of labels, of all of them
+  double opacity =
+      0.0;  ///< of its highest value; lower ones are clearer, in proportion; of labels, of all of them
 
   bool operator==(const SliceBlend&) const = default;
 };
@@ -88,7 +89,7 @@ struct SliceTrace {
 /// across its line of sight, cuts the volume. Labels have their colours, and no slab. What the slab reaches lies half before and half behind it.
 struct SliceView {
   std::shared_ptr<const VolumeImage> image;
-  ValueWindow window;  ///< of black and white
+  ValueWindow window;    ///< of black and white
   bool colored = false;  ///< SliceImage::colored: grey (1) of slice_raster.h times the colour
   double slab = 0.0;
   SlabRule rule = SlabRule::kMean;

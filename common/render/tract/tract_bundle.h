@@ -58,8 +58,8 @@ struct TractView {
   double width = 1.5;                         ///< at the focal point, in thousandths of the picture's height
   double opacity = 1.0;                       ///< in (0, 1]
   bool depth_cue = true;                      ///< farther lines fade into the background
-  std::optional<double> slab_thickness;       ///< of what slices show [data units]; absent: two of their steps
-  std::optional<TractSlab> slab;              ///< of this picture; absent: all is seen
+  std::optional<double> slab_thickness;  ///< of what slices show [data units]; absent: two of their steps
+  std::optional<TractSlab> slab;         ///< of this picture; absent: all is seen
 
   bool operator==(const TractView&) const =
       default;  ///< bundles count as the same where they are the same object

@@ -18,7 +18,15 @@ namespace {
 constexpr double kBetweenQuestions = 30.0;
 
 // Locations and bindings of shaders/tract/.
-enum Uniform : GLint { kWidth = 0, kFading = 1, kDimming = 2, kOpacity = 3, kPiece = 4, kSlab = 5, kSlabHalf = 6 };
+enum Uniform : GLint {
+  kWidth = 0,
+  kFading = 1,
+  kDimming = 2,
+  kOpacity = 3,
+  kPiece = 4,
+  kSlab = 5,
+  kSlabHalf = 6
+};
 constexpr GLuint kPointBuffer = 0;
 
 }  // namespace
@@ -58,7 +66,8 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
   if (how.slab && !(how.slab->half > 0.0)) return last;
   GlProgram& program = programs_[(screened ? 1U : 0U) + (how.slab ? 2U : 0U)];
   if (!program) {
-    const std::vector<std::string> defines = how.slab ? std::vector<std::string>{"SLAB"} : std::vector<std::string>();
+    const std::vector<std::string> defines =
+        how.slab ? std::vector<std::string>{"SLAB"} : std::vector<std::string>();
     program = compile_program("tract/tract.vert", screened ? "tract/screened.frag" : "tract/tract.frag",
                               shader_files(), defines);
   }

@@ -16,11 +16,11 @@ namespace palpate {
 
 /// How tracts are drawn into a picture.
 struct TractDraw {
-  float width = 1.5F;      ///< [pixels] at the focal point; anywhere a pixel at least
-  float fading = 1.0F;     ///< share of the depth cue
-  float dimming = 0.0F;    ///< share of the background at any depth
-  float opacity = 1.0F;    ///< below one they are screened, sample by sample
-  double tolerance = 0.0;  ///< how far lines may be moved to save points (scene frame)
+  float width = 1.5F;                  ///< [pixels] at the focal point; anywhere a pixel at least
+  float fading = 1.0F;                 ///< share of the depth cue
+  float dimming = 0.0F;                ///< share of the background at any depth
+  float opacity = 1.0F;                ///< below one they are screened, sample by sample
+  double tolerance = 0.0;              ///< how far lines may be moved to save points (scene frame)
   std::optional<TractSlab> slab = {};  ///< all that is drawn
 };
 

@@ -110,11 +110,11 @@ void ContextPicture::draw_context(const FrameBlock& smaller) {
   const bool lit = view_.shading || has_illustration(view_);
   GlProgram& program = lit ? shaded_ : unlit_;
   if (!program)
-    program = compile_program("volume/volume.vert",
-                              ShaderVariant{.fragment = "volume/context.frag",
-                                            .defines = lit ? std::vector<std::string>{"SHADED"}
-                                                                     : std::vector<std::string>{}},
-                              defines_);
+    program = compile_program(
+        "volume/volume.vert",
+        ShaderVariant{.fragment = "volume/context.frag",
+                      .defines = lit ? std::vector<std::string>{"SHADED"} : std::vector<std::string>{}},
+        defines_);
   glUseProgram(program.name());
   glUniform1i(volume_shader::kHasOpaqueDepth, has_opaque_depth_ ? 1 : 0);
   glUniform3f(volume_shader::kDepthPixel, 1.0F / scale_, -left_ / scale_, -bottom_ / scale_);

@@ -28,7 +28,7 @@ enum class Content : std::int32_t { kTransferColors, kCutAway, kVoxelColors };
 struct PartBlock {
   std::int32_t transfer = 0;
   float samples = 0.0F;
-  std::int32_t looks = 0;  ///< kLit and the other bits of shaders/volume/shape_block.glsl
+  std::int32_t appearance = 0;  ///< kLit and the other bits of shaders/volume/shape_block.glsl
   Content content = Content::kTransferColors;
 };
 
@@ -38,7 +38,8 @@ PartBlock part_of(const VolumeView& view, std::size_t transfer, double samples, 
   constexpr std::int32_t kLit = 1, kShadows = 2, kIllustrated = 4;
   return {.transfer = static_cast<std::int32_t>(transfer),
           .samples = static_cast<float>(samples),
-          .looks = (shaded ? kLit : 0) | (shaded && view.shadows ? kShadows : 0) | (illustrated ? kIllustrated : 0),
+          .appearance = (shaded ? kLit : 0) | (shaded && view.shadows ? kShadows : 0) |
+                        (illustrated ? kIllustrated : 0),
           .content = content};
 }
 
@@ -52,8 +53,8 @@ Content content_of(bool colored) { return colored ? Content::kVoxelColors : Cont
 std::vector<PartBlock> parts_of(const VolumeView& view) {
   const std::vector<FieldTransfer> transfers = transfers_of(view);
   PALPATE_CHECK(transfers.size() <= kMostTransfers);
-  std::vector<PartBlock> parts{part_of(view, 0, view.samples_per_voxel, view.shading,
-                                       view.illustrated, content_of(view.colored))};
+  std::vector<PartBlock> parts{
+      part_of(view, 0, view.samples_per_voxel, view.shading, view.illustrated, content_of(view.colored))};
   for (const Lens& lens : view.lenses) {
     std::size_t place = 0;
     if (!lens.cut && (lens.field > 0 || lens.transfer || lens.regions)) {

@@ -15,11 +15,10 @@ bool same_picture(const VolumeView& a, const VolumeView& b) {
          a.far_sampling == b.far_sampling && a.shading == b.shading && a.shadows == b.shadows &&
          a.illustrated == b.illustrated && a.context_fade == b.context_fade && a.lenses == b.lenses &&
          a.cuts == b.cuts && a.planes == b.planes && a.panes == b.panes && a.slice_images == b.slice_images &&
-         a.colored == b.colored &&
-         a.shown == b.shown && a.preintegrate == b.preintegrate && a.table_entries == b.table_entries &&
-         a.table_lengths == b.table_lengths && a.skip_empty == b.skip_empty &&
-         a.stop_where_opaque == b.stop_where_opaque && a.cache_slabs == b.cache_slabs &&
-         a.context == b.context && a.storage == b.storage;
+         a.colored == b.colored && a.shown == b.shown && a.preintegrate == b.preintegrate &&
+         a.table_entries == b.table_entries && a.table_lengths == b.table_lengths &&
+         a.skip_empty == b.skip_empty && a.stop_where_opaque == b.stop_where_opaque &&
+         a.cache_slabs == b.cache_slabs && a.context == b.context && a.storage == b.storage;
 }
 
 FieldTransfer transfer_of(const VolumeView& view, const Lens& lens) {

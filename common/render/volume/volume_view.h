@@ -103,8 +103,9 @@ struct VolumeView {
   /// nearest, in lenses too (Ikits 2006, ch. 9; shaders/volume/far.glsl). A context that is drawn alone has
   /// samples of its own.
   double far_sampling = 1.0;
-  bool shading = true;   ///< Phong, with gradients of the values as normals
-  bool shadows = false;  ///< where there is light: what lies between a place and it darkens the place, in lenses too
+  bool shading = true;  ///< Phong, with gradients of the values as normals
+  bool shadows =
+      false;  ///< where there is light: what lies between a place and it darkens the place, in lenses too
   /// Outside lenses: opacities by the angle between surface and ray (shaders/volume/illustration.glsl), silhouettes whole.
   bool illustrated = false;
   /// In [0, 1]: share of its opacity that matter before a lens on the ray loses, by that angle (same file).

@@ -128,17 +128,17 @@ struct VolumeOptions {
 
 /// Slices that are seen beside a volume (render/slice/slice_view.h).
 struct PanesOptions {
-  std::string layout = "1";           ///< 1, 2, 4: SlicePanes::layout
-  std::string first = "axial";        ///< name of SlicePanes::first
-  std::string cross;                  ///< x,y,z; empty: the middle of the volume
-  std::string turn;                   ///< qw,qx,qy,qz of SlicePanes::turn; empty: none
-  std::string center;                 ///< x,y,z; empty: the middle of the volume
-  double zoom = 1.0;                  ///< SlicePanes::zoom
-  double slab = 0.0;                  ///< SlicePanes::slab
-  std::string rule = "mean";          ///< name of SlicePanes::rule
-  std::string side = "radiological";  ///< radiological, neurological
-  double blend = 0.0;                 ///< SlicePanes::blend
-  std::string shown = "direction";    ///< SlicePanes::shown of tensors
+  std::string layout = "1";             ///< 1, 2, 4: SlicePanes::layout
+  std::string first = "axial";          ///< name of SlicePanes::first
+  std::string cross;                    ///< x,y,z; empty: the middle of the volume
+  std::string turn;                     ///< qw,qx,qy,qz of SlicePanes::turn; empty: none
+  std::string center;                   ///< x,y,z; empty: the middle of the volume
+  double zoom = 1.0;                    ///< SlicePanes::zoom
+  double slab = 0.0;                    ///< SlicePanes::slab
+  std::string rule = "mean";            ///< name of SlicePanes::rule
+  std::string side = "radiological";    ///< radiological, neurological
+  double blend = 0.0;                   ///< SlicePanes::blend
+  std::string shown = "direction";      ///< SlicePanes::shown of tensors
   std::optional<double> window, level;  ///< SlicePanes::window of tensors
 };
 
@@ -169,9 +169,9 @@ struct TensorOptions {
 
 /// Tracts of a file, and how tracts are drawn.
 struct TractAppearance {
-  std::string file;      ///< a tractogram; empty: none
-  double width = 1.5;    ///< thousandths of the picture's height
-  double opacity = 1.0;  ///< in (0, 1]
+  std::string file;            ///< a tractogram; empty: none
+  double width = 1.5;          ///< thousandths of the picture's height
+  double opacity = 1.0;        ///< in (0, 1]
   std::optional<double> slab;  ///< TractView::slab_thickness
 };
 

@@ -324,9 +324,8 @@ std::vector<Setting> device_rows() {
        .groups = {Group::kMenu}},
       {.name = "out",
        .place = kOutputAt<&OutputOptions::file>,
-       .help =
-           "table, a row a step: with --path of the forces, as the explorers' probe; of a menu what was "
-           "pointed at, chosen, set and picked",
+       .help = "table, a row a step: with --path of the forces, as the explorers' probe; of a menu what was "
+               "pointed at, chosen, set and picked",
        .value = "FILE.csv",
        .heading = "Output",
        .groups = {Group::kFeel, Group::kMenu},

@@ -372,9 +372,10 @@ const Setting kInputRows[] = {
      .otherwise = "that of FILE"},
     {.name = "labels",
      .place = kInputAt<&InputOptions::labels>,
-     .help = "whether whole numbers name parts, which are drawn in colours of their own: auto where the file says so "
-             "(NIfTI's intent, segmentations of 3D Slicer), on, off, or a table of names and colours (of 3D Slicer, "
-             "FreeSurfer or ITK-SNAP, or rows VALUE,NAME)",
+     .help =
+         "whether whole numbers name parts, which are drawn in colours of their own: auto where the file says so "
+         "(NIfTI's intent, segmentations of 3D Slicer), on, off, or a table of names and colours (of 3D Slicer, "
+         "FreeSurfer or ITK-SNAP, or rows VALUE,NAME)",
      .value = "auto|on|off|FILE",
      .heading = "Input",
      .groups = {Group::kInput},

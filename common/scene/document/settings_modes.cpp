@@ -66,8 +66,9 @@ const Setting kModeRows[] = {
      .recorded = true},
     {.name = "measure",
      .place = kLinearAt<&LinearSpec::measure>,
-     .help = "what curves take, in data units: the value of the scalar, or the size of its gradient; auto: that which "
-             "parts the data better, with --tau and --kappa from its histogram, noise and boundaries, and says so",
+     .help =
+         "what curves take, in data units: the value of the scalar, or the size of its gradient; auto: that which "
+         "parts the data better, with --tau and --kappa from its histogram, noise and boundaries, and says so",
      .heading = "Touch",
      .groups = {Group::kTouch},
      .kinds = kVolumes,

@@ -102,9 +102,10 @@ const Setting kOutputRows[] = {
      .saved = false},
     {.name = "measure",
      .place = kOutputAt<&OutputOptions::measure>,
-     .help = "fa, md, cl, cp, cs, mode, v1-cone (half the opening of the 95 % cone of the main direction in degrees, of "
-             "images that are fitted), v1 (main direction) or color (of it, times fa); a profile has one of the "
-             "first seven",
+     .help =
+         "fa, md, cl, cp, cs, mode, v1-cone (half the opening of the 95 % cone of the main direction in degrees, of "
+         "images that are fitted), v1 (main direction) or color (of it, times fa); a profile has one of the "
+         "first seven",
      .value = "NAME",
      .heading = "Output",
      .groups = {Group::kMeasure, Group::kTurn},
@@ -177,8 +178,9 @@ const Setting kOutputRows[] = {
      .title = "Region"},
     {.name = "type",
      .place = kSliceAt<&SliceOptions::type>,
-     .help = "of voxels that are written: int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32 or "
-             "float64; values that it does not hold become its nearest ones, and are counted",
+     .help =
+         "of voxels that are written: int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32 or "
+         "float64; values that it does not hold become its nearest ones, and are counted",
      .value = "TYPE",
      .heading = "Output",
      .groups = {Group::kVoxelType},

@@ -91,9 +91,10 @@ const Setting kPanesRows[] = {
      .range = kShare},
     {.name = "slice-show",
      .place = kPanesAt<&PanesOptions::shown>,
-     .help = "what slices show of tensors: main directions in colour, fractional anisotropy, mean diffusivity, "
-             "the fitted signal without weighting or the 95 % cone of the main direction (of images that are fitted), or "
-             "the underlay",
+     .help =
+         "what slices show of tensors: main directions in colour, fractional anisotropy, mean diffusivity, "
+         "the fitted signal without weighting or the 95 % cone of the main direction (of images that are fitted), or "
+         "the underlay",
      .heading = "Slices",
      .groups = {Group::kPanes},
      .kinds = kTensors,

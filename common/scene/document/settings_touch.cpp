@@ -224,7 +224,8 @@ const Setting kTouchRows[] = {
      .recorded = true},
     {.name = "ticks",
      .place = kTouchAt<&TouchOptions::ticks>,
-     .help = "haptic tick marks at equal times along the line: 'auto', or the time between them in data units",
+     .help =
+         "haptic tick marks at equal times along the line: 'auto', or the time between them in data units",
      .value = "auto|T",
      .heading = "Touch",
      .groups = {Group::kTouch},

@@ -205,8 +205,9 @@ const Setting kTracingRows[] = {
      .otherwise = "by --min-radius"},
     {.name = "max-cone",
      .place = kTractAt<&TractTracingOptions::max_cone>,
-     .help = "lines end where the 95 % cone of the main direction opens wider than this, in degrees; of images that are "
-             "fitted",
+     .help =
+         "lines end where the 95 % cone of the main direction opens wider than this, in degrees; of images that are "
+         "fitted",
      .value = "DEG",
      .heading = "Tracts",
      .groups = {Group::kLines},

@@ -306,7 +306,8 @@ const Setting kViewRows[] = {
      .slider = {.lower = 0.05, .upper = 1.0}},
     {.name = "tract-slab",
      .place = kTractAppearanceAt<&TractAppearance::slab>,
-     .help = "thickness of the slab about a slice whose tracts are drawn over it, 0 for none; farther ones are fainter",
+     .help =
+         "thickness of the slab about a slice whose tracts are drawn over it, 0 for none; farther ones are fainter",
      .value = "D",
      .heading = "View",
      .groups = {Group::kView},
@@ -341,7 +342,7 @@ const Setting kViewRows[] = {
     {.name = "walls",
      .place = kHeartAt<&HeartOptions::walls>,
      .help =
-         "surfaces of the wall, translucent, beside the layer: inner, outer, both; found colours them by what they were "
+         "surfaces of the wall, translucent, with the layer: inner, outer, both; found colours them by what they were "
          "taken for (endocardium, right endocardium, septum, epicardium, base, none); auto is found in windows, "
          "where neither layers nor surfaces are the file's own, else none",
      .heading = "View",

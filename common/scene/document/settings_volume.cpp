@@ -53,15 +53,16 @@ const Setting kVolumeRows[] = {
      .file = true},
     {.name = "lens",
      .place = kVolumeAt<&VolumeOptions::lenses>,
-     .help = "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two "
-             "corners), cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each), "
-             "halfspace:nx,ny,nz,d (where n.x > d) or screen:x,y,r (a circle that stays on the screen, in "
-             "heights of the picture from its middle); behind it ',cut' cuts it away (',off' with it: a "
-             "half-space does not for now), ',magnify=M' enlarges, ',blend=B' has values go over into those "
-             "of --context-level along that share of the way to its middle, ',samples=N', ',shading=on' "
-             "or 'off' and ',illustration=on' or 'off' are its own, ',field=NAME' shows another scalar of the file, or of another one (FILE "
-             "or FILE:NAME), on its own grid, and last ',tf=' its own transfer function, as --focus-tf has "
-             "it; may be repeated, the first one wins",
+     .help =
+         "a region drawn in a way of its own, in data units: sphere:x,y,z,r, box:x,y,z,x,y,z (two "
+         "corners), cylinder:x,y,z,x,y,z,r, polyhedron:nx,ny,nz,d,... (where n.x <= d for each), "
+         "halfspace:nx,ny,nz,d (where n.x > d) or screen:x,y,r (a circle that stays on the screen, in "
+         "heights of the picture from its middle); behind it ',cut' cuts it away (',off' with it: a "
+         "half-space does not for now), ',magnify=M' enlarges, ',blend=B' has values go over into those "
+         "of --context-level along that share of the way to its middle, ',samples=N', ',shading=on' "
+         "or 'off' and ',illustration=on' or 'off' are its own, ',field=NAME' shows another scalar of the file, or of another one (FILE "
+         "or FILE:NAME), on its own grid, and last ',tf=' its own transfer function, as --focus-tf has "
+         "it; may be repeated, the first one wins",
      .value = "SHAPE",
      .heading = "View",
      .groups = {Group::kView},
@@ -150,16 +151,18 @@ const Setting kVolumeRows[] = {
      .kinds = kAllButHearts},
     {.name = "illustration",
      .place = kVolumeAt<&VolumeOptions::illustration>,
-     .help = "drawn as lines are: matter whose surface is seen from the side stays, what faces the viewer or has "
-             "no surface is clear; also ',illustration=on' of a lens",
+     .help =
+         "drawn as lines are: matter whose surface is seen from the side stays, what faces the viewer or has "
+         "no surface is clear; also ',illustration=on' of a lens",
      .value = "on|off",
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kAllButHearts},
     {.name = "context-fade",
      .place = kVolumeAt<&VolumeOptions::context_fade>,
-     .help = "share of the opacity that what lies before a lens loses, so that the lens is seen through it: most "
-             "where its surface faces the viewer",
+     .help =
+         "share of the opacity that what lies before a lens loses, so that the lens is seen through it: most "
+         "where its surface faces the viewer",
      .value = "SHARE",
      .heading = "View",
      .groups = {Group::kView},

@@ -30,7 +30,6 @@ void turn_tensors(const Mat3& turn, std::vector<float>& tensors) {
   }
 }
 
-
 /// The block that has all arrays of the source.
 DataSet block_of(std::vector<DataSet> blocks, const TensorInput& input) {
   for (DataSet& block : blocks) {

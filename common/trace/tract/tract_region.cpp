@@ -16,9 +16,8 @@ bool holds(const HalfSpace& beyond, const Vec3& x) noexcept {
 }
 
 bool holds(const BrushStroke& stroke, const Vec3& x) noexcept {
-  return std::any_of(stroke.centers.begin(), stroke.centers.end(), [&](const Vec3& center) {
-    return glm::distance(x, center) <= stroke.radius;
-  });
+  return std::any_of(stroke.centers.begin(), stroke.centers.end(),
+                     [&](const Vec3& center) { return glm::distance(x, center) <= stroke.radius; });
 }
 
 bool holds(const std::shared_ptr<const VoxelMask>& mask, const Vec3& x) noexcept { return mask->contains(x); }

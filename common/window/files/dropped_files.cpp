@@ -41,7 +41,8 @@ bool is_tractogram(const std::filesystem::path& file) {
 }
 
 bool is_gradient_table(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> kEndings{".bval", ".bvals", ".bvec", ".bvecs", ".eddy_rotated_bvecs"};
+  constexpr std::array<std::string_view, 5> kEndings{".bval", ".bvals", ".bvec", ".bvecs",
+                                                     ".eddy_rotated_bvecs"};
   return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
 }
 

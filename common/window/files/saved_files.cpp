@@ -128,7 +128,8 @@ SavedFiles::SavedRegion SavedFiles::save_region(const VolumeImage& image, const 
     }
   }
   SavedRegion saved{.file = free_name("crop", ending)};
-  saved.lost = write_image(saved.file, part_of(grid, *part), as_stored(values, image, saved.exact), false, origin);
+  saved.lost =
+      write_image(saved.file, part_of(grid, *part), as_stored(values, image, saved.exact), false, origin);
   return saved;
 }
 

@@ -154,7 +154,8 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
   if (!actions.touch.save_notes.empty()) attempt([&] { return write_notes(actions.touch.save_notes); });
   if (!actions.region.crop.empty()) {
     attempt([&] {
-      ImageOrigin origin{.space = view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown, .header = {}};
+      ImageOrigin origin{.space = view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown,
+                         .header = {}};
       if (state_.scene != nullptr && !state_.scene->info->files.files.empty())
         origin.header = read_image_header(state_.scene->info->files.files.front());
       const SavedFiles::SavedRegion saved =

@@ -11,7 +11,9 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
   // Outlines of many lenses take time.
   const std::string words =
       mouse_in != nullptr ? std::to_string(mouse_in - parts.data()) + under_mouse : std::string();
-  if (parts == parts_ && words == under_mouse_ && moving == moving_ && complete_ && same_picture(scene, scene_)) return;
+  if (parts == parts_ && words == under_mouse_ && moving == moving_ && complete_ &&
+      same_picture(scene, scene_))
+    return;
   scene_ = scene;
   parts_ = parts;
   under_mouse_ = words;

@@ -113,9 +113,14 @@ ReportSection chain_rivals_section(const std::vector<RivalRun>& runs) {
       "Drifts and cue error are the largest ones; none in 'lets go' means that the hand came to twice the "
       "depth "
       "limit without it."};
-  section.columns = {
-      "angle [deg]",    "method",          "off the curve [mm]",       "behind the surface [mm]",
-      "cue error [mm]", "release distance [mm]", "off the curve after [mm]", "us a step"};
+  section.columns = {"angle [deg]",
+                     "method",
+                     "off the curve [mm]",
+                     "behind the surface [mm]",
+                     "cue error [mm]",
+                     "release distance [mm]",
+                     "off the curve after [mm]",
+                     "us a step"};
   constexpr double kMicro = 1e-6;
   for (const RivalRun& run : runs) {
     const std::string method(name_of(run.method));

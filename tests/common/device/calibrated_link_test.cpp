@@ -2,12 +2,13 @@
 // force that waits until both were seen to fit.
 
 #include "common/device/calibrated_link.h"
-#include "tests/common/device/driver/round_with.h"
 
 #include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>
+
+#include "tests/common/device/driver/round_with.h"
 
 namespace palpate::test {
 namespace {

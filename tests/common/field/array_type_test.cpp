@@ -35,8 +35,8 @@ TEST(InType, KeepsWhatFractionsHold) {
 
 TEST(ClampedTo, CountsWhatATypeDoesNotHold) {
   const std::vector<double> values{-300.0, 0.5, 12.0, 128.0, std::nan(""), HUGE_VAL};
-  const ClampedArray taken =
-      clamped_to(make_array("ct", Association::kPoint, 1, std::span<const double>(values)), ScalarType::kInt8);
+  const ClampedArray taken = clamped_to(
+      make_array("ct", Association::kPoint, 1, std::span<const double>(values)), ScalarType::kInt8);
   EXPECT_EQ(taken.array.name, "ct");
   EXPECT_EQ(taken.clamped, 3U);
   EXPECT_EQ(taken.rounded, 1U);

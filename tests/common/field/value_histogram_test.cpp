@@ -39,8 +39,8 @@ TEST(ValueHistogram, DoesNotDependOnTheNumberOfThreads) {
 
 ValueHistogram bulk_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return bulk_histogram(
-      [&](double lower, double upper) { return histogram_of(values, lower, upper, 1024); }, *low, *high);
+  return bulk_histogram([&](double lower, double upper) { return histogram_of(values, lower, upper, 1024); },
+                        *low, *high);
 }
 
 TEST(BulkHistogram, AVoxelFarFromAllOthersDoesNotFlattenIt) {
@@ -59,7 +59,8 @@ TEST(BulkHistogram, WhatIsRareBesideOneValueStays) {
   std::vector<double> values(10'000, 0.0);
   for (std::size_t i = 0; i < 5; ++i) values[1000 * i] = 1.0;
   EXPECT_EQ(bulk_of(values).upper, 1.0);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = i % 7 == 0 ? 1000.0 : static_cast<double>(i % 5);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = i % 7 == 0 ? 1000.0 : static_cast<double>(i % 5);
   EXPECT_EQ(bulk_of(values).upper, 1000.0) << "a seventh is not rare";
 }
 

@@ -50,7 +50,8 @@ class TalkativeLink final : public DriverLink {
 TEST(LinkThread, AllocatesNothingWhileItShowsForce) {
   const auto link = std::make_shared<TalkativeLink>();
   LinkedDevice device(link);
-  for (int n = 0; n < 30'000 && link->without == 0; ++n) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (int n = 0; n < 30'000 && link->without == 0; ++n)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_GT(link->without, 0U) << "words are made at rest";
   // Several times as long as the pause between two words.
   for (int n = 0; n < 30'000 && link->rounds < 500; ++n) {

@@ -186,7 +186,8 @@ TEST_F(LinkedDeviceTest, StopsAtOnceAndUntilTheNextCommand) {
 /// Tells the force of a round first, then reads the next position, as arms do; each position has its round's number.
 class CountingLink final : public DriverLink {
  public:
-  static constexpr double kStep = 1e-5;  // [m] by which the wall is pressed further each round, back after kRounds
+  static constexpr double kStep =
+      1e-5;  // [m] by which the wall is pressed further each round, back after kRounds
   static constexpr int kRounds = 1000;
 
   CountingLink() {
@@ -213,7 +214,7 @@ class CountingLink final : public DriverLink {
   [[nodiscard]] std::string place() const override { return "here"; }
 
   static constexpr double kStiffness = 100.0;  // [N/m]
-  std::array<std::atomic<int>, 4> lags_{};     ///< rounds by how many rounds old the sample of their force was
+  std::array<std::atomic<int>, 4> lags_{};  ///< rounds by how many rounds old the sample of their force was
   std::atomic<int> rounds_{0};
 
  private:
@@ -237,8 +238,8 @@ TEST_F(LinkedDeviceTest, AForceIsShownInTheRoundAfterItsSample) {
   ServoLoop servo(device, std::make_unique<ProxyChain>(std::move(wall), settings), "");
   ASSERT_TRUE(comes([&] { return link->rounds_ > 3000; }));
   const int all = link->lags_[0] + link->lags_[1] + link->lags_[2] + link->lags_[3];
-  EXPECT_GT(link->lags_[1], all / 2) << link->lags_[0] << " " << link->lags_[1] << " " << link->lags_[2] << " "
-                                         << link->lags_[3];
+  EXPECT_GT(link->lags_[1], all / 2) << link->lags_[0] << " " << link->lags_[1] << " " << link->lags_[2]
+                                     << " " << link->lags_[3];
 }
 
 TEST_F(LinkedDeviceTest, LeavesNoForceBehind) {

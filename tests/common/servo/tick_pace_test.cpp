@@ -61,7 +61,8 @@ Course run(double interval, double jitter, bool follows, unsigned seed) {
     course.ticks.push_back(now);
     now += kTick;
     const auto command = std::upper_bound(samples.begin(), samples.end(), now);
-    if (sample.count != 0 && command != samples.end() && now > 1'000'000'000) course.delays.push_back(*command - sample.last);
+    if (sample.count != 0 && command != samples.end() && now > 1'000'000'000)
+      course.delays.push_back(*command - sample.last);
     (void)pace.ended(now);
   }
   return course;

@@ -240,8 +240,8 @@ unsigned HdLink::tick() {
     hd_.update_calibration(static_cast<unsigned>(style));
     calibration = hd_.check_calibration();
   }
-  const bool fresh = now - heard_.load(std::memory_order_acquire) <= kFreshFor && !ending && frame_.error == 0 &&
-                     ready_.load(std::memory_order_acquire);
+  const bool fresh = now - heard_.load(std::memory_order_acquire) <= kFreshFor && !ending &&
+                     frame_.error == 0 && ready_.load(std::memory_order_acquire);
   const Vec3 asked = ordered();
   const Vec3 allowed = rearm_.allowed(is_finite(asked) ? asked : Vec3{0.0});
   const Vec3 wanted = force_within(fresh ? allowed : Vec3{0.0}, cap_);

@@ -142,7 +142,7 @@ class HdLink final : public DriverLink {
 
   TripleBuffer<Frame> frames_;
   std::atomic<bool> ending_{false}, ended_{true};
-  std::atomic<bool> ready_{false};  ///< there may be force
+  std::atomic<bool> ready_{false};   ///< there may be force
   std::atomic<double> heard_{-1.0};  ///< [s] when the link's own thread was last at work
 
   // The callback's own while there is one.

@@ -131,7 +131,10 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
   bool changed = edit(canvas, shown, function, dragged);
   const auto near = knot_near(function, canvas.knot(ImGui::GetIO().MousePos), kReach, shown);
   const bool hovered = ImGui::IsItemHovered();
-  draw(canvas, shown, function, dragged >= 0 ? dragged : hovered && near ? static_cast<int>(*near) : kNoKnot,
+  draw(canvas, shown, function,
+       dragged >= 0      ? dragged
+       : hovered && near ? static_cast<int>(*near)
+                         : kNoKnot,
        histogram);
   if (hovered && near) {
     ImGui::SetTooltip("%s", knot_text(function.knots()[*near], function, labels).c_str());

@@ -40,7 +40,8 @@ TEST(LabelTable, LabelsWithoutARowAreToldApart) {
 
 TEST(LabelTable, RefusesARowThatIsNone) {
   const TempFolder folder;
-  for (const char* text : {"7 liver 255 0\n", "7 liver 255 0 300 255\n", "seven liver 1 2 3 4\n", "1.5 x 1 2 3 4\n", ""})
+  for (const char* text :
+       {"7 liver 255 0\n", "7 liver 255 0 300 255\n", "seven liver 1 2 3 4\n", "1.5 x 1 2 3 4\n", ""})
     EXPECT_THROW((void)read_label_table(folder.write("l.txt", text).string()), Error) << text;
 }
 

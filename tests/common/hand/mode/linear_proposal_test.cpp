@@ -24,7 +24,11 @@ std::shared_ptr<const ScalarField> field_of(double noise, const F& value) {
   for (int k = 0; k < kN; ++k)
     for (int j = 0; j < kN; ++j)
       for (int i = 0; i < kN; ++i) values.push_back(value(i) + noise * normal(random));
-  DataSet block{.name = "", .topology = UniformTopology{.points = Index3(kN)}, .arrays = {}, .visible = {}, .hidden_cells = {}};
+  DataSet block{.name = "",
+                .topology = UniformTopology{.points = Index3(kN)},
+                .arrays = {},
+                .visible = {},
+                .hidden_cells = {}};
   block.arrays.push_back(make_array("s", Association::kPoint, 1, std::span<const double>(values)));
   return make_scalar_field({block}, {.array = "s"}, "test", 1);
 }

@@ -266,9 +266,10 @@ TEST(SliceRaster, LabelsAreNotMixed) {
   image.owner = numbers;
   image.lowest = 2.0;
   image.highest = 9.0;
-  image.labels = std::make_shared<const LabelTable>(
-      std::vector<Label>{{2.0, "a", {1.0F, 0.0F, 0.0F}}, {5.0, "between", {0.0F, 1.0F, 0.0F}}, {9.0, "b", {0.0F, 0.0F, 1.0F}}});
-  SliceView slice{.image = std::make_shared<const VolumeImage>(image), .window = {1.0, 0.5}, .blend = {}, .traces = {}};
+  image.labels = std::make_shared<const LabelTable>(std::vector<Label>{
+      {2.0, "a", {1.0F, 0.0F, 0.0F}}, {5.0, "between", {0.0F, 1.0F, 0.0F}}, {9.0, "b", {0.0F, 0.0F, 1.0F}}});
+  SliceView slice{
+      .image = std::make_shared<const VolumeImage>(image), .window = {1.0, 0.5}, .blend = {}, .traces = {}};
   Camera camera;
   camera.focal_point = {0.5, 0.0, 0.0};
   camera.axes = Mat3(1.0);

@@ -14,7 +14,8 @@ constexpr int kSize = 80;
 
 VolumeView view_of(const Formula& formula) {
   VolumeView view;
-  view.image = make_volume_image(sampled_block(Index3(49), Vec3(1.0), ScalarType::kFloat32, formula), "s", "test");
+  view.image =
+      make_volume_image(sampled_block(Index3(49), Vec3(1.0), ScalarType::kFloat32, formula), "s", "test");
   view.transfer = ColorTransfer({{0.45, {0.8F, 0.8F, 0.8F}, 0.0}, {0.55, {0.8F, 0.8F, 0.8F}, 0.6}});
   return view;
 }
@@ -80,11 +81,12 @@ TEST(VolumeLooks, MatterCastsItsShadowAwayFromTheLight) {
   view.shadows = true;
   const FloatImage shadowed = picture.draw(view, camera);
   // Rows run from the bottom: what faces the light, up and to the left, stays; the far side darkens.
-  const int off = kSize / 12;
+  const int off = kSize / 5;
   const auto share = [&](int x, int y) { return shadowed.at(x, y)[1] / bright.at(x, y)[1]; };
   const double lit = share(kSize / 2 - off, kSize / 2 + off), dark = share(kSize / 2 + off, kSize / 2 - off);
   EXPECT_LT(dark, lit - 0.1);
-  EXPECT_NEAR(shadowed.at(kSize / 2, kSize / 2)[3], bright.at(kSize / 2, kSize / 2)[3], 0.02) << "opacity stays";
+  EXPECT_NEAR(shadowed.at(kSize / 2, kSize / 2)[3], bright.at(kSize / 2, kSize / 2)[3], 0.02)
+      << "opacity stays";
 }
 
 }  // namespace

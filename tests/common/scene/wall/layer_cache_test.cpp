@@ -152,7 +152,7 @@ TEST_F(LayerCacheTest, AFolderThatCannotBeWrittenIsSaid) {
     EXPECT_FALSE(cache.find(mesh));
     cache.keep(mesh, solved(mesh), 9.0);
     ASSERT_EQ(cache.notes().size(), 1U);
-    EXPECT_NE(cache.notes().front().find("not kept"), std::string::npos) << cache.notes().front();
+    EXPECT_NE(cache.notes().front().find("not cached"), std::string::npos) << cache.notes().front();
     EXPECT_FALSE(std::filesystem::exists(cache.file()));
   }
 }

@@ -173,7 +173,7 @@ TEST_F(MeshCacheTest, NothingIsKeptWhereThatIsNotWantedOrPossible) {
   ::setenv("XDG_CACHE_HOME", folder_.path("shut").c_str(), 1);
   const WallMesh shut = make(input(), Keeping::kAlways);
   EXPECT_FALSE(shut.tets.empty());
-  EXPECT_NE(shut.notes.back().find("not kept"), std::string::npos) << shut.notes.back();
+  EXPECT_NE(shut.notes.back().find("not cached"), std::string::npos) << shut.notes.back();
   EXPECT_FALSE(std::filesystem::exists(kept()));
   ::setenv("XDG_CACHE_HOME", folder_.path("cache").c_str(), 1);
   // A file's own tetrahedra stand in the file already.

@@ -369,7 +369,7 @@ TEST(ThinWalls, ARingThatClosesOnItselfHasNone) {
 TEST(ThinWalls, AmongCellsWithPointsOfTheirOwnCannotBeTold) {
   for (const Association association : kBoth) {
     const Field field = field_of({WalledBox(12, crack, 0, kN, true).take(association, along)}, association);
-    EXPECT_TRUE(noted(field->notes(), "could not be told"));
+    EXPECT_TRUE(noted(field->notes(), "could not be distinguished"));
     expect_ends(field, [](double, double) { return false; });
   }
 }

@@ -286,7 +286,8 @@ TEST_F(Inverse3LinkTest, NoticesAtOnceThatTheServiceEndedAndFindsItAgain) {
     run(0.05 + 0.0007 * n, kForce);
     const double ended = web_.now();
     web_.listens = false;
-    while (link_.status().phase == LinkPhase::kReady && web_.now() < ended + 1.0) (void)round_with(link_, kForce);
+    while (link_.status().phase == LinkPhase::kReady && web_.now() < ended + 1.0)
+      (void)round_with(link_, kForce);
     EXPECT_LT(web_.now() - ended, kNoticed);
     EXPECT_EQ(web_.connections(), 0);
     run(0.3, kForce);

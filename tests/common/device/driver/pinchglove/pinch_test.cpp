@@ -79,7 +79,8 @@ class PinchLinkTest : public ::testing::Test {
     link_ = std::make_unique<PinchLink>(std::move(line));
   }
   void run(double seconds) {
-    for (const double until = line_->now() + seconds; line_->now() < until;) (void)round_with(*link_, Vec3{0.0});
+    for (const double until = line_->now() + seconds; line_->now() < until;)
+      (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] std::uint32_t buttons() const { return link_->atoms().buttons; }
 

@@ -266,7 +266,8 @@ class FastrakAtALine : public ::testing::Test {
                                            settings_);
   }
   void run(double seconds) {
-    for (const double until = line_->now() + seconds; line_->now() < until;) (void)round_with(*link_, Vec3{0.0});
+    for (const double until = line_->now() + seconds; line_->now() < until;)
+      (void)round_with(*link_, Vec3{0.0});
   }
   [[nodiscard]] const PoseAtom& pose(int station) const {
     return link_->poses()->stations[static_cast<std::size_t>(station - 1)];

@@ -352,7 +352,8 @@ TEST_F(LibusbTransport, CarriesTheFalconFromOpeningToForcesAndUnplugging) {
   for (int n = 0; n < 100; ++n) (void)round_with(link, {0.0, 0.0, 1.0});
   EXPECT_GT(falcon_.largest_motor(), 0);
   usbfs_->unplug();
-  for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n) (void)round_with(link, {0.0, 0.0, 1.0});
+  for (int n = 0; n < 20 && link.status().phase == LinkPhase::kReady; ++n)
+    (void)round_with(link, {0.0, 0.0, 1.0});
   EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
 }
 
@@ -383,7 +384,8 @@ TEST(LibusbPedal, IsHeardWhileItIsHeldAndReleasedWhenItIsPulledOut) {
     }
     usbfs.unplug();
     EXPECT_TRUE(until_down(0));
-    for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n) (void)round_with(link, Vec3{0.0});
+    for (int n = 0; n < 5 && link.status().phase != LinkPhase::kAbsent; ++n)
+      (void)round_with(link, Vec3{0.0});
     EXPECT_EQ(link.status().phase, LinkPhase::kAbsent);
   }
 }

@@ -34,7 +34,8 @@ class VrpnLinkTest : public ::testing::Test {
   }
 
   void run(double seconds, const Vec3& force) {
-    for (const double until = place_->now() + seconds; place_->now() < until;) (void)round_with(*link_, force);
+    for (const double until = place_->now() + seconds; place_->now() < until;)
+      (void)round_with(*link_, force);
   }
   void get_ready() {
     run(1.0, Vec3{0.0});

@@ -10,7 +10,7 @@
 
 namespace palpate {
 
-class PictureBench {
+class PictureStage {
  public:
   static constexpr int kPixels = 48;
   static constexpr double kStep = 1.0 / 255;  ///< of a screen
