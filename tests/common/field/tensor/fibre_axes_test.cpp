@@ -1,5 +1,6 @@
 // Directions without a sign, as those of muscle fibres, interpolated as outer products (Ikits 2006,
 // sec. 8.2).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -149,8 +150,10 @@ TEST(FibreAxes, AMissingDirectionIsTheMeanOfThoseAround) {
   const Vec3 axis = symmetric_eigen(sample.value).vectors[0];
   EXPECT_GT(std::abs(glm::dot(axis, fibre(middle))), std::cos(0.1));
   EXPECT_EQ(field->notes().bad_values, 0U);
-  ASSERT_EQ(field->notes().lines.size(), 1U);
-  EXPECT_EQ(field->notes().lines[0], "1 point without a direction has the mean of the points around");
+  const auto& lines = field->notes().lines;
+  EXPECT_EQ(
+      std::count(lines.begin(), lines.end(), "1 point without a direction has the mean of the points around"),
+      1);
 }
 
 TEST(FibreAxes, AHoleHasNoDirection) {
