@@ -180,7 +180,7 @@ TEST_F(DtmriTrace, RefusesWhatItCannotDo) {
   };
   refused({}, 2, "--seeds");
   refused({"--seeds", "fa:2"}, 2, "no voxel");
-  refused({"--seeds", "speed:10"}, 2, "sphere:x,y,z,r");
+  refused({"--seeds", "speed:10"}, 2, "sphere:");
   refused({"--seeds", "sphere:0,0,0,0"}, 2, "radius");
   refused({"--seeds", "point:20,0,0", "--integrator", "rodas4"}, 2, "dp54");
   refused({"--seeds", "point:20,0,0", "--measure", "md"}, 2, "fa, cl");

@@ -17,10 +17,20 @@ namespace palpate::test {
 
 using Json = nlohmann::json;
 
+/// The user's folder for what can be made again; empty: there is none.
+inline std::string users_cache() {
+  const char* const cache = std::getenv("XDG_CACHE_HOME");  // NOLINT(concurrency-mt-unsafe): one thread
+  if (cache != nullptr && *cache != '\0') return cache;
+  const char* const home = std::getenv("HOME");  // NOLINT(concurrency-mt-unsafe): one thread
+  return home != nullptr && *home != '\0' ? std::string(home) + "/.cache" : std::string();
+}
+
 class ExplorerTest : public ::testing::Test {
  protected:
   explicit ExplorerTest(std::string explorer) : explorer_(std::move(explorer)) {
-    // What is kept for the next opening is a test's own.
+    // What is cached for the next opening is a test's own; shaders that the driver has compiled are everybody's.
+    static const std::string everybodys = users_cache();
+    if (!everybodys.empty()) ::setenv("MESA_SHADER_CACHE_DIR", everybodys.c_str(), 0);
     ::setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1);
   }
 

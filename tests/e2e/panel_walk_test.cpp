@@ -228,9 +228,10 @@ class PanelWalk : public ExplorerTest {
   }
 
   /// What a click into its control changes: not lists of what the data have (fields, modes, seeds), nor what is
-  /// drawn (colours of values), nor two whose lists say other words.
+  /// drawn (colours of values), nor two whose lists say other words, nor what needs
+  /// tensors that were fitted.
   static bool pressed_by_a_click(const Setting& row) {
-    static const std::set<std::string_view> kOthers{"stroke", "voxels"},
+    static const std::set<std::string_view> kOthers{"stroke", "voxels", "max-cone"},
         kTexts{"integrator",      "color", "background", "angle", "cross",
                "contour-spacing", "range", "resample",   "layer"};
     if (kOthers.contains(row.name)) return false;
@@ -292,7 +293,7 @@ class PanelWalk : public ExplorerTest {
   std::set<std::pair<std::string, std::string>> walked_;  // by the program
   static constexpr int kFrames = 44;                      // for all events of a control, and what follows
   static constexpr int kEnter = 257;                      // GLFW's
-  static constexpr int kWidth = 700, kHeight = 1900;
+  static constexpr int kWidth = 700, kHeight = 3000;
   static constexpr float kTextHeight = 14.0F;
 };
 
