@@ -22,6 +22,9 @@ template <typename... Functions>
 struct Overloaded : Functions... {
   using Functions::operator()...;
 };
+// Clang 14 deduces none for what has no constructor.
+template <typename... Of>
+Overloaded(Of...) -> Overloaded<Of...>;
 
 std::vector<std::string>& list_of(RegionRole role, TractTracingOptions& options) {
   return role == RegionRole::kExclude ? options.exclude
