@@ -27,7 +27,7 @@ void edit_word(const char* setting_name, const char* label, std::string& word) {
   std::vector<std::string> words;
   for (const std::string_view one : row->word_list()) words.emplace_back(one);
   choose_word(label, word, words);
-  explain_setting(*row);
+  explain(*row);
 }
 
 /// A text that counts when its field is left: each one is read and fitted anew.
@@ -44,7 +44,7 @@ void edit_text(const char* label, const char* setting_name, TypedText& typed, st
   input_text(label, &typed.text);
   if (ImGui::IsItemDeactivatedAfterEdit()) text = typed.text;
   typed.typing = ImGui::IsItemActive();
-  explain_setting(*find_setting(setting_name, FieldKind::kTensor));
+  explain(*find_setting(setting_name, FieldKind::kTensor));
 }
 
 /// Along which axes directions are, and which volumes and voxels are fitted: a change reads the image again.
@@ -55,7 +55,7 @@ void draw_reading(ReadingTexts& texts, TensorSpec& reading) {
                               const std::vector<std::string>& words) {
     std::string word = turn.empty() ? "none" : turn;
     if (choose_word(label, word, words)) turn = word == "none" ? std::string() : word;
-    explain_setting(*find_setting(name, FieldKind::kTensor));
+    explain(*find_setting(name, FieldKind::kTensor));
   };
   choose_turn("flip axes", "flip", reading.flip, {"none", "i", "j", "k", "ij", "ik", "jk", "ijk"});
   choose_turn("permute axes", "permute", reading.permute, {"none", "ikj", "jik", "jki", "kij", "kji"});

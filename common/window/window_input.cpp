@@ -258,7 +258,7 @@ void ExplorerWindow::run_command(Command command) {
       state_.say(toggle_volume(view_, scene_ ? &*scene_ : nullptr));
       break;
     case Command::kLayout:
-      if (!scene_ || !view_.volume || !scene_->is_volume_alone()) {
+      if (!scene_ || !view_.volume || !(scene_->is_volume_alone() || !view_.volume->slice_images.empty())) {
         state_.say("S shows slices next to a volume: there is none, or something else is shown in it");
       } else {
         next_layout(*view_.volume, state_.histogram.of(view_.volume->image));

@@ -139,6 +139,36 @@ TEST_F(CardiacWindow, ShowsAShellInPlaceOfAHeartAndLetsGo) {
   EXPECT_EQ(result.document.heart.layer, "");
 }
 
+// A brush corrects what the wall was taken for: a stroke is one edit, the view does not turn, and layers are solved anew.
+TEST_F(CardiacWindow, PaintsTheWallWithABrush) {
+  options_.heart.walls = "found";
+  constexpr float kTextHeight = 14.0F;
+  constexpr int kTall = 2000;  // the panel whole
+  window_.height = kTall;
+  window_.hidden = true;  // a screen is lower
+  const PictureArea area = layout(kWidth, kTall, kTextHeight).picture;
+  const auto press = [&](int frame, const std::string& control) {
+    window_.script.push_back({frame, {.kind = InputKind::kMove}, control});
+    at(frame + 2, {.kind = InputKind::kPress, .button = MouseButton::kLeft});
+    at(frame + 4, {.kind = InputKind::kRelease, .button = MouseButton::kLeft});
+  };
+  press(20, "base");
+  const double x = area.left + 0.5 * area.width, y = area.top + 0.55 * area.height;
+  at(30, {.kind = InputKind::kMove, .x = x, .y = y});
+  at(34, {.kind = InputKind::kPress, .button = MouseButton::kLeft});
+  at(40, {.kind = InputKind::kMove, .x = x + 60.0, .y = y});
+  at(46, {.kind = InputKind::kRelease, .button = MouseButton::kLeft});
+  const WindowResult result = run_until(140);
+  EXPECT_EQ(result.missing, std::vector<std::string>());
+  ASSERT_GE(result.document.input.paint.size(), 2U) << "where it began and where it ended";
+  const std::vector<SurfacePaint> paint = parse_paint(result.document.input.paint);
+  EXPECT_EQ(paint.front().role, BorderRole::kBase);
+  const Vec3 seen = project(result.view.camera, paint.front().center, static_cast<int>(area.width),
+                            static_cast<int>(area.height));
+  EXPECT_LT(std::hypot(seen.x + area.left - x, seen.y + area.top - y), 1.5)
+      << "[pixels], under the mouse still";
+}
+
 /// The measured ventricles of a dog, from the file to a fibre under the hand, by the mouse alone.
 class CardiacDog : public CardiacWindow {
  protected:

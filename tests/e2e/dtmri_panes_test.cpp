@@ -73,7 +73,8 @@ class DtmriPanes : public ExplorerTest {
                          .picture_folder = folder_.path(),
                          .touch = window_touch(modes_of(FieldKind::kTensor), parsed.options, context),
                          .panels = dtmri_panels(),
-                         .script = script_};
+                         .script = script_,
+                         .hidden = true};  // a screen is lower than the panel
     window.frames = next_ + 30;
     window.screenshot = folder_.path("window.png");
     DtmriModel model(parsed.options, "dtmri");
@@ -106,10 +107,10 @@ class DtmriPanes : public ExplorerTest {
     return {std::istreambuf_iterator<char>(in), {}};
   }
 
-  static constexpr int kWidth = 1000, kHeight = 2000;  // the panel whole
+  static constexpr int kWidth = 1000, kHeight = 3000;  // the panel whole
   const Explorer explorer_{.name = "dtmri", .kind = FieldKind::kTensor, .verbs = {open_tensors_verb({})}};
   std::vector<ScriptedEvent> script_;
-  int next_ = 120;
+  int next_ = 90;
 };
 
 TEST_F(DtmriPanes, SlicesShowDirectionsOrAnisotropyAndTractsWithinTheirSlab) {
@@ -161,6 +162,22 @@ TEST_F(DtmriPanes, BoxesAndHalfSpacesTraceAsTheySay) {
   EXPECT_EQ(run({"trace", "--example", "helix", "--seeds", "fa:0.6", "--max-cone", "10", "--json"}).exit_code,
             2)
       << "tensors that were not fitted have no cone";
+}
+
+TEST_F(DtmriPanes, ARegionIsAddedUndoneAndSavedByTheMouse) {
+  if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+  constexpr int kKeyS = 'S', kKeyZ = 'Z';
+  key(kKeyS);
+  key(kKeyS);
+  press("Ball");
+  press("Box");
+  key(kKeyZ, kModifierControl);
+  key(kKeyS, kModifierControl);
+  (void)open({"open", "--example", "helix"});
+  const std::string saved = session();
+  EXPECT_NE(saved.find("layout = '4'"), std::string::npos) << saved;
+  EXPECT_NE(saved.find("sphere:"), std::string::npos) << saved;
+  EXPECT_EQ(saved.find("box:"), std::string::npos) << "undone";
 }
 
 }  // namespace

@@ -317,11 +317,14 @@ TEST_F(PanelWalk, EveryControlOfASettingIsInTheSessionAndThePictureAgain) {
   walk(grid, lobb, {"--layout", "4", "--slab", "0.1"});
   walk(grid, lobb, {"--layout", "2"});
   for (const HapticMode& mode : modes_of(FieldKind::kScalar)) walk(grid, lobb, {"--mode", mode.name});
+  walk(grid, lobb, {"--lens", "sphere:0,0,0,0.5"});
   walk(grid, {patient_image("a.nrrd")}, {"--layout", "4", "--field", "scalars," + patient_image("b.nrrd")});
   walk(dtmri, helix,
        {"--seeds", "point:20,0,0", "--glyphs", "ellipsoid", "--underlay", patient_image("t1.nrrd")});
+  walk(dtmri, helix, {"--seeds", "point:20,0,0", "--layout", "4"});
   for (const HapticMode& mode : modes_of(FieldKind::kTensor)) walk(dtmri, helix, {"--mode", mode.name});
   walk(cardiac, ventricle, {"--seeds", "random:4"});
+  walk(cardiac, ventricle, {"--seeds", "random:4", "--cut", "1,0,0,0"});
   for (const HapticMode& mode : modes_of(FieldKind::kFibre))
     walk(cardiac, ventricle, {"--seeds", "random:4", "--mode", mode.name});
   expect_whole({"common/window", "apps"});

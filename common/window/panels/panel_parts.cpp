@@ -95,10 +95,11 @@ bool offer_default(const char* setting_name) {
 }
 
 /// Of the control that was drawn last: where it is, its help, its default. @return whether that is asked for.
-bool explained(const char* setting_name, bool resets) {
+bool explained(const Setting& row, bool resets) {
+  const std::string setting_name(row.name);
   Drawn& all = drawn();
   // Behind a list that is open, its words were drawn last.
-  const std::string label = label_of(setting(setting_name));
+  const std::string label = label_of(row);
   const auto own = std::find_if(all.now.rbegin(), all.now.rend(),
                                 [&label](const DrawnControl& control) { return control.label == label; });
   if (own != all.now.rend())
@@ -123,14 +124,14 @@ bool explained(const char* setting_name, bool resets) {
                                             {across.x + kAround, across.y + kAround},
                                             ImGui::GetColorU32(ImGuiCol_CheckMark), kAround, 0, 2.0F);
   }
-  const bool asked = resets && offer_default(setting_name);
-  explain_setting(setting(setting_name));
+  const bool asked = resets && offer_default(setting_name.c_str());
+  explain_setting(row);
   return asked;
 }
 
 /// The same of a control that takes the default itself, where the table says what it is.
 bool resets(const char* setting_name) {
-  if (!explained(setting_name, true)) return false;
+  if (!explained(setting(setting_name), true)) return false;
   if (!default_text(setting(setting_name)).empty()) return true;
   drawn().reset = setting_name;
   return false;
@@ -265,8 +266,10 @@ void explain_setting(const Setting& row) {
 }
 
 void explain(const char* setting_name, bool resets) {
-  if (explained(setting_name, resets)) drawn().reset = setting_name;
+  if (explained(setting(setting_name), resets)) drawn().reset = setting_name;
 }
+
+void explain(const Setting& row) { (void)explained(row, false); }
 
 bool edit_setting(const char* setting_name, double& value, double units) {
   const Setting& row = setting(setting_name);

@@ -58,6 +58,8 @@ void hint(const char* format, ...) IM_FMTARGS(1);
 /// The same from the table of settings: its help, with range and default. The control is noted as that of the setting.
 /// A right click offers the default, which take_reset() tells. @pre there is a setting of that name. @param resets false: it has no default to go back to.
 void explain(const char* setting_name, bool resets = true);
+/// The same of a row whose name others have, too; it cannot go back to its default here.
+void explain(const Setting& row);
 /// The help of that one alone.
 void explain_setting(const Setting& row);
 

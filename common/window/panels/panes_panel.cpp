@@ -69,7 +69,7 @@ void edit_panes(VolumeView& volume, const ValueHistogram* histogram, bool anatom
     edit_slice_image(volume);
   }
   std::array<double, 3> cross{panes.cross.x, panes.cross.y, panes.cross.z};
-  input_numbers("crosshair", cross.data(), 3, "%.6g");
+  input_numbers("crosshair at", cross.data(), 3, "%.6g");
   explain("cross");
   if (ImGui::IsItemDeactivatedAfterEdit()) {
     const Box bounds = volume.image->bounds();
