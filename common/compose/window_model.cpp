@@ -21,7 +21,8 @@ std::string color_array_of(const Document& document) {
 auto scene_of(const Document& d) {
   // Volumes of tensors are made of them: their transfer functions are a matter of drawing alone.
   const bool scalars = d.input.kind != FieldKind::kTensor;
-  return std::tuple(d.input.field, d.input.secondary, d.input.time, d.tracing, d.common.seed, d.tracts,
+  return std::tuple(d.input.field, d.input.secondary, d.input.time, d.input.tensor, d.input.regions,
+                    d.input.paint, d.heart.walls, d.heart.cut_face, d.tracing, d.common.seed, d.tracts,
                     d.tract_appearance.file, d.tensors.underlay, color_array_of(d), d.volume.scalar,
                     d.volume.resample, scalars ? d.volume.transfer : std::string(),
                     scalars ? d.volume.focus : std::string(), d.heart.layer, d.heart.angle, d.heart.cut,
