@@ -53,6 +53,7 @@ void take_scene(const Document& used, Document& document) {
   document.tracts = used.tracts;
   document.heart.layer = used.heart.layer;
   document.heart.angle = used.heart.angle;
+  document.heart.walls = used.heart.walls;
 }
 
 }  // namespace palpate

@@ -45,6 +45,7 @@ void ExplorerWindow::adopt(SceneState scene) {
   using Kind = SceneJobs::Kind;
   const bool new_input = !scene_->joined && jobs_.kind() != Kind::kUpdate;
   show_scene(*scene_, new_input ? ShownAs::kNew : ShownAs::kChanged, view_);
+  bool overtaken = false;
   if (new_input) {
     plot_.forget();
     // What is so of the input at all waits behind a button; what comes up later is a banner.
@@ -73,8 +74,11 @@ void ExplorerWindow::adopt(SceneState scene) {
   } else if (same_scene(state_.document, jobs_.requested())) {
     // What the panel has been set to meanwhile stays; what was left to a default is now known.
     take_scene(scene_->document, state_.document);
+  } else {
+    overtaken = true;
   }
-  jobs_.settle(scene_->document);
+  // What a scene leaves out of its document is not asked for again and again.
+  jobs_.settle(overtaken ? scene_->document : state_.document);
   state_.seeds = seed_choice(state_.document.tracing.seeds);
   adopt_field();
   if (new_input && jobs_.kind() == Kind::kOpen && !scene_->document.common.session.empty()) restore_session();
