@@ -66,6 +66,7 @@ struct SceneRenderer::State {
   RenderTarget sharp;  // of the same size as pictures that are kept, which have fewer pixels
   std::optional<BehindSharp> behind_sharp;  // for the next of these
   PictureEstimates estimates;               // of the last picture
+  std::optional<SceneView> estimated;       // that picture without its volume
   std::unique_ptr<SurfacePass> surfaces;
   std::unique_ptr<VolumeSlicePass> slice;
   std::unique_ptr<TensorPass> tensors;
@@ -227,6 +228,24 @@ struct SceneRenderer::State {
     kept.block.size.y = static_cast<float>(kept.shown.height);
     kept.block.size.z = static_cast<float>(block.size.z * kept.resolution);
     estimates.keep(std::move(kept), frame);
+    estimated = view;
+    estimated->volume.reset();
+  }
+
+  // What is opaque in the picture that is estimated, without tracts and planes, from a share of its pixels along either edge:
+  // lines are no thinner than a pixel there.
+  Image opaque_part(const Image& picture, double share) {
+    RenderTarget other;
+    std::swap(target, other);
+    const FrameBlock whole = block;
+    target.resize(picture.width, picture.height, share);
+    const Start start = begin_eye(*estimated, picture.width, picture.height);
+    target.bind_scene();
+    draw_still_part(*estimated, start.base, start.unit, start.transform);
+    Image image = read_picture();
+    std::swap(target, other);
+    block = whole;
+    return image;
   }
 
   // What lies behind the volume, in all pixels of a picture that has fewer: errors are against it. Transparent lines lie in
@@ -327,6 +346,38 @@ struct SceneRenderer::State {
     volume_ms = 1e3 * watch.seconds();
   }
 
+  // What all of a picture is drawn with; its uniform block stays bound as long as this lives.
+  struct Start {
+    ViewTransform transform;
+    LineDraw base;
+    float unit = 0.0F;  // of widths: a thousandth of the height
+    GlBuffer uniforms;
+  };
+  // For a picture into the target as it is. @pre its geometry is up to date.
+  Start begin_eye(const SceneView& view, int width, int height) {
+    const double aspect = static_cast<double>(width) / height;
+    Box drawn = reach;
+    include_labels(view.labels, view.camera.axes, drawn);
+    Start start{.transform = view_transform(view.camera, frame, drawn, aspect)};
+    const bool perspective = view.camera.projection == Projection::kPerspective;
+    // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
+    const int scene_height = target.scene_height();
+    const double pixel = start.transform.view_height / scene_height;
+    block = make_frame_block(view.camera, start.transform, palette_of(view.background), view.style.depth_cue,
+                             target.scene_width(), scene_height);
+    start.uniforms = make_buffer(std::span<const FrameBlock>(&block, 1));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, start.uniforms.name());
+
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_MULTISAMPLE);
+    start.unit = static_cast<float>(scene_height) / 1000.0F;
+    start.base.tolerance = line_tolerance(start.transform, perspective, pixel);
+    start.base.back = Vec3f(view.camera.axes[2]);
+    return start;
+  }
+
   // The picture of one eye, into the target's plain framebuffer.
   void draw_eye(const SceneView& view, int width, int height, double resolution, double tract_milliseconds) {
     if (target.resize(width, height, resolution)) still.reset();
@@ -334,27 +385,8 @@ struct SceneRenderer::State {
     if (lines.update_colors(view)) still.reset();
     draws_volume = shows_volume(view);
 
-    const double aspect = static_cast<double>(width) / height;
-    Box drawn = reach;
-    include_labels(view.labels, view.camera.axes, drawn);
-    const ViewTransform transform = view_transform(view.camera, frame, drawn, aspect);
-    const bool perspective = view.camera.projection == Projection::kPerspective;
-    // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
-    const int scene_height = target.scene_height();
-    const double pixel = transform.view_height / scene_height;
-    block = make_frame_block(view.camera, transform, palette_of(view.background), view.style.depth_cue,
-                             target.scene_width(), scene_height);
-    const GlBuffer frame_buffer = make_buffer(std::span<const FrameBlock>(&block, 1));
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame_buffer.name());
-
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_CULL_FACE);
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    glEnable(GL_MULTISAMPLE);
-    const float unit = static_cast<float>(scene_height) / 1000.0F;
-    LineDraw base;
-    base.tolerance = line_tolerance(transform, perspective, pixel);
-    base.back = Vec3f(view.camera.axes[2]);
+    const Start start = begin_eye(view, width, height);
+    const auto& [transform, base, unit, uniforms] = start;
     if (view.probe || (view.tracts && std::isfinite(tract_milliseconds))) {
       draw_over_still_part(view, base, unit, transform, tract_milliseconds);
     } else {
@@ -471,7 +503,10 @@ std::optional<ImageError> SceneRenderer::image_error() const { return state_->es
 bool SceneRenderer::estimate_savings() {
   State& s = *state_;
   if (!s.estimates.kept() || !complete()) return false;
-  return State::beside_pictures([&] { return s.estimates.add_saving(*s.volume); });
+  return State::beside_pictures([&] {
+    return s.estimates.add_saving(
+        *s.volume, [&](const Image& picture, double share) { return s.opaque_part(picture, share); });
+  });
 }
 
 std::optional<QualityErrors> SceneRenderer::quality_errors() const {

@@ -113,10 +113,10 @@ std::optional<ImageError> PictureEstimates::error() const {
   return error_->error();
 }
 
-bool PictureEstimates::add_saving(VolumePass& pass) {
+bool PictureEstimates::add_saving(VolumePass& pass, const OpaquePart& opaque_part) {
   if (savings_known_) return false;
   if (!savings_) savings_.emplace(picture_, frame_, error_->error().rms);
-  savings_known_ = !savings_->add(pass);
+  savings_known_ = !savings_->add(pass, opaque_part);
   return !savings_known_;
 }
 

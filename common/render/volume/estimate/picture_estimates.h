@@ -53,7 +53,7 @@ class PictureEstimates {
   [[nodiscard]] std::optional<ImageError> error() const;
   /// As SavingEstimate::add(), of the error that is known by then; false where all savings were looked at.
   /// @pre as add_to_error().
-  bool add_saving(VolumePass& pass);
+  bool add_saving(VolumePass& pass, const OpaquePart& opaque_part);
   /// Nothing before all of them were looked at.
   [[nodiscard]] std::optional<QualityErrors> quality_errors() const;
 

@@ -124,47 +124,69 @@ SavingEstimate::SavingEstimate(std::shared_ptr<const StillPicture> picture, cons
   errors_.asked = {asked, asked};
 }
 
-bool SavingEstimate::add(VolumePass& pass) {
+bool SavingEstimate::add(VolumePass& pass, const OpaquePart& opaque_part) {
   const VolumeView& view = pass.drawn_view();
   const bool lenses = !view.lenses.empty();
   const auto rays = [&](double context, double focus) {
     return cast_sparse_rays(pass, sampled_view(view, context, focus), *picture_, lattice_);
   };
-  const std::size_t step = steps_++;
+  std::size_t step = steps_++;
   if (step == 0) {
     in_lens_ = lens_pixels(view, frame_, picture_->block, lattice_);
-    look_at_pixels(lenses);
+    errors_.focus_share = static_cast<double>(std::count(in_lens_.begin(), in_lens_.end(), true)) /
+                          static_cast<double>(std::max<std::size_t>(1, in_lens_.size()));
+    if (lenses) look_at_context();
     all_samples_ = rays(1.0, 1.0);
     return true;
   }
-  if (step <= kContextShares.size()) {
-    const std::size_t k = step - 1;
-    errors_.context[k] = difference(rays(kContextShares[k], 1.0), all_samples_);
-    return lenses || step < kContextShares.size();
+  --step;
+  if (step < kResolutionShares.size()) {
+    look_at_resolution(step, opaque_part);
+    return true;
   }
-  const std::size_t k = step - 1 - kContextShares.size();
-  errors_.focus[k] = difference(rays(1.0, kFocusShares[k]), all_samples_);
-  return k + 1 < kFocusShares.size();
+  step -= kResolutionShares.size();
+  if (step < kContextShares.size()) {
+    errors_.context[step] = difference(rays(kContextShares[step], 1.0), all_samples_);
+    return lenses || step + 1 < kContextShares.size();
+  }
+  step -= kContextShares.size();
+  errors_.focus[step] = difference(rays(1.0, kFocusShares[step]), all_samples_);
+  return step + 1 < kFocusShares.size();
 }
 
-void SavingEstimate::look_at_pixels(bool lenses) {
+template <typename Change>
+PartError SavingEstimate::error_of(const Change& change) const {
   const Image& image = picture_->shown;
-  const auto error_of = [&](double share, const Image* without) {
-    PartSum sum;
-    for (std::size_t at = 0; at < in_lens_.size(); ++at) {
-      const int x = lattice_.place(static_cast<int>(at) % lattice_.columns);
-      const int y = image.height - 1 - lattice_.place(static_cast<int>(at) / lattice_.columns);
-      sum.add(in_lens_[at],
-              minus(coarsened_pixel(image, without, share, x, y), color_at(image, without, x, y)));
-    }
-    return sum.error();
-  };
-  for (std::size_t k = 0; k < kResolutionShares.size(); ++k)
-    errors_.resolution[k] = error_of(kResolutionShares[k], nullptr);
-  for (std::size_t k = 0; lenses && k < kViewportShares.size(); ++k)
-    errors_.viewport[k] = {0.0, error_of(kViewportShares[k], &picture_->behind).context};
-  errors_.focus_share = static_cast<double>(std::count(in_lens_.begin(), in_lens_.end(), true)) /
-                        static_cast<double>(std::max<std::size_t>(1, in_lens_.size()));
+  PartSum sum;
+  for (std::size_t at = 0; at < in_lens_.size(); ++at) {
+    const int x = lattice_.place(static_cast<int>(at) % lattice_.columns);
+    const int y = image.height - 1 - lattice_.place(static_cast<int>(at) / lattice_.columns);
+    sum.add(in_lens_[at], change(x, y));
+  }
+  return sum.error();
+}
+
+void SavingEstimate::look_at_context() {
+  const Image& image = picture_->shown;
+  const Image* const behind = &picture_->behind;
+  for (std::size_t k = 0; k < kViewportShares.size(); ++k) {
+    const PartError error = error_of([&](int x, int y) {
+      return minus(coarsened_pixel(image, behind, kViewportShares[k], x, y), color_at(image, behind, x, y));
+    });
+    errors_.viewport[k] = {0.0, error.context};
+  }
+}
+
+void SavingEstimate::look_at_resolution(std::size_t k, const OpaquePart& opaque_part) {
+  const Image& image = picture_->shown;
+  if (k == 0) opaque_ = opaque_part(image, 1.0);
+  const double share = kResolutionShares[k];
+  const Image coarse = opaque_part(image, share);
+  errors_.resolution[k] = error_of([&](int x, int y) {
+    const Color rest = minus(coarsened_pixel(image, &opaque_, share, x, y), color_at(image, &opaque_, x, y));
+    return minus(rest, color_at(opaque_, &coarse, x, y));
+  });
+  if (k + 1 == kResolutionShares.size()) opaque_ = {};
 }
 
 PartError SavingEstimate::difference(const std::vector<std::uint8_t>& a,

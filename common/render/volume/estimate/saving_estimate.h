@@ -5,14 +5,19 @@
 ///
 ///   a = rms (E_s S - S),   E_s S the picture S from a share s of its pixels                       (1)
 ///
-/// for a coarser context in what the volume adds to the picture, as opaque things stay sharp then; and less
-/// samples by rays that are cast once more, with and without the saving. So no frame has to be drawn. Against
-/// pictures that were drawn with savings such errors are right within a factor of two.
+/// for a coarser context in what the volume adds to the picture, as opaque things stay sharp then. Of a coarser picture
+/// opaque things are drawn with so many pixels, as lines are no thinner than one: O_s; where the volume hides them, too.
+///
+///   a = rms (O_s + E_s (S - O_1) - S)                                                              (2)
+///
+/// Less samples are looked at by rays that are cast once more, with and without the saving. So no volume has to be drawn.
+/// Against pictures that were drawn with savings such errors are right within a factor of two.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,6 +39,9 @@ namespace palpate {
 [[nodiscard]] std::vector<bool> lens_pixels(const VolumeView& view, const SceneFrame& frame,
                                             const FrameBlock& block, const PixelLattice& lattice);
 
+/// O_s of (2), enlarged to the size of the picture. Framebuffer and viewport stay.
+using OpaquePart = std::function<Image(const Image& picture, double share)>;
+
 class SavingEstimate {
  public:
   /// @param asked the error of the picture.
@@ -41,12 +49,16 @@ class SavingEstimate {
 
   /// Looks at one more saving. Framebuffer and uniform block as cast_sparse_rays().
   /// @return whether there are more.
-  bool add(VolumePass& pass);
+  bool add(VolumePass& pass, const OpaquePart& opaque_part);
   /// @pre add() has returned false.
   [[nodiscard]] const QualityErrors& errors() const noexcept { return errors_; }
 
  private:
-  void look_at_pixels(bool lenses);
+  void look_at_context();
+  void look_at_resolution(std::size_t k, const OpaquePart& opaque_part);
+  /// Of what `change(x, y)` adds to pixels.
+  template <typename Change>
+  [[nodiscard]] PartError error_of(const Change& change) const;
   [[nodiscard]] PartError difference(const std::vector<std::uint8_t>& a,
                                      const std::vector<std::uint8_t>& b) const;
 
@@ -55,6 +67,7 @@ class SavingEstimate {
   PixelLattice lattice_;
   std::vector<bool> in_lens_;
   std::vector<std::uint8_t> all_samples_;  ///< rays with none saved
+  Image opaque_;                           ///< O_1
   std::size_t steps_ = 0;
   QualityErrors errors_;
 };

@@ -93,7 +93,8 @@ TEST(SavingEstimate, TellsTheErrorsOfPicturesWithThem) {
   for (const FrameQuality& quality :
        {FrameQuality{}, FrameQuality{.context = 0.25}, FrameQuality{.focus = 0.5},
         FrameQuality{.viewport = 0.5}, FrameQuality{.viewport = 0.25}, FrameQuality{.resolution = 0.7},
-        FrameQuality{.resolution = 0.35},
+        FrameQuality{.resolution = 0.35}, FrameQuality{.resolution = 0.25},
+        FrameQuality{.viewport = 0.25, .resolution = 0.25},
         FrameQuality{.context = 0.5, .focus = 0.5, .viewport = 0.5, .resolution = 0.5}}) {
     const double error =
         difference(picture_of(renderer, with_quality(view, quality), quality.resolution), best).rms;
