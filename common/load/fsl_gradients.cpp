@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 #include "common/base/error.h"
@@ -60,6 +61,7 @@ Table read_table(const std::string& file, std::vector<std::string>& notes) {
   std::size_t line_number = 0;
   for (const std::string_view line : split(text, '\n')) {
     ++line_number;
+    if (trimmed(line).starts_with('#')) continue;
     std::vector<double> numbers;
     for (const std::string_view word : split(line, ' ')) {
       if (word.empty()) continue;
@@ -126,8 +128,36 @@ std::vector<Vec3> read_directions(const std::string& file, std::size_t volumes,
   return directions;
 }
 
+constexpr std::string_view kMrtrixEnding = ".b", kTurnedEnding = ".eddy_rotated_bvecs";
+
+/// A line for each volume: x, y, z in scanner axes, and b.
+GradientTable read_mrtrix_table(const std::string& file, std::size_t volumes,
+                                std::vector<std::string>& notes) {
+  const Table table = read_table(file, notes);
+  if (table.size() != volumes) throw wrong_count(file, "has " + counted(table.size(), "gradient"), volumes);
+  GradientTable gradients;
+  constexpr double kLongest = 1e9;
+  for (std::size_t i = 0; i < volumes; ++i) {
+    const std::vector<double>& line = table[i];
+    const std::string place = "gradient " + std::to_string(i + 1);
+    if (line.size() < 4)
+      throw input_error({file, place, "has " + counted(line.size(), "number"), "x, y, z and b", ""});
+    Vec3 g{line[0], line[1], line[2]};
+    if (!is_finite(g)) g = Vec3{0.0};
+    if (!(line[3] >= 0.0 && std::isfinite(line[3]) && glm::length(g) < kLongest))
+      throw input_error(
+          {file, place,
+           "has b = " + short_number(line[3]) + " and a direction of length " + short_number(glm::length(g)),
+           "b finite and not below zero, a length of about one", ""});
+    gradients.weightings.push_back(line[3]);
+    gradients.directions.push_back(g);
+  }
+  notes.push_back("gradients from " + file + ", MRtrix's table in scanner axes");
+  return gradients;
+}
+
 /// The first of `names` that is a file in `folder`, or empty.
-std::string first_file(const std::filesystem::path& folder, const std::array<std::string, 3>& names) {
+std::string first_file(const std::filesystem::path& folder, std::span<const std::string> names) {
   for (const std::string& name : names) {
     std::error_code error;
     if (std::filesystem::is_regular_file(folder / name, error)) return (folder / name).string();
@@ -139,17 +169,26 @@ std::string first_file(const std::filesystem::path& folder, const std::array<std
 
 std::string gradient_names(const std::string& file) {
   const std::string stem = nifti_stem(file);
-  return stem + ".bval, " + stem + ".bvec";
+  return stem + ".bval, " + stem + ".bvec or " + stem + ".b";
 }
 
 std::optional<FslGradientFiles> find_fsl_gradients(const std::string& file, const DiffusionRequest& request) {
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
   const std::string stem = nifti_stem(file);
   FslGradientFiles files{request.bval.string(), request.bvec.string()};
+  if (files.weightings.empty() && files.directions.ends_with(kMrtrixEnding)) {
+    files.weightings = files.directions;
+    return files;
+  }
   if (files.weightings.empty())
-    files.weightings = first_file(folder, {stem + ".bval", stem + ".bvals", "bvals"});
+    files.weightings = first_file(folder, std::array{stem + ".bval", stem + ".bvals", std::string("bvals")});
   if (files.directions.empty())
-    files.directions = first_file(folder, {stem + ".bvec", stem + ".bvecs", "bvecs"});
+    files.directions = first_file(folder, std::array{stem + std::string(kTurnedEnding), stem + ".bvec",
+                                                     stem + ".bvecs", std::string("bvecs")});
+  if (files.weightings.empty() && files.directions.empty()) {
+    files.weightings = first_file(folder, std::array{stem + std::string(kMrtrixEnding)});
+    files.directions = files.weightings;
+  }
   if (files.weightings.empty() && files.directions.empty()) return std::nullopt;
   if (files.weightings.empty() || files.directions.empty()) {
     const bool no_weightings = files.weightings.empty();
@@ -165,6 +204,7 @@ std::optional<FslGradientFiles> find_fsl_gradients(const std::string& file, cons
 GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volumes, const Mat3& axes,
                                  std::vector<std::string>& notes) {
   if (volumes > kMostGradients) throw wrong_count(files.weightings, "cannot be", kMostGradients);
+  if (files.frame() == VectorFrame::kScanner) return read_mrtrix_table(files.directions, volumes, notes);
   GradientTable table{read_weightings(files.weightings, volumes, notes),
                       read_directions(files.directions, volumes, notes)};
   const Mat3 ras_from_fsl = fsl_axes(axes);
@@ -181,14 +221,23 @@ GradientTable read_fsl_gradients(const FslGradientFiles& files, std::size_t volu
   notes.push_back("gradients from " + files.weightings + " and " + files.directions +
                   ", in the image's axes as FSL has them, turned into RAS" +
                   (glm::determinant(axes) > 0.0 ? " (x turned around: the image is right-handed)" : ""));
+  if (files.directions.ends_with(kTurnedEnding))
+    notes.emplace_back(
+        "directions as FSL's eddy turned them with the volumes; those of a .bvec are left aside");
   return table;
 }
 
-std::optional<GradientTable> named_fsl_gradients(const std::string& file, const DiffusionRequest& request,
-                                                 std::size_t volumes, const Mat3& axes,
-                                                 std::vector<std::string>& notes) {
+VectorFrame FslGradientFiles::frame() const {
+  return directions.ends_with(kMrtrixEnding) && weightings == directions ? VectorFrame::kScanner
+                                                                         : VectorFrame::kImage;
+}
+
+std::optional<NamedGradients> named_fsl_gradients(const std::string& file, const DiffusionRequest& request,
+                                                  std::size_t volumes, const Mat3& axes,
+                                                  std::vector<std::string>& notes) {
   if (!request.names_gradients()) return std::nullopt;
-  return read_fsl_gradients(*find_fsl_gradients(file, request), volumes, axes, notes);
+  const FslGradientFiles files = *find_fsl_gradients(file, request);
+  return NamedGradients{read_fsl_gradients(files, volumes, axes, notes), files.frame()};
 }
 
 namespace {

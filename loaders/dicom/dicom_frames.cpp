@@ -11,6 +11,7 @@
 #include "common/base/text.h"
 #include "loaders/dicom/dicom_elements.h"
 #include "loaders/dicom/dicom_gradients.h"
+#include "loaders/dicom/dicom_mosaic.h"
 
 namespace palpate {
 namespace {
@@ -287,11 +288,6 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
   frame.series = dicom_text(whole, 0x0020000e);
   frame.title = title_of(whole);
   frame.image = dicom_text(whole, 0x00080018);
-  if (dicom_text(whole, 0x00080008).find("MOSAIC") != std::string::npos) {
-    refuse_frame(file, "is a mosaic: the slices of a volume side by side in one image",
-                 "an image for each slice",
-                 "convert it to NIfTI first (dcm2niix), or send it from the scanner without mosaics");
-  }
   describe_pixels(whole, frame);
   const std::size_t count = frame_count(whole, file);
   frame.pixels_at = opened.pixels_at();
@@ -322,12 +318,16 @@ std::vector<DicomFrame> read_dicom_frames(const std::string& file) {
     frame.temporal = dicom_number(scope, 0x00200100).value_or(dicom_number(scope, 0x00209128).value_or(0.0));
     frame.acquisition = dicom_number(scope, 0x00200012).value_or(0.0);
     frame.instance = dicom_number(scope, 0x00200013).value_or(0.0);
+    frame.echo = dicom_number(scope, 0x00180081);
+    frame.trigger = dicom_number(scope, 0x00181060);
+    frame.thickness = dicom_number(scope, 0x00180050).value_or(0.0);
     describe_values(scope, dose, frame);
     frame.gradient = dicom_gradient(scope, frame);
     frames.push_back(frame);
   }
   check_pixels(all, frame, count);
-  return frames;
+  const bool mosaic = count == 1 && dicom_text(whole, 0x00080008).find("MOSAIC") != std::string::npos;
+  return mosaic ? slices_of_mosaic(whole, frame) : frames;
 }
 
 }  // namespace palpate

@@ -48,12 +48,16 @@ struct DicomFrame {
   std::string image;       ///< that of the image (SOP instance)
   std::string title;       ///< "301 T1 mprage"
   int columns = 0, rows = 0;
+  /// Of a mosaic: slices side by side in the image, and which of them the frame is, counted row by row.
+  int tiles_across = 1, tile = 0;
   Vec3 position{0.0};          ///< S
   Vec3 along_row{1, 0, 0};     ///< X
   Vec3 along_column{0, 1, 0};  ///< Y
   double column_step = 1.0, row_step = 1.0;
-  /// By which volumes of one series follow each other: time, acquisition, number.
+  /// By which volumes of one series follow each other: time, acquisition, echo, trigger, number.
   double temporal = 0.0, acquisition = 0.0, instance = 0.0;
+  std::optional<double> echo, trigger;  ///< [ms] of the echo, and after the trigger (of a heart's beat)
+  double thickness = 0.0;               ///< of the slice [mm]; 0: not stated
   std::optional<DicomGradient> gradient;
   std::string notes;     ///< about how it was understood; the same for all of a kind
   int bits = 16;         ///< a number takes: 8, 16 or 32
@@ -74,10 +78,18 @@ struct DicomFrame {
   [[nodiscard]] int samples() const noexcept {
     return colors == DicomColors::kRgb || colors == DicomColors::kYbr ? 3 : 1;
   }
-  /// Of the frame, as stored without packing.
+  /// Of the image that the frame is, or is a tile of, as stored without packing.
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     return static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) *
+           static_cast<std::uint64_t>(tiles_across * tiles_across) *
            static_cast<std::uint64_t>(samples() * bits / 8);
+  }
+  /// Which pixel of that image its own i-th one is.
+  [[nodiscard]] std::size_t stored_pixel(std::size_t i) const noexcept {
+    if (tiles_across == 1) return i;
+    const auto wide = static_cast<std::size_t>(columns), high = static_cast<std::size_t>(rows);
+    const auto across = static_cast<std::size_t>(tiles_across), t = static_cast<std::size_t>(tile);
+    return ((t / across) * high + i / wide) * wide * across + (t % across) * wide + i % wide;
   }
 };
 
@@ -89,7 +101,7 @@ struct DicomLabel {
 /// @throws Error (bad input) as DicomFile.
 [[nodiscard]] DicomLabel read_dicom_label(const std::string& file);
 
-/// @throws Error (bad input) naming the file: as DicomFile, a mosaic, colours of another kind, sizes that the pixels
+/// @throws Error (bad input) naming the file: as DicomFile, as slices_of_mosaic(), colours of another kind, sizes that the pixels
 /// do not have, or frames without a place in the patient.
 [[nodiscard]] std::vector<DicomFrame> read_dicom_frames(const std::string& file);
 

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "common/base/text.h"
+#include "loaders/dicom/dicom_mosaic.h"
+
 namespace palpate {
 namespace {
 
@@ -28,10 +31,18 @@ std::optional<DicomGradient> of_standard(const DicomScope& scope) {
 }
 
 std::optional<DicomGradient> of_siemens(const DicomScope& scope) {
-  if (!has_creator(scope, 0x0019, "SIEMENS MR HEADER")) return std::nullopt;
-  const auto b = dicom_number(scope, 0x0019100c);
-  if (!b) return std::nullopt;
-  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x0019100e, true))};
+  const auto b = has_creator(scope, 0x0019, "SIEMENS MR HEADER") ? dicom_number(scope, 0x0019100c)
+                                                                 : std::optional<double>();
+  if (b) return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x0019100e, true))};
+  // Older software says it in its private header alone.
+  const std::string_view csa = csa_header(scope);
+  const auto weighting = csa_words(csa, "B_value");
+  const auto value = weighting.empty() ? std::nullopt : number(weighting.front());
+  if (!value) return std::nullopt;
+  std::vector<double> direction;
+  for (const std::string& word : csa_words(csa, "DiffusionGradientDirection"))
+    direction.push_back(number(word).value_or(std::nan("")));
+  return DicomGradient{*value, unit_or_zero(direction)};
 }
 
 std::optional<DicomGradient> of_ge(const DicomScope& scope, DicomFrame& frame) {

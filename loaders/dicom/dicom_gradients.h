@@ -2,6 +2,7 @@
 ///
 ///   standard   (0018,9087) b, (0018,9089) direction in LPS, (0018,9075) directionality
 ///   Siemens    (0019,100c) b, (0019,100e) direction in LPS           creator "SIEMENS MR HEADER"
+///   Siemens    B_value, DiffusionGradientDirection in LPS             of the CSA header (dicom_mosaic.h), where these are not there
 ///   GE         (0043,1039) b, (0019,10bb..10bd) direction            creators "GEMS_PARM_01", "GEMS_ACQU_01"
 ///
 /// GE's direction (x, y, z) is relative to the image: with X, Y the directions along rows and columns and

@@ -263,8 +263,8 @@ class DicomLoader : public Loader {
     if (request.diffusion) {
       describe_diffusion(info);
     } else {
-      for (std::size_t v = 0; v < series_.volumes && series_.volumes > 1; ++v)
-        info.times.push_back(static_cast<double>(v));
+      info.times = series_.times;
+      if (!series_.times_are.empty()) info.notes.push_back(series_.times_are);
     }
     info.blocks.push_back(describe_image(series_.topology, array_));
     return info;

@@ -107,7 +107,7 @@ void for_each_number(const DicomFrame& frame, const Pixels& pixels, const Take& 
   const std::byte* const first = pixels.bytes.data() + frame.number * frame.bytes();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t s = 0; s < samples; ++s) {
-      const std::size_t at = pixels.planar ? s * count + i : samples * i + s;
+      const std::size_t at = pixels.planar ? s * count + i : samples * frame.stored_pixel(i) + s;
       take(samples * i + s, stored_number<T>(first + at * sizeof(T), above, beside));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -176,6 +177,42 @@ void take_gradients(DicomSeries& series, std::size_t slices) {
   series.gradients = std::move(table);
 }
 
+/// Of each volume the value that all its images have, where volumes differ in it; nothing where one has several.
+std::vector<double> value_of_volumes(const DicomSeries& series, std::size_t slices,
+                                     std::optional<double> DicomFrame::*value) {
+  std::vector<double> values;
+  for (std::size_t v = 0; v < series.volumes; ++v) {
+    const std::optional<double> first = series.frames[v * slices].*value;
+    for (std::size_t k = 0; k < slices; ++k) {
+      const DicomFrame& frame = series.frames[v * slices + k];
+      if (!first || (!frame.file.empty() && frame.*value != first)) return {};
+    }
+    values.push_back(*first);
+  }
+  return values;
+}
+
+/// What the steps of several volumes at one place are.
+void take_times(DicomSeries& series, std::size_t slices) {
+  const auto rises = [](const std::vector<double>& values) {
+    return !values.empty() &&
+           std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) == values.end();
+  };
+  const std::string each = std::to_string(series.volumes) + " images at each place";
+  const std::vector<double> echoes = value_of_volumes(series, slices, &DicomFrame::echo);
+  const std::vector<double> triggers = value_of_volumes(series, slices, &DicomFrame::trigger);
+  if (rises(echoes)) {
+    series.times = echoes;
+    series.times_are = each + ", of other echo times: steps of time are these, in ms";
+  } else if (rises(triggers)) {
+    series.times = triggers;
+    series.times_are = each + ", of other times after the trigger: steps of time are these, in ms";
+  } else {
+    for (std::size_t v = 0; v < series.volumes; ++v) series.times.push_back(static_cast<double>(v));
+    series.times_are = each + ": steps of time are their numbers, from 0 on";
+  }
+}
+
 }  // namespace
 
 DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
@@ -209,8 +246,8 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
              "all slices of all volumes", "files are missing or doubled");
     }
     std::stable_sort(images.begin(), images.end(), [](const DicomFrame& a, const DicomFrame& b) {
-      return std::tie(a.temporal, a.acquisition, a.instance, a.number) <
-             std::tie(b.temporal, b.acquisition, b.instance, b.number);
+      return std::tie(a.temporal, a.acquisition, a.echo, a.trigger, a.instance, a.number) <
+             std::tie(b.temporal, b.acquisition, b.echo, b.trigger, b.instance, b.number);
     });
   }
   const std::size_t slices = steps.back() + 1;
@@ -225,7 +262,10 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
                            " missing: no values there");
   }
 
-  Vec3 step = normal;
+  if (series.volumes > 1) take_times(series, slices);
+
+  // A slice alone is as thick as it says.
+  Vec3 step = normal * (first.thickness > 0.0 && std::isfinite(first.thickness) ? first.thickness : 1.0);
   if (slices > 1) {
     const Vec3 low = at.front().front().position, high = at.back().front().position;
     step = (high - low) / static_cast<double>(slices - 1);

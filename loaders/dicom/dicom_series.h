@@ -19,6 +19,8 @@ struct DicomSeries {
   /// frames[v * points.z + k]: slice k of volume v.
   std::vector<DicomFrame> frames;
   std::size_t volumes = 1;
+  std::vector<double> times;               ///< one a volume, of several: what `times_are` says
+  std::string times_are;                   ///< in words
   std::optional<GradientTable> gradients;  ///< of the volumes, in RAS+; none where no image states b-values
   std::vector<std::size_t> traces;         ///< weighted volumes without a direction
   std::vector<std::string> notes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -46,8 +47,9 @@ std::optional<ScalarType> type_of(std::string_view name) {
 struct Fields {
   std::vector<std::string_view> size;
   bool typed = false;
-  std::int64_t piece_axes = 0;  ///< of the files of a list; 0: not stated
-  bool list = false;            ///< their names follow
+  std::map<std::string, std::string> seen;  ///< what was stated, fields of one meaning by one name
+  std::int64_t piece_axes = 0;              ///< of the files of a list; 0: not stated
+  bool list = false;                        ///< their names follow
   bool numbered = false;
 };
 
@@ -101,6 +103,24 @@ void read_data_file(std::string_view value, Fields& fields, MetaHeader& header) 
   }
 }
 
+/// The key by which fields of one meaning are told from others: MetaIO has several names for some.
+std::string_view meaning_of(std::string_view key) {
+  if (key == "ElementByteOrderMSB") return "BinaryDataByteOrderMSB";
+  if (key == "Rotation" || key == "Orientation") return "TransformMatrix";
+  if (key == "Position" || key == "Origin") return "Offset";
+  return key;
+}
+
+/// Whether a field says something of the voxels, which it can do once only.
+bool is_single(std::string_view meaning) {
+  constexpr std::array<std::string_view, 14> kSingle{
+      "NDims",           "DimSize",        "ElementType",        "ElementNumberOfChannels",
+      "BinaryData",      "CompressedData", "CompressedDataSize", "BinaryDataByteOrderMSB",
+      "HeaderSize",      "Offset",         "TransformMatrix",    "ElementSpacing",
+      "ElementDataFile", "DistanceUnits"};
+  return std::find(kSingle.begin(), kSingle.end(), meaning) != kSingle.end();
+}
+
 std::vector<double> numbers_in(std::string_view key, std::string_view value, MetaHeader& header) {
   std::vector<double> numbers;
   for (const std::string_view word : words(value)) {
@@ -128,6 +148,7 @@ void read_field(std::string_view key, std::string_view value, Fields& fields, Me
     const auto type = type_of(value);
     fields.typed = true;
     header.type = type.value_or(header.type);
+    header.is_long = value == "MET_LONG" || value == "MET_ULONG";
     if (!type)
       header.problem = "has values of type '" + std::string(value.substr(0, 40)) + "', expected numbers";
   } else if (key == "ElementNumberOfChannels") {
@@ -236,7 +257,14 @@ MetaHeader read_meta_header(std::string_view head) {
     const std::size_t equals = line.find_first_of("=:");
     if (equals == std::string_view::npos) continue;
     const std::string_view key = trimmed(line.substr(0, equals));
-    read_field(key, trimmed(line.substr(equals + 1)), fields, header);
+    const std::string meaning(meaning_of(key));
+    const std::string value(trimmed(line.substr(equals + 1)));
+    const auto before = fields.seen.find(meaning);
+    if (before != fields.seen.end() && before->second != value && is_single(meaning))
+      header.problem = "states '" + meaning + "' twice, as '" + before->second.substr(0, 40) + "' and '" +
+                       value.substr(0, 40) + "'";
+    fields.seen.emplace(meaning, value);
+    if (header.problem.empty()) read_field(key, trimmed(line.substr(equals + 1)), fields, header);
     ended = key == "ElementDataFile";
   }
   header.header_bytes = at;

@@ -17,6 +17,7 @@ struct MetaHeader {
   int axes = 0;  ///< 2 to 4; the fourth is time
   std::array<std::uint64_t, 4> size{1, 1, 1, 1};
   ScalarType type = ScalarType::kUint8;
+  bool is_long = false;  ///< MET_LONG or MET_ULONG, of four bytes
   int channels = 1;
   bool binary = true;
   bool big_endian = false;

@@ -16,6 +16,7 @@
 #include "common/field/array_type.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
+#include "common/load/length_unit.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/meta/meta_header.h"
@@ -87,8 +88,17 @@ class MetaLoader : public Loader {
     const bool local = header_.data_file.empty();
     const std::uint64_t there = local ? head.file_size : size_of(header_.data_file);
     voxels_at_ = local ? header_.header_bytes : 0;
-    if (header_.skip > 0) voxels_at_ = static_cast<std::uint64_t>(header_.skip);
+    if (header_.skip > 0) {
+      voxels_at_ = static_cast<std::uint64_t>(header_.skip);  // from the start of the file, as MetaIO counts
+      if (local && voxels_at_ < header_.header_bytes) {
+        throw input_error({file_, "header",
+                           "'HeaderSize' is " + std::to_string(header_.skip) + ", within the header itself",
+                           "at least its " + std::to_string(header_.header_bytes) + " bytes",
+                           "leave HeaderSize out where the voxels follow the header"});
+      }
+    }
     const std::uint64_t available = there - std::min(there, voxels_at_);
+    take_long(available, info.notes);
     if (const std::string problem = meta_size_problem(header_, available); !problem.empty())
       throw input_error({file_, "", problem, "", "the file may be truncated"});
     if (!header_.binary) {
@@ -112,6 +122,16 @@ class MetaLoader : public Loader {
     } else if (behind > 0) {
       info.notes.push_back(counted(behind, "byte") + " behind the voxels left unread");
     }
+  }
+
+  /// MET_LONG has four bytes in MetaIO; some programs write those of their machine.
+  void take_long(std::uint64_t available, std::vector<std::string>& notes) {
+    const bool plain = header_.is_long && header_.binary && !header_.compressed && header_.skip >= 0;
+    if (!plain || !meta_size_problem(header_, available / 2).empty() || available != 2 * header_.bytes())
+      return;
+    header_.type = header_.type == ScalarType::kInt32 ? ScalarType::kInt64 : ScalarType::kUint64;
+    notes.emplace_back(
+        "WARNING: numbers of type MET_LONG have 4 bytes, and there are 8 for each: taken for 8 bytes");
   }
 
   [[nodiscard]] std::uint64_t piece_bytes() const { return header_.bytes() / header_.piece_count; }
@@ -175,12 +195,29 @@ class MetaLoader : public Loader {
     } else {
       info.notes.emplace_back("no AnatomicalOrientation: coordinates as they are, no orientation known");
     }
-    if (!header_.units.empty() && header_.units != "?") info.units = "coordinates in " + header_.units;
+    take_unit(info);
     if (header_.intensity_function)
       info.notes.emplace_back("values as stored: the header's intensity function is not applied");
     for (std::uint64_t t = 0; t < header_.size[3] && header_.size[3] > 1; ++t)
       info.times.push_back(stated(header_.offset, 3, 0.0) +
                            stated(header_.spacing, 3, 1.0) * static_cast<double>(t));
+  }
+
+  /// Places of a patient become millimetres; others stay in the unit that the header names.
+  void take_unit(FileInfo& info) {
+    if (header_.units.empty() || header_.units == "?") return;
+    info.units = "coordinates in " + header_.units;
+    if (!info.anatomical) return;
+    const auto length = millimetres_in(header_.units);
+    info.units = "coordinates in mm";
+    if (!length) {
+      info.notes.push_back("WARNING: the header's unit of length, '" +
+                           printable(header_.units.substr(0, 40)) + "', is not known: taken for mm");
+    } else if (*length != 1.0) {
+      topology_.origin *= *length;
+      topology_.axes *= *length;
+      info.notes.push_back("coordinates turned from " + header_.units + " into mm");
+    }
   }
 
   void describe(FileInfo& info) {

@@ -73,8 +73,10 @@ class HeaderReader {
     // Axes of one voxel behind the third say nothing; two of more are no image that is read.
     auto& axes = header_.axes;
     while (axes.size() > 3 && axes.back().size == 1) axes.pop_back();
+    if (axes.size() == 2) axes.push_back({.rank = 2});
     if (axes.size() < 3 || axes.size() > 4)
-      refuse("dim", "has " + std::to_string(axes.size()) + " axes", "three, and perhaps one of volumes", "");
+      refuse("dim", "has " + std::to_string(axes.size()) + " axes", "two, three, and perhaps one of volumes",
+             "");
     // Ranks without those of the axes that were left out.
     std::vector<int> ranks;
     ranks.reserve(axes.size());
@@ -128,6 +130,8 @@ class HeaderReader {
     for (int axis = 0; axis < 3; ++axis) {
       const auto a = as_size(axis);
       if (a < sizes.size()) size[axis] = sizes[a];
+      if (a == 2 && sizes.size() == 2 && header_.topology.points.z == 1)
+        size[axis] = std::sqrt(sizes[0] * sizes[1]);  // a slice
       if (!(size[axis] > 0.0) || !std::isfinite(size[axis]))
         refuse("vox", "is '" + value_of("vox").substr(0, 60) + "'", "three sizes above zero");
     }

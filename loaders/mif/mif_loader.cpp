@@ -76,8 +76,8 @@ class MifLoader : public Loader {
         std::erase(info.notes, kGradientsOfHeader);
         info.notes.emplace_back("dw_scheme of the header left aside for them");
       }
-      info.diffusion.gradients = named;
-      info.diffusion.gradient_frame = VectorFrame::kImage;
+      info.diffusion.gradients = named->table;
+      info.diffusion.gradient_frame = named->frame;
       array_.name = kSignalArray;
     } else if (header_.gradients) {
       info.diffusion.gradients = header_.gradients;

@@ -75,7 +75,9 @@ DataArray array_of(std::shared_ptr<std::vector<T>> values, ScalarType type, std:
 ScalarType value_type(const MifHeader& header) noexcept {
   if (!header.type) return ScalarType::kUint8;
   const bool scaled = header.offset != 0.0 || header.scale != 1.0;
-  return scaled ? ScalarType::kFloat32 : *header.type;
+  const bool small = byte_size(*header.type) <= 2 || *header.type == ScalarType::kFloat32;
+  if (scaled) return small ? ScalarType::kFloat32 : ScalarType::kFloat64;
+  return *header.type;
 }
 
 DataArray read_mif_values(const MifHeader& header, const std::vector<std::uint64_t>& volumes,
@@ -115,11 +117,14 @@ DataArray read_mif_values(const MifHeader& header, const std::vector<std::uint64
                       [&](std::size_t to, std::size_t from) { (*values)[to] = number(from); });
       return array_of(std::move(values), *header.type, volumes.size());
     }
-    auto values = std::make_shared<std::vector<float>>(count);
-    for_each_number(header, volumes, on_progress, [&](std::size_t to, std::size_t from) {
-      (*values)[to] = static_cast<float>(header.offset + header.scale * static_cast<double>(number(from)));
-    });
-    return array_of(std::move(values), ScalarType::kFloat32, volumes.size());
+    const auto scaled = [&]<typename V>(V) {
+      auto values = std::make_shared<std::vector<V>>(count);
+      for_each_number(header, volumes, on_progress, [&](std::size_t to, std::size_t from) {
+        (*values)[to] = static_cast<V>(header.offset + header.scale * static_cast<double>(number(from)));
+      });
+      return array_of(std::move(values), value_type(header), volumes.size());
+    };
+    return value_type(header) == ScalarType::kFloat32 ? scaled(0.0F) : scaled(0.0);
   });
 }
 

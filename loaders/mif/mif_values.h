@@ -10,8 +10,8 @@
 
 namespace palpate {
 
-/// The type that numbers have once they are scaled: as stored, or single precision where they are scaled,
-/// bytes where they are bits.
+/// The type that numbers have once they are scaled: as stored, or floating-point numbers that hold them where they
+/// are scaled, bytes where they are bits.
 [[nodiscard]] ScalarType value_type(const MifHeader& header) noexcept;
 
 /// @param volumes component c of a tuple is volume volumes[c], each below header.volumes().

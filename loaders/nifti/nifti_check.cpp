@@ -102,6 +102,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     for (std::size_t i = 0; i < 8; ++i) claims.size[i] = bytes.at<std::int16_t>(40 + 2 * i);
     claims.datatype = bytes.at<std::int16_t>(70);
     offset = static_cast<double>(bytes.at<float>(108));
+    claims.intercept = static_cast<double>(bytes.at<float>(116));
     claims.qform = qform_at<float>(bytes, 256, 76);
   } else {
     if (head.size() < as_size(kBytes2)) return failed("ends within its header");
@@ -113,6 +114,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     for (std::size_t i = 0; i < 8; ++i) claims.size[i] = bytes.at<std::int64_t>(16 + 8 * i);
     claims.datatype = bytes.at<std::int16_t>(12);
     offset = static_cast<double>(bytes.at<std::int64_t>(168));
+    claims.intercept = bytes.at<double>(184);
     claims.qform = qform_at<double>(bytes, 352, 104);
   }
   constexpr int kBinary = 1;
@@ -130,8 +132,11 @@ NiftiClaims read_nifti_claims(std::string_view head) {
   // The comparison is false for NaN.
   if (!(offset >= 0.0 && offset < static_cast<double>(kMaxBytes)))
     return failed("says that its voxels begin outside the file");
+  // In one file four bytes that say whether extensions follow stand behind the header.
   const double header = claims.version == 1 ? kBytes1 : kBytes2;
-  claims.offset = static_cast<std::uint64_t>(claims.pair ? offset : std::max(offset, header));
+  claims.stated_offset = static_cast<std::uint64_t>(offset);
+  claims.offset = claims.stated_offset;
+  if (!claims.pair && offset < header) claims.offset = static_cast<std::uint64_t>(header + 4.0);
   return claims;
 }
 

@@ -25,8 +25,10 @@ struct NiftiClaims {
   std::array<std::int64_t, 8> size{};  ///< voxels along axis 1 to 7; [0]: how many axes
   int datatype = 0;                    ///< DT_ code of nifti1.h
   std::uint64_t bytes_per_voxel = 0;
-  bool bits = false;         ///< DT_BINARY: eight voxels a byte, and bytes_per_voxel is 1
-  std::uint64_t offset = 0;  ///< of the first voxel in its file
+  bool bits = false;                ///< DT_BINARY: eight voxels a byte, and bytes_per_voxel is 1
+  std::uint64_t offset = 0;         ///< of the first voxel in its file
+  std::uint64_t stated_offset = 0;  ///< the same as it stands in the header
+  double intercept = 0.0;           ///< as it stands in the header, finite or not
   NiftiQform qform;
   bool packed = false;  ///< the header's file is a gzip file; set by check_nifti()
   std::string problem;  ///< what is wrong, or empty

@@ -130,11 +130,19 @@ struct NiftiFile::Image {
       throw input_error({file_, "header", "niftilib cannot read it", "", "the file may be damaged"});
     if (claims.pair) check_nifti_voxels(image_->iname, claims);
     bits_ = claims.bits;
+    if (claims.offset != claims.stated_offset) {
+      image_->iname_offset = static_cast<std::int64_t>(claims.offset);
+      place_.notes.push_back("WARNING: the header says that its voxels begin at byte " +
+                             std::to_string(claims.stated_offset) + ", within the header: taken from byte " +
+                             std::to_string(claims.offset) + " on");
+    }
     NiftiPlace place = place_of(claims, left_handed);
     place.notes.insert(place.notes.begin(), place_.notes.begin(), place_.notes.end());
     place_ = std::move(place);
     note_rest(claims);
     describe_values(fourth_axis);
+    if (scaled_ && !std::isfinite(claims.intercept))
+      place_.notes.emplace_back("WARNING: the header's intercept (scl_inter) is no number: taken for 0");
   }
 
   /// niftilib knows no bits: it is told that they are bytes. Null where it cannot read the header.

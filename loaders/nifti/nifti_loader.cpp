@@ -96,7 +96,7 @@ class NiftiLoader : public Loader {
     if (gradients) {
       info.diffusion.gradients =
           read_fsl_gradients(*gradients, as_size(volumes), image.topology().axes, info.notes);
-      info.diffusion.gradient_frame = VectorFrame::kImage;
+      info.diffusion.gradient_frame = gradients->frame();
       image.rename(kSignalArray);
     } else if (volumes == 6) {
       image.rename("tensors");

@@ -64,7 +64,8 @@ NiftiPlace place_nifti(const nifti_image& image, const NiftiQform& qform, std::o
   const double unit = nifti_millimetres(image.xyz_units);
   note_units(image, place.notes);
   for (int axis = 0; axis < 3; ++axis) {
-    if (qform.steps[as_size(axis) + 1] == 0.0 && topology.points[axis] > 1 && image.sform_code <= 0)
+    const double step = qform.steps[as_size(axis) + 1];
+    if ((step == 0.0 || !std::isfinite(step)) && topology.points[axis] > 1 && image.sform_code <= 0)
       place.notes.push_back("WARNING: the header states no step along axis " + std::to_string(axis + 1) +
                             ": taken as 1");
   }
@@ -103,7 +104,10 @@ NiftiPlace place_nifti(const nifti_image& image, const NiftiQform& qform, std::o
   } else {
     topology.axes = Mat3{0.0};
     topology.origin = Vec3{0.0};
-    for (int axis = 0; axis < 3; ++axis) topology.axes[axis][axis] = unit * std::abs(image.pixdim[axis + 1]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double step = std::abs(qform.steps[as_size(axis) + 1]);
+      topology.axes[axis][axis] = unit * (step > 0.0 && std::isfinite(step) ? step : 1.0);
+    }
     if (left_handed.value_or(false)) topology.axes[0] = -topology.axes[0];
     place.notes.push_back(
         "WARNING: neither sform nor qform: spacings alone, no orientation known; taken as " +

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/load/length_unit.h"
 
 namespace palpate {
 namespace {
@@ -59,6 +61,69 @@ double first_of(const NrrdAxisInfo& axis, double spacing) {
   return axis.min + (axis.center == nrrdCenterNode ? 0.0 : 0.5 * spacing);
 }
 
+/// What the header calls the unit along each axis of its space.
+std::array<std::string, 3> stated_units(const Nrrd& nrrd, const NrrdAxes& axes) {
+  const auto text = [](const char* units) { return std::string(units != nullptr ? units : ""); };
+  std::array<std::string, 3> units;
+  for (std::size_t i = 0; i < 3; ++i)
+    units[i] = axes.space[i] == kNoNrrdAxis ? units[0]
+               : nrrd.spaceDim >= 2         ? text(nrrd.spaceUnits[i])
+                                            : text(nrrd.axis[axes.space[i]].units);
+  return units;
+}
+
+/// Places in millimetres where the space is a patient's, or its axes have units of their own; else as they are stated.
+/// @throws Error (bad input) where units differ and one of them is not known.
+void take_units(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& file, NrrdPlace& place) {
+  const std::array<std::string, 3> stated = stated_units(nrrd, axes);
+  const bool same = stated[0] == stated[1] && stated[1] == stated[2];
+  place.length_unit = stated[0];
+  if (same && (stated[0].empty() || !place.anatomical)) return;
+  const std::string values = nrrd.sampleUnits != nullptr ? nrrd.sampleUnits : "";
+  if (same && values.starts_with(stated[0] + "/")) {
+    if (stated[0] != "mm")
+      place.notes.push_back("coordinates stay in " + stated[0] + ", since values are in " + values);
+    return;
+  }
+  Vec3 lengths{1.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto known = millimetres_in(stated[i]);
+    if (!known && !same)
+      throw input_error(
+          {file, "header",
+           "has the units '" + stated[0] + "', '" + stated[1] + "' and '" + stated[2] + "' along its axes",
+           "one unit, or lengths of known ones", ""});
+    if (!known)
+      place.notes.push_back("WARNING: the header's unit of length, '" + printable(stated[i].substr(0, 40)) +
+                            "', is not known: taken for mm");
+    if (!known) break;
+    lengths[static_cast<int>(i)] = *known;
+  }
+  place.length_unit = "mm";
+  if (lengths == Vec3{1.0}) return;
+  place.topology.origin *= lengths;
+  for (int axis = 0; axis < 3; ++axis) place.topology.axes[axis] *= lengths;
+  place.notes.push_back("coordinates turned from " +
+                        (same ? stated[0] : stated[0] + ", " + stated[1] + " and " + stated[2]) + " into mm");
+}
+
+/// Says where an axis has a spacing and ends that do not go together.
+void note_contradictions(const Nrrd& nrrd, const NrrdAxes& axes, std::vector<std::string>& notes) {
+  constexpr double kSame = 1e-3;
+  for (const unsigned a : axes.space) {
+    if (a == kNoNrrdAxis) continue;
+    NrrdAxisInfo ends = nrrd.axis[a];
+    const double spacing = ends.spacing;
+    ends.spacing = std::nan("");
+    const double between = spacing_of(ends);
+    if (std::isfinite(spacing) && std::isfinite(between) && ends.center != nrrdCenterUnknown &&
+        std::abs(between - spacing) > kSame * std::abs(spacing))
+      notes.push_back("WARNING: along axis " + std::to_string(a + 1) + " the spacing is " +
+                      short_number(spacing) + ", and minimum and maximum lie " + short_number(between) +
+                      " a sample apart: the spacing is taken");
+  }
+}
+
 /// Where more than three axes without directions may be of space: those of which three are so by what else the header
 /// says. None where nothing tells them apart.
 std::vector<unsigned> distinguishable(const Nrrd& nrrd, const std::vector<unsigned>& axes) {
@@ -106,7 +171,7 @@ NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string&
     }
   }
   if (!directed && spatial.size() > 3) {
-    const std::vector<unsigned> space = distinguishable(nrrd, spatial);
+    std::vector<unsigned> space = distinguishable(nrrd, spatial);
     if (space.empty()) {
       throw input_error({file, "", "has " + std::to_string(spatial.size()) + " axes that may be of space",
                          "three that kinds, space directions or spacings tell from the others",
@@ -118,7 +183,7 @@ NrrdAxes sort_nrrd_axes(const Nrrd& nrrd, bool as_components, const std::string&
       axes.notes.push_back("axis " + std::to_string(a + 1) +
                            ", which is not said to be of space as the others, taken for components");
     }
-    spatial = space;
+    spatial = std::move(space);
   }
   if (spatial.size() == 2) {
     spatial.push_back(kNoNrrdAxis);
@@ -193,6 +258,8 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
   } else {
     place.notes.emplace_back("no medical space: coordinates as they are, no orientation known");
   }
+  if (!directed) note_contradictions(nrrd, axes, place.notes);
+  take_units(nrrd, axes, file, place);
   return place;
 }
 

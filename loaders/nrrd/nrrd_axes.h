@@ -31,13 +31,14 @@ struct NrrdAxes {
 struct NrrdPlace {
   UniformTopology topology;  ///< RAS+ where the header names a medical space
   bool anatomical = false;
-  Vec3 signs{1.0};  ///< by which coordinates of that space become RAS
+  std::string length_unit;  ///< of places: mm of a patient's, else as stated, or empty
+  Vec3 signs{1.0};          ///< by which coordinates of that space become RAS
   std::vector<std::string> notes;
 };
 
 /// By directions, spacings, or minima and maxima of the axes. Without centerings samples are in the middle of cells,
-/// as Teem and ITK have it.
-/// @throws Error (bad input) where the axes span no volume.
+/// as Teem and ITK have it. Units of length become millimetres where the space is medical, or where axes differ in them.
+/// @throws Error (bad input) where the axes span no volume, or have different units of which one is not known.
 [[nodiscard]] NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& file);
 
 /// One a sample along the time axis; none for a single state.

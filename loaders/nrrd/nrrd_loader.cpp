@@ -126,22 +126,10 @@ ScalarType scalar_type(int type, const std::string& file) {
   }
 }
 
-/// "coordinates in mm, values in m/s": what the header states of them.
-std::string units_of(const Nrrd& nrrd, const NrrdAxes& axes) {
-  const auto text = [](const char* units) { return std::string(units != nullptr ? units : ""); };
-  std::array<std::string, 3> lengths;
-  for (std::size_t i = 0; i < 3; ++i)
-    lengths[i] = axes.space[i] == kNoNrrdAxis ? lengths[0]
-                 : nrrd.spaceDim >= 2         ? text(nrrd.spaceUnits[i])
-                                              : text(nrrd.axis[axes.space[i]].units);
-  std::string units;
-  if (lengths[0] == lengths[1] && lengths[1] == lengths[2]) {
-    if (!lengths[0].empty()) units = "coordinates in " + lengths[0];
-  } else {
-    units = "coordinates in";
-    for (const std::string& length : lengths) units += " " + (length.empty() ? "?" : length);
-  }
-  if (const std::string values = text(nrrd.sampleUnits); !values.empty())
+/// "coordinates in mm, values in m/s": what is known of them.
+std::string units_of(const Nrrd& nrrd, const std::string& length) {
+  std::string units = length.empty() ? "" : "coordinates in " + length;
+  if (const std::string values = nrrd.sampleUnits != nullptr ? nrrd.sampleUnits : ""; !values.empty())
     units += (units.empty() ? "values in " : ", values in ") + values;
   return units;
 }
@@ -179,10 +167,10 @@ class NrrdLoader : public Loader {
     for (unsigned axis = 0; axis < nrrd->dim; ++axis) shape_.size.push_back(nrrd->axis[axis].size);
 
     FileInfo info;
-    info.units = units_of(*nrrd, axes_);
     if (!rest.empty()) info.notes.push_back(rest);
     info.notes.insert(info.notes.end(), axes_.notes.begin(), axes_.notes.end());
     NrrdPlace place = place_nrrd(*nrrd, axes_, file_);
+    info.units = units_of(*nrrd, place.length_unit);
     topology_ = place.topology;
     signs_ = place.signs;
     info.anatomical = place.anatomical;
@@ -267,9 +255,10 @@ class NrrdLoader : public Loader {
   /// Volumes with the gradients that are named in place of those of the header.
   void take_named_gradients(const Nrrd& nrrd, const DiffusionRequest& request, FileInfo& info) {
     if (kind_ != TupleKind::kNumbers || !axes_.components) return;
-    info.diffusion.gradients =
+    const auto named =
         named_fsl_gradients(file_, request, as_size(stored_components_), topology_.axes, info.notes);
-    info.diffusion.gradient_frame = VectorFrame::kImage;
+    info.diffusion.gradients = named->table;
+    info.diffusion.gradient_frame = named->frame;
     if (nrrd_key(nrrd, "DWMRI_b-value"))
       info.notes.emplace_back("gradients of the header left aside for them");
     array_.name = kSignalArray;

@@ -1,6 +1,7 @@
 #include "loaders/tract/tract_loader.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/geometry/tractogram.h"
+#include "common/load/gzip_head.h"
 #include "loaders/tract/tck_reader.h"
 #include "loaders/tract/trk_reader.h"
 #include "loaders/tract/trx_reader.h"
@@ -87,8 +89,27 @@ class TractLoader : public Loader {
   static Tractogram read_file(const std::string& file, Format format, std::vector<std::string>& notes) {
     if (format == Format::kTrx) return read_trx(file, notes);
     const MappedFile mapped(file);
-    return format == Format::kTrk ? read_trk(file, mapped.text(), notes)
-                                  : read_tck(file, mapped.text(), notes);
+    std::vector<std::byte> unpacked;
+    std::string_view bytes = mapped.text();
+    if (is_gzip(bytes)) {
+      unpacked = unpack_all(bytes, notes);
+      bytes = {reinterpret_cast<const char*>(unpacked.data()), unpacked.size()};
+    }
+    return format == Format::kTrk ? read_trk(file, bytes, notes) : read_tck(file, bytes, notes);
+  }
+
+  /// What a gzip file holds, as far as it goes.
+  static std::vector<std::byte> unpack_all(std::string_view packed, std::vector<std::string>& notes) {
+    constexpr std::size_t kFirst = std::size_t{1} << 16U, kUsualRatio = 4;
+    std::vector<std::byte> bytes(kFirst + kUsualRatio * packed.size());
+    Unpacked found = unpack(packed, bytes);
+    while (found.more) {
+      bytes.resize(2 * bytes.size());
+      found = unpack(packed, bytes);
+    }
+    if (!found.ended) notes.emplace_back("WARNING: the gzip data are damaged or cut off");
+    bytes.resize(found.bytes);
+    return bytes;
   }
 
   static ArrayInfo about(const Tractogram::Column& column, Association association) {

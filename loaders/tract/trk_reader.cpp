@@ -213,15 +213,25 @@ class TrkReader {
     // A count of zero means that it was not known when the header was written.
     while (claimed > 0 ? lines_.line_count() < as_size(claimed) : at_ < bytes_.size()) {
       const std::string place = "line " + std::to_string(lines_.line_count() + 1);
-      if (bytes_.size() - at_ < sizeof(std::int32_t)) {
-        refuse(place, "is missing", claimed > 0 ? counted(static_cast<std::uint64_t>(claimed), "line") : "");
-      }
-      const auto points = field<std::int32_t>(at_);
-      at_ += sizeof(std::int32_t);
+      const std::size_t start = at_;
+      const bool counted_points = bytes_.size() - at_ >= sizeof(std::int32_t);
+      const std::int32_t points = counted_points ? field<std::int32_t>(at_) : 0;
+      if (counted_points) at_ += sizeof(std::int32_t);
       const std::size_t left = bytes_.size() - at_;
-      if (points < 0 || left < properties || as_size(points) > (left - properties) / row) {
+      const bool whole =
+          counted_points && left >= properties && as_size(std::max(0, points)) <= (left - properties) / row;
+      if (points < 0 || (!whole && lines_.line_count() == 0)) {
         refuse(place, "claims " + std::to_string(points) + " points",
                "at most " + std::to_string(left < properties ? 0 : (left - properties) / row));
+      }
+      if (!whole) {
+        at_ = bytes_.size();
+        notes_.push_back("WARNING: the file is cut off: it ends " +
+                         (start == at_ ? "after line " + std::to_string(lines_.line_count())
+                                       : "within line " + std::to_string(lines_.line_count() + 1) +
+                                             ", which is left out") +
+                         (claimed > 0 ? "; its header counts " + std::to_string(claimed) : ""));
+        return;
       }
       for (std::int32_t p = 0; p < points; ++p) read_point(place);
       for (auto& column : lines_.of_lines) column.values.push_back(next_number());

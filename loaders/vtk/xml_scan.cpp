@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "common/base/text.h"
@@ -322,6 +323,20 @@ bool has_end(std::string_view text) {
   return tail.rfind("</VTKFile>") != std::string_view::npos;
 }
 
+/// VTK's reader takes what it cannot read for 0 and 1.
+void check_numbers(const XmlTag& tag, const std::string& attribute, std::size_t count) {
+  const std::string& text = tag.at(attribute);
+  if (text.empty()) return;
+  const std::vector<std::string_view> parts = words(text);
+  const bool good =
+      parts.size() == count && std::all_of(parts.begin(), parts.end(), [](std::string_view word) {
+        return std::isfinite(number(word).value_or(std::nan("")));
+      });
+  if (!good)
+    throw Broken{attribute + "=\"" + text.substr(0, 60) + "\", expected " + std::to_string(count) +
+                 " finite numbers"};
+}
+
 void scan(std::string_view text, XmlScan& result) {
   Context context;
   context.file_size = text.size();
@@ -352,6 +367,9 @@ void scan(std::string_view text, XmlScan& result) {
                      "\", expected six increasing numbers"};
       context.whole = *whole;
       result.whole = *whole;
+      check_numbers(tag, "Origin", 3);
+      check_numbers(tag, "Spacing", 3);
+      check_numbers(tag, "Direction", 9);
     } else if (tag.name == "Piece") {
       context.piece_start = before;
       begin_piece(tag, context);
@@ -370,6 +388,8 @@ void scan(std::string_view text, XmlScan& result) {
       }
       check_array(tag, tag.closes ? std::string_view() : text.substr(tags.position()), context);
       const bool on_points = context.section == "PointData";
+      if (context.structured && tag.at("Name").empty() && (on_points || context.section == "CellData"))
+        throw Broken{"an array of " + context.section + " has no Name"};
       if (context.pieces > 0 && (on_points || context.section == "CellData")) {
         const auto components = count_of(tag.at("NumberOfComponents"));
         context.of_piece.push_back(

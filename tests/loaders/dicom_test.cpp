@@ -38,6 +38,37 @@ TEST_F(DicomTest, SeveralVolumesAreTimesOfOneSeries) {
     expect_truth(source.read({"scalars"}, v).front(), 1000.0 * static_cast<double>(v));
 }
 
+// What tells the images of a place apart is what the steps are, whatever the order in which they were stored.
+TEST_F(DicomTest, EchoesAndTimesAfterATriggerAreStepsOfTime) {
+  for (const bool echoes : {true, false}) {
+    const TempFolder folder;
+    for (int k = 0; k < 4; ++k) {
+      for (int v = 0; v < 3; ++v) {
+        DicomImage image = slice(k, v);
+        image.instance = 3 * k + (k % 2 == 0 ? v : 2 - v);  // every second slice backwards
+        image.more = dicom_element(0x0018, echoes ? 0x0081 : 0x1060, "DS", decimals({10.0 + 20.0 * v}));
+        folder.write("im" + std::to_string(image.instance), image.bytes());
+      }
+    }
+    Source source = open(folder.path());
+    EXPECT_EQ(source.info().times, (std::vector<double>{10.0, 30.0, 50.0}));
+    for (std::size_t v = 0; v < 3; ++v)
+      expect_truth(source.read({"scalars"}, v).front(), 1000.0 * static_cast<double>(v));
+    const auto& notes = source.info().notes;
+    EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) {
+      return note.find(echoes ? "echo times" : "after the trigger") != std::string::npos;
+    }));
+  }
+}
+
+TEST_F(DicomTest, ASliceAloneIsAsThickAsItSays) {
+  DicomImage image = slice(0);
+  image.more = dicom_element(0x0018, 0x0050, "DS", "4.5");
+  (void)write({image});
+  const auto grid = std::get<UniformTopology>(open(folder_.path()).read({"scalars"}).front().topology);
+  EXPECT_NEAR(glm::length(grid.axes[2]), 4.5, 1e-9);
+}
+
 TEST_F(DicomTest, AFolderOfSeveralSeriesListsThemAndTakesTheOneThatIsNamed) {
   (void)write_volume();
   const auto others = write_volume([](DicomImage& image) {
@@ -207,7 +238,7 @@ TEST_F(DicomTest, SaysWhatIsMissingOrMixed) {
   refused({slice(0), wide}, "size");
   DicomImage mosaic = slice(0);
   mosaic.image_type = "ORIGINAL\\PRIMARY\\M\\MOSAIC";
-  refused({mosaic}, "mosaic");
+  refused({mosaic}, "how many slices");
 }
 
 // pydicom and numpy place every voxel by the standard's equation, file by file.

@@ -1,12 +1,14 @@
 // Gradients of diffusion-weighted images: where they come from, their axes, and which are left out.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"
 #include "tests/loaders/diffusion_fixture.h"
@@ -15,6 +17,19 @@
 
 namespace palpate::test {
 namespace {
+
+std::vector<std::vector<std::string>> words_in_lines(const std::string& text) {
+  std::vector<std::vector<std::string>> lines;
+  for (const std::string_view line : split(text, '\n')) {
+    const auto found = words(line);
+    if (!found.empty()) lines.emplace_back(found.begin(), found.end());
+  }
+  return lines;
+}
+
+std::string negative(const std::string& number) {
+  return number.starts_with('-') ? number.substr(1) : "-" + number;
+}
 
 TEST(DiffusionNifti, TurnsGradientsIntoRasByFslsRule) {
   const TempFolder folder;
@@ -52,6 +67,38 @@ TEST(DiffusionNifti, ReadsRowsColumnsSmallWeightingsAndLengths) {
   words.bval = folder.path("elsewhere.txt");
   words.flip = "i";
   EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii"), words), {1.0, 0.2, 0.1}), 1.0, 1e-6);
+}
+
+// FSL's eddy turns directions with the volumes and writes them under a name of its own; MRtrix has one table for both.
+TEST(DiffusionNifti, TakesTheTablesOfEddyAndOfMrtrix) {
+  const TempFolder folder;
+  const Vec3 main{1.0, 2.0, 3.0};
+  folder.write("dwi.nii", image(8, kLeftHanded, signals(main)));
+  folder.write("dwi.bval", bval_text());
+  folder.write("dwi.eddy_rotated_bvecs", bvec_rows());
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  // Before what it was made of, whatever stands there.
+  std::string other = bvec_rows();
+  std::rotate(other.begin(), std::find(other.begin(), other.end(), '\n') + 1, other.end());
+  folder.write("dwi.bvec", other);
+  EXPECT_NEAR(along(first_tensor(folder.path("dwi.nii")), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+
+  const TempFolder second;
+  const auto file = second.write("dwi.nii", image(8, kLeftHanded, signals(main)));
+  std::string rows = "# command_history: dwigradcheck\n";
+  const auto directions = words_in_lines(bvec_columns());
+  const auto weightings = words_in_lines(bval_text());
+  for (std::size_t v = 0; v < directions.size(); ++v) {
+    // Signals are along FSL's axes, of which the first runs to the left here; scanner axes do not.
+    rows += negative(directions[v].at(0)) + " " + directions[v].at(1) + " " + directions[v].at(2) + " " +
+            weightings.at(0).at(v) + "\n";
+  }
+  second.write("dwi.b", rows);
+  EXPECT_NEAR(along(first_tensor(file), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+  std::filesystem::rename(second.path("dwi.b"), second.path("other.b"));
+  TensorSpec named;
+  named.bvec = second.path("other.b");
+  EXPECT_NEAR(along(first_tensor(file, named), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
 }
 
 TEST(DiffusionNifti, RefusesGradientsThatDoNotGoWithTheImage) {

@@ -1,4 +1,5 @@
 // MetaImage files, written by hand and by VTK, read through the helper program.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -275,6 +276,47 @@ TEST_P(WrittenByVtk, ComesBack) {
 
 INSTANTIATE_TEST_SUITE_P(MetaImage, WrittenByVtk, ::testing::Bool());
 
+TEST(MetaImage, LengthsOfAPatientBecomeMillimetres) {
+  const test::TempFolder folder;
+  const auto open = [&](const std::string& unit, bool patient) {
+    return Source::open({{folder.write("a.mha", kHead + "ElementSpacing = 1 2 3\nDistanceUnits = " + unit +
+                                                    (patient ? "\nAnatomicalOrientation = RAI" : "") +
+                                                    "\nElementDataFile = LOCAL\n" + counting(24))},
+                         {}});
+  };
+  for (const auto& [unit, length] : {std::pair("um", 1e-3), std::pair("mm", 1.0), std::pair("cm", 10.0)}) {
+    Source source = open(unit, true);
+    EXPECT_EQ(source.info().units, "coordinates in mm");
+    const auto topology = std::get<UniformTopology>(read_block(source).topology);
+    EXPECT_LT(glm::distance(topology.axes[2], length * Vec3(0, 0, 3)), 1e-12) << unit;
+  }
+  EXPECT_EQ(open("um", false).info().units, "coordinates in um");
+  const auto notes = open("ell", true).info().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("WARNING: the header's unit of length, 'ell'");
+  }));
+}
+
+// Eight bytes a number, as the long of the machine that wrote it: the file has just as many.
+TEST(MetaImage, LongsOfEightBytesAreTakenForThemAndSaid) {
+  const test::TempFolder folder;
+  std::string head = kHead;
+  head.replace(head.find("MET_SHORT"), 9, "MET_LONG");
+  std::string four, eight;
+  for (std::size_t i = 0; i < 24; ++i) {
+    four += static_cast<char>(i) + std::string(3, '\0');
+    eight += static_cast<char>(i) + std::string(7, '\0');
+  }
+  for (const std::string& bytes : {four, eight}) {
+    Source source = Source::open({{folder.write("a.mha", head + "ElementDataFile = LOCAL\n" + bytes)}, {}});
+    expect_counting(read_block(source), "long");
+    const auto& notes = source.info().notes;
+    EXPECT_EQ(std::count_if(notes.begin(), notes.end(),
+                            [](const std::string& note) { return note.starts_with("WARNING"); }),
+              bytes == eight ? 1 : 0);
+  }
+}
+
 TEST(MetaImage, WhatCannotBeReadIsNamed) {
   const test::TempFolder folder;
   const auto line = [&](const std::string& content) -> std::string {
@@ -312,6 +354,10 @@ TEST(MetaImage, WhatCannotBeReadIsNamed) {
   expect_named("ElementDataFile = p%d 1 900000000 1", "too many data files");
   expect_named("CompressedData = True\nElementDataFile = p%d 1 4 1", "plain bytes");
   expect_named("ElementDataFile =", "names no file");
+  expect_named("DimSize = 3 2 4\nElementDataFile = long", "states 'DimSize' twice");
+  expect_named("ElementByteOrderMSB = True\nElementDataFile = long",
+               "states 'BinaryDataByteOrderMSB' twice, as 'False' and 'True'");
+  expect_named("HeaderSize = 7\nElementDataFile = LOCAL\n" + counting(24), "within the header itself");
   EXPECT_NE(line(kHead + "ElementDataFile = lost.raw\n").find("lost.raw"), std::string::npos);
   std::string axes = kHead;
   axes.replace(axes.find("NDims = 3"), 9, "NDims = 9");

@@ -57,6 +57,27 @@ TEST(MifImage, PlacesVoxelsInRas) {
   for (std::size_t p = 0; p < 12; ++p) EXPECT_EQ(image.arrays.front().at(p), static_cast<double>(p));
 }
 
+TEST(MifImage, ASliceOfTwoAxesIsASlice) {
+  const TempFolder folder;
+  const std::string flat =
+      replaced(replaced(replaced(kSmall, "2,3,2", "4,3"), "2,3,4", "2,8"), "+0,+1,+2", "+0,-1");
+  const DataSet image = read_values(folder.write("flat.mif", header(flat) + counting(12)));
+  const auto& grid = std::get<UniformTopology>(image.topology);
+  EXPECT_EQ(grid.points, Index3(4, 3, 1));
+  EXPECT_EQ(grid.axes[2], Vec3(0, 0, 4));
+  EXPECT_EQ(image.arrays.front().at(0), 8.0);
+}
+
+// Single precision holds no numbers of 32 bits.
+TEST(MifImage, ScaledNumbersKeepTheirDigits) {
+  const TempFolder folder;
+  std::string numbers;
+  for (int n = 0; n < 12; ++n) numbers += {static_cast<char>(n), '\0', '\0', '\x40'};  // 2^30 + n
+  const std::string large = replaced(kSmall, "UInt8", "Int32LE") + "scaling: 0,2\n";
+  const DataSet image = read_values(folder.write("large.mif", header(large) + numbers));
+  EXPECT_EQ(image.arrays.front().at(7), 2147483648.0 + 14.0);
+}
+
 // Ranks 1, 0, 2 with the second axis backwards: number n is voxel j = 2 - n % 3, i = n / 3 % 2, k = n / 6.
 TEST(MifImage, FollowsTheLayoutWithItsSigns) {
   const TempFolder folder;

@@ -325,6 +325,20 @@ TEST(Nifti, SlopeAndInterceptAreApplied) {
   for (std::size_t p = 0; p < 8; ++p) EXPECT_EQ(block.arrays[0].at(p), 0.5 * static_cast<double>(p) - 1.0);
 }
 
+TEST(Nifti, AnInterceptThatIsNoNumberIsSaid) {
+  const test::TempFolder folder;
+  NiftiHeader header{.size = {2, 2, 2}};
+  header.slope = 2.0F;
+  header.intercept = std::nanf("");
+  Source source = Source::open(
+      {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+  EXPECT_EQ(read_block(source).arrays.at(0).at(3), 6.0);
+  const auto& notes = source.info().notes;
+  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
+    return note.starts_with("WARNING: the header's intercept");
+  }));
+}
+
 TEST(Nifti, NanStaysNan) {
   const test::TempFolder folder;
   const NiftiHeader header{.size = {2, 2, 2}, .datatype = 16};
@@ -359,6 +373,43 @@ TEST(Nifti, TheFourthAxisIsTimeAndTheFifthHoldsComponents) {
       {{folder.write("f.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(24))}, {}});
   EXPECT_TRUE(fourth.info().times.empty());
   EXPECT_EQ(read_block(fourth).arrays.at(0).at(1, 2), 17.0);
+}
+
+// Voxels stand behind the header and four bytes about extensions, whatever a header says that begins earlier.
+TEST(Nifti, AnOffsetWithinTheHeaderIsLeftAside) {
+  const test::TempFolder folder;
+  for (const float offset : {0.0F, 100.0F, 352.0F}) {
+    std::string header = NiftiHeader{.size = {2, 2, 2}, .datatype = 2}.version1();
+    test::put_at(header, 108, offset);
+    Source source = Source::open(
+        {{folder.write("a.nii", header + std::string(4, '\0') + counting<std::uint8_t>(8))}, {}});
+    const DataSet block = read_block(source);
+    for (std::size_t p = 0; p < 8; ++p) EXPECT_EQ(block.arrays.at(0).at(p), static_cast<double>(p)) << offset;
+    const auto& notes = source.info().notes;
+    EXPECT_EQ(
+        std::count_if(notes.begin(), notes.end(),
+                      [](const std::string& note) { return note.find("within the header") != note.npos; }),
+        offset < 352.0F ? 1 : 0)
+        << offset;
+  }
+}
+
+TEST(Nifti, StepsThatAreNoNumbersAreSaidAndThoseOfOneVoxelDoNotCount) {
+  const test::TempFolder folder;
+  const auto warned = [&folder](const NiftiHeader& header) {
+    const auto notes =
+        Source::open(
+            {{folder.write("a.nii", header.version1() + std::string(4, '\0') + counting<std::uint8_t>(8))},
+             {}})
+            .info()
+            .notes;
+    return std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
+      return note.starts_with("WARNING: the header states no step along axis 2");
+    });
+  };
+  EXPECT_EQ(warned({.size = {2, 2, 2}, .pixdim = {1, std::nan(""), 1}}), 1);
+  EXPECT_EQ(warned({.size = {2, 2, 2}, .pixdim = {1, 0, 1}}), 1);
+  EXPECT_EQ(warned({.size = {8, 1, 1}, .pixdim = {1, 0, 0}}), 0);
 }
 
 TEST(Nifti, WhatCannotBeReadIsNamed) {

@@ -170,10 +170,57 @@ TEST(Nrrd, UnitsAreThoseThatTheHeaderStates) {
   };
   EXPECT_EQ(units(""), "");
   EXPECT_EQ(units("units: \"mm\" \"mm\" \"mm\"\n"), "coordinates in mm");
-  EXPECT_EQ(units("units: \"mm\" \"mm\" \"cm\"\nsample units: K\n"), "coordinates in mm mm cm, values in K");
+  EXPECT_EQ(units("units: \"mm\" \"mm\" \"cm\"\nsample units: K\n"), "coordinates in mm, values in K");
+  EXPECT_EQ(units("units: \"um\" \"um\" \"um\"\n"), "coordinates in um");
   EXPECT_EQ(units("space: right-anterior-superior\nspace directions: (1,0,0) (0,1,0) (0,0,1)\n"
                   "space units: \"m\" \"m\" \"m\"\nsample units: m/s\n"),
             "coordinates in m, values in m/s");
+}
+
+// A patient's coordinates are in millimetres, whatever unit the header has; axes in units of their own come into one.
+TEST(Nrrd, LengthsOfAPatientBecomeMillimetres) {
+  const TempFolder folder;
+  const auto open = [&folder](const std::string& fields) {
+    return Source::open(
+        {{folder.write("a.nrrd", kScalarHead + fields + "encoding: raw\n\n" + raw(counting(24)))}, {}});
+  };
+  const std::string place =
+      "space: left-posterior-superior\nspace directions: (1,0,0) (0,2,0) (0,0,3)\nspace origin: (4,5,6)\n";
+  const auto grid = [](Source source) {
+    return std::get<UniformTopology>(source.read({"scalars"}).at(0).topology);
+  };
+  for (const auto& [word, length] : {std::pair("um", 1e-3), std::pair("cm", 10.0), std::pair("Microns", 1e-3),
+                                     std::pair("metres", 1e3), std::pair("\xC2\xB5m", 1e-3)}) {
+    const std::string unit = std::string(" \"") + word + "\"";
+    Source source = open(place + "space units:" + unit + unit + unit + "\n");
+    EXPECT_EQ(source.info().units, "coordinates in mm") << word;
+    const UniformTopology topology = grid(std::move(source));
+    EXPECT_LT(glm::distance(topology.axes[2], length * Vec3(0, 0, 3)), 1e-12) << word;
+    EXPECT_LT(glm::distance(topology.origin, length * Vec3(-4, -5, 6)), 1e-12) << word;
+  }
+  const UniformTopology mixed = grid(open("spacings: 1 2 3\nunits: \"mm\" \"mm\" \"um\"\n"));
+  EXPECT_LT(glm::distance(mixed.axes[2], Vec3(0, 0, 3e-3)), 1e-12);
+  const auto odd = open(place + "space units: \"ell\" \"ell\" \"ell\"\n").info().notes;
+  EXPECT_TRUE(std::any_of(odd.begin(), odd.end(), [](const std::string& note) {
+    return note.find("WARNING: the header's unit of length, 'ell'") == 0;
+  }));
+  EXPECT_THROW((void)open(place + "space units: \"mm\" \"ell\" \"mm\"\n"), Error);
+}
+
+TEST(Nrrd, ASpacingThatContradictsTheEndsIsSaid) {
+  const TempFolder folder;
+  const auto said = [&folder](const std::string& fields) {
+    const auto notes =
+        Source::open(
+            {{folder.write("a.nrrd", kScalarHead + fields + "encoding: raw\n\n" + raw(counting(24)))}, {}})
+            .info()
+            .notes;
+    return std::count_if(notes.begin(), notes.end(),
+                         [](const std::string& note) { return note.starts_with("WARNING: along axis 2"); });
+  };
+  const std::string ends = "axis mins: 0 0 0\naxis maxs: 1 4 3\ncenters: node node node\n";
+  EXPECT_EQ(said(ends + "spacings: 1 9 1\n"), 1);
+  EXPECT_EQ(said(ends + "spacings: 1 2 1\n"), 0);
 }
 
 TEST(Nrrd, OneSliceIsReadAndSaidToBeNoVolume) {

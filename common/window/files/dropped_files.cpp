@@ -35,14 +35,16 @@ bool is_solution(const std::filesystem::path& file) {
 
 /// Whether the ending is of formats that hold tracts alone.
 bool is_tractogram(const std::filesystem::path& file) {
-  return std::ranges::any_of(format_rows(), [ending = file.extension().string()](const FormatRow& row) {
-    return row.holds == "tracts" && names_ending(row, ending);
+  const bool packed = lowered(file.extension().string()) == ".gz";
+  const std::string ending = (packed ? file.stem() : file).extension().string();
+  return std::ranges::any_of(format_rows(), [&](const FormatRow& row) {
+    return row.holds == "tracts" && names_ending(row, ending) && (row.gzip || !packed);
   });
 }
 
 bool is_gradient_table(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> kEndings{".bval", ".bvals", ".bvec", ".bvecs",
-                                                     ".eddy_rotated_bvecs"};
+  constexpr std::array<std::string_view, 6> kEndings{".bval",  ".bvals", ".bvec",
+                                                     ".bvecs", ".b",     ".eddy_rotated_bvecs"};
   return std::ranges::find(kEndings, file.extension().string()) != kEndings.end();
 }
 
