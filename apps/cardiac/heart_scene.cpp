@@ -75,7 +75,9 @@ Vec3 axis_of(const HeartOptions& options, const Heart& heart) {
   if (heart.axis) return glm::normalize(*heart.axis);
   const auto axis = long_axis(*heart.layer);
   if (!axis)
-    throw usage_error("the wall is closed, so that it has no base: name the direction by --axis x,y,z");
+    throw usage_error(
+        "the wall does not open to one side, so that it has no base: name the direction from apex to base by "
+        "--axis x,y,z");
   return *axis;
 }
 

@@ -36,16 +36,21 @@ std::string failure_of(const TraceSummary& summary) {
   return any ? std::string() : "no line: fibres are not known, or not defined, at any seed";
 }
 
-/// The helix angle beside each point, where it has an axis to be measured from.
+/// The helix angle beside each point, where it has an axis to be measured from; else a word about it.
 std::vector<PointColumn> columns_of(const std::shared_ptr<const LayeredHeart>& heart,
-                                    const HeartOptions& options, const std::vector<Line>& lines,
-                                    int threads) {
+                                    const HeartOptions& options, const std::vector<Line>& lines, int threads,
+                                    Console& console) {
   std::vector<PointColumn> columns;
   HeartOptions asked = options;
   for (const char* angle : {"depth", "gap", "helix"}) {
     asked.angle = angle;
     const bool axis = !asked.axis.empty() || heart->heart().axis || long_axis(*heart->heart().layer);
-    if (asked.angle == "helix" && !axis) continue;
+    if (asked.angle == "helix" && !axis) {
+      console.note(
+          "no helix angle beside the points: the wall does not open to one side; --axis x,y,z names the "
+          "direction from apex to base");
+      continue;
+    }
     columns.push_back({angle, angles_along(AngleProbe(heart, asked), lines, threads)});
   }
   return columns;
@@ -115,7 +120,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
     context.progress.begin("writing " + options.output.file.string(), 0);
     const Stopwatch watch;
     write_lines(options.output.file, summary.result.lines, options.common.force,
-                columns_of(heart, options.heart, summary.result.lines, options.common.threads));
+                columns_of(heart, options.heart, summary.result.lines, options.common.threads, console));
     summary.seconds_write = watch.seconds();
     context.interrupt.keep(options.output.file);
   }

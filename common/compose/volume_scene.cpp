@@ -45,6 +45,7 @@ Voxels read_voxels(Input& input, Progress* progress) {
   voxels.file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
   if (progress) progress->begin("reading " + input.title(), 0);
   voxels.blocks = input.read_timed({voxels.choice.array}, progress);
+  take_lattices(voxels.blocks);
   voxels.image = make_volume_image(volume_source(voxels.blocks, voxels.choice, voxels.file),
                                    voxels.choice.array, voxels.file);
   const bool whole =

@@ -9,6 +9,10 @@
 
 namespace palpate {
 
+/// Makes uniform grids of blocks whose points lie evenly: coordinates at even steps, and points of curvilinear blocks at
+/// those of a lattice, to a thousandth of a step. Their arrays stay as they are.
+void take_lattices(std::vector<DataSet>& blocks);
+
 /// The uniform block of `blocks` with `choice` as a point array of one component, its only one. Numbers of an
 /// array of one component stay where they are; of cells they stand at the middles of the cells, where they
 /// are voxels; magnitudes are computed, in single precision.

@@ -305,7 +305,7 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   // A heart of a mouse is 5 mm long, and one that is stated in mm would be a thousandth of its size.
   constexpr double kTooSmall = 0.5;  // mm
   if (const double size = describe_mesh(mesh).bounds.diagonal(); size < kTooSmall)
-    notes.push_back("the mesh is " + short_number(1e3 * size) +
+    notes.push_back("WARNING: the mesh is " + short_number(1e3 * size) +
                     " micrometres across: no heart is; are its points stated in mm?");
   return mesh;
 }

@@ -108,5 +108,45 @@ TEST_F(CardiacRegions, AreSaidAndRefusedByNumber) {
   EXPECT_NE(none.err.find("no array that numbers the regions"), std::string::npos) << none.err;
 }
 
+// Fibres run around: the helix angle is 0 about the tube's axis, which is to be named, since both ends are open.
+TEST_F(CardiacRegions, AreThoseOfEveryVerb) {
+  const auto column = [this](const std::string& name) {
+    std::istringstream rows(read_file(folder_.path("a.csv")));
+    std::string row;
+    std::vector<double> values;
+    std::getline(rows, row);
+    std::istringstream head(row);
+    std::size_t at = 0, place = 0;
+    bool found = false;
+    for (std::string field; std::getline(head, field, ','); ++at) {
+      if (field == name) place = at, found = true;
+    }
+    while (found && std::getline(rows, row)) {
+      std::istringstream fields(row);
+      std::string field;
+      for (std::size_t i = 0; i <= place; ++i) std::getline(fields, field, ',');
+      values.push_back(std::atof(field.c_str()));
+    }
+    return values;
+  };
+  const std::vector<std::string> trace{"trace",   "tube.vtk",   "--regions", "7",     "--layer", "0.5",
+                                       "--seeds", "grid:5,5,3", "--out",     "a.csv", "--force"};
+  (void)json(trace);
+  EXPECT_TRUE(column("helix").empty());
+  std::vector<std::string> named = trace;
+  named.insert(named.end(), {"--axis", "0,0,1"});
+  (void)json(named);
+  const std::vector<double> x = column("x"), y = column("y"), helix = column("helix");
+  ASSERT_FALSE(x.empty());
+  ASSERT_EQ(helix.size(), x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(std::hypot(x[i], y[i]), std::sqrt(3.0), 0.02) << "half way from 1.5 to 2 by the logarithm";
+    EXPECT_NEAR(helix[i], 0.0, 1.0);
+  }
+  const Json drawn =
+      json({"render", "tube.vtk", "--regions", "1", "--axis", "0,0,1", "--size", "64x48", "--out", "a.png"});
+  EXPECT_EQ(drawn["settings"]["regions"], "1");
+}
+
 }  // namespace
 }  // namespace palpate::test

@@ -1,6 +1,7 @@
 #include "common/scene/volume_source.h"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -46,6 +47,48 @@ TEST(VolumeSource, ComponentsAndMagnitudesAreTakenOut) {
   const DataSet norm = volume_source({given}, {"a", Association::kPoint, ScalarChoice::kMagnitude}, "f");
   EXPECT_EQ(norm.arrays[0].components, 1);
   EXPECT_FLOAT_EQ(static_cast<float>(norm.arrays[0].at(1)), std::sqrt(9.0F + 16.0F + 25.0F));
+}
+
+// What lies evenly is an image, whatever the file calls its grid: voxels are where they were.
+TEST(VolumeSource, GridsWhosePointsLieEvenlyAreLattices) {
+  const DataSet image = block(Association::kPoint, 1);
+  const auto& place = std::get<UniformTopology>(image.topology);
+  const auto structured = [&image](const UniformTopology& lattice, double off) {
+    std::vector<double> places;
+    for (int p = 0; p < 60; ++p) {
+      Vec3 x = lattice.origin + lattice.axes * Vec3(p % 3, p / 3 % 4, p / 12);
+      if (p == 31) x.y += off;
+      places.insert(places.end(), {x.x, x.y, x.z});
+    }
+    DataSet curved = image;
+    curved.topology = StructuredTopology{
+        lattice.points, make_array("positions", Association::kPoint, 3, std::span<const double>(places))};
+    return curved;
+  };
+  UniformTopology sheared = place;
+  sheared.axes[2] = Vec3(0.5, 0.25, 4.0);
+  DataSet even = image, uneven = image;
+  even.topology = RectilinearTopology{{std::vector<double>{1, 3, 5}, {2, 1, 0, -1}, {0, 0.1, 0.2, 0.3, 0.4}}};
+  uneven.topology = RectilinearTopology{{std::vector<double>{1, 3, 6}, {2, 1, 0, -1}, {0, 1, 2, 3, 4}}};
+  std::vector<DataSet> blocks{
+      structured(place, 0.0), structured(sheared, 1e-4), structured(place, 0.1), even, uneven, image};
+  take_lattices(blocks);
+  for (const std::size_t b : {0U, 1U, 3U}) {
+    const auto* lattice = std::get_if<UniformTopology>(&blocks[b].topology);
+    ASSERT_NE(lattice, nullptr) << b;
+    EXPECT_EQ(lattice->points, Index3(3, 4, 5)) << b;
+    EXPECT_EQ(blocks[b].arrays[0].bytes.data(), image.arrays[0].bytes.data());
+  }
+  const auto& turned = std::get<UniformTopology>(blocks[0].topology);
+  EXPECT_LT(glm::distance(turned.axes[0], place.axes[0]) + glm::distance(turned.axes[1], place.axes[1]) +
+                glm::distance(turned.axes[2], place.axes[2]) + glm::distance(turned.origin, place.origin),
+            1e-12);
+  EXPECT_LT(glm::distance(std::get<UniformTopology>(blocks[1].topology).axes[2], sheared.axes[2]), 1e-3);
+  const auto& straight = std::get<UniformTopology>(blocks[3].topology);
+  EXPECT_EQ(straight.origin, Vec3(1, 2, 0));
+  EXPECT_LT(glm::distance(straight.axes[1], Vec3(0, -1, 0)), 1e-12);
+  EXPECT_TRUE(std::holds_alternative<StructuredTopology>(blocks[2].topology));
+  EXPECT_TRUE(std::holds_alternative<RectilinearTopology>(blocks[4].topology));
 }
 
 TEST(VolumeSource, OtherGridsAndSeveralBlocksAreRefused) {
