@@ -72,12 +72,14 @@ double apart(const std::vector<Vec3>& path, const std::vector<Line>& lines) {
   std::size_t count = 0;
   constexpr std::size_t kEvery = 5;
   for (std::size_t i = 0; i < path.size(); i += kEvery, ++count) {
-    double least = HUGE_VAL;
+    double least = HUGE_VAL;  // square
     for (const Line& line : lines) {
-      for (const LinePoint& point : line.points)
-        least = std::min(least, glm::distance(point.position, path[i]));
+      for (const LinePoint& point : line.points) {
+        const Vec3 way = point.position - path[i];
+        least = std::min(least, glm::dot(way, way));
+      }
     }
-    sum += least;
+    sum += std::sqrt(least);
   }
   return sum / static_cast<double>(count);
 }
@@ -172,14 +174,16 @@ View view_from(const std::vector<Vec3>& path, const std::vector<Line>& lines, do
   if (view.depth > kDeep || view.depth >= least) return view;
   constexpr double kWide = 0.002;  // [m] of a drawn line and what is beside it
   constexpr std::size_t kEvery = 5;
+  std::vector<Vec3> drawn;
+  for (const Line& line : lines) {
+    for (const LinePoint& point : line.points) drawn.push_back(in_view(point.position));
+  }
   std::size_t behind = 0, count = 0;
   for (std::size_t i = 0; i < path.size(); i += kEvery, ++count) {
     const Vec3 p = in_view(path[i]);
-    const bool hidden = std::ranges::any_of(lines, [&](const Line& line) {
-      return std::ranges::any_of(line.points, [&](const LinePoint& point) {
-        const Vec3 q = in_view(point.position);
-        return q.z > p.z + kWide && std::hypot(q.x - p.x, q.y - p.y) < kWide;
-      });
+    const bool hidden = std::ranges::any_of(drawn, [&p](const Vec3& q) {
+      const double x = q.x - p.x, y = q.y - p.y;
+      return q.z > p.z + kWide && x * x + y * y < kWide * kWide;
     });
     behind += hidden ? 1 : 0;
   }
