@@ -21,7 +21,7 @@ ParticipantTraits draw_traits(std::uint64_t seed, int number) {
   traits.delay += 0.03 * std::clamp(random.normal(), -2.0, 2.0);
   traits.speed = varied(traits.speed, 1.3, random);
   traits.move_noise = varied(traits.move_noise, 1.25, random);
-  traits.turn_noise = varied(traits.turn_noise, 1.25, random);
+  traits.turn_noise = varied(traits.turn_noise, 1.23, random);
   traits.sight_noise = varied(traits.sight_noise, 1.2, random);
   traits.depth_noise = varied(traits.depth_noise, 1.3, random);
   traits.gain = varied(traits.gain, 1.2, random);

@@ -19,7 +19,10 @@
 ///   v       0.05 m/s, factor 1.3    some 3 s for a path of 0.1 m, within the limit that the reference set
 ///   n_move  0.20, factor 1.25   motor noise in proportion to the command: Harris & Wolpert 1998, Nature 394:780; linear
 ///                               speed-accuracy trade-off: Schmidt et al. 1979, Psychol. Rev. 86:415
-///   n_turn  0.10 rad, factor 1.25    judged direction of short drawn lines in motion; no source, chosen
+///   n_turn  0.115 rad, factor 1.23    slow movements in a seen direction deviate at random by 4 degrees and constantly, with the
+///                               direction, by up to 5 to 10 degrees, by person: de Graaf, Sittig & Denier van der Gon
+///                               1991, Exp. Brain Res. 84:434. Where the latter go with the sine of the direction, that is
+///                               5.3 to 8.1 degrees in all (root mean square)
 ///   n_see   1.0 mm; in depth 7 mm, factor 1.3    in depth delta D^2 / I with D = 0.6 m, I = 63 mm and
 ///                               delta some 4 arc minutes, a disparity that moving observers with shutter glasses tell
 ///                               (threshold at rest: below one, Howard & Rogers 2012, ch. 18)
@@ -45,7 +48,7 @@ struct ParticipantTraits {
   double foresight = 0.25;     ///< f [s]
   double speed = 0.050;        ///< v [m/s]
   double move_noise = 0.20;    ///< part of v
-  double turn_noise = 0.10;    ///< [rad]
+  double turn_noise = 0.115;   ///< [rad]
   double sight_noise = 0.001;  ///< [m]
   double depth_noise = 0.007;  ///< [m]
   double gain = 2.5;           ///< g [1/s]

@@ -170,7 +170,11 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
   for (std::size_t i = 0; i < n; ++i) y[i] = trials[i].value;
   residual(y);
   std::vector<char> changed(as_size(participants), 0);
-  const auto beta = [&] {
+  struct Fit {
+    double beta = kNone;
+    double strength = 0.0;  ///< |partial correlation| but for a factor that all changes share
+  };
+  const auto fit = [&]() -> Fit {
     for (std::size_t i = 0; i < n; ++i) {
       c[i] = trials[i].treated != (changed[as_size(trials[i].participant)] != 0) ? 1.0 : 0.0;
     }
@@ -180,15 +184,18 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
       above += c[i] * y[i];
       below += c[i] * c[i];
     }
-    return below > 1e-12 ? above / below : kNone;
+    // Where participants and stimuli tell who is treated, nothing is left for the treatment to explain.
+    if (!(below > 1e-12)) return {};
+    return {above / below, std::abs(above) / std::sqrt(below)};
   };
-  out.effect = beta();
+  const Fit observed = fit();
+  out.effect = observed.beta;
   if (!std::isfinite(out.effect)) return {kNone, kNone, 0, false};
   constexpr int kMostExact = 14;
   out.exact = participants <= kMostExact;
   out.draws = out.exact ? std::size_t{1} << static_cast<unsigned>(participants) : draws;
   // Signs of effects that are equal but for rounding count as equal.
-  const double least = std::abs(out.effect) * (1.0 - 1e-9);
+  const double least = observed.strength * (1.0 - 1e-9);
   std::size_t as_far = 0;
   for (std::size_t draw = 0; draw < out.draws; ++draw) {
     for (int i = 0; i < participants; ++i) {
@@ -198,8 +205,7 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
               : uniform_at(seed * 0x9e3779b97f4a7c15U + draw * as_size(participants) + as_size(i)) < 0.5;
       changed[as_size(i)] = change ? 1 : 0;
     }
-    const double other = beta();
-    if (!(std::abs(other) < least)) ++as_far;
+    if (fit().strength >= least) ++as_far;
   }
   // Of all changes the one without any is the observed one; of random ones it is one more.
   out.p = out.exact ? static_cast<double>(as_far) / static_cast<double>(out.draws)

@@ -85,9 +85,10 @@ struct TrialValue {
 ///
 ///   y = m + participant_i + stimulus_j + beta c + e,   c = 1 where treated, else 0
 ///
-/// beta by least squares; its distribution by changing, for all trials of a participant at once, which are
-/// treated: what differs between participants in the effect stays in the reference distribution. All 2^n changes up to
-/// 14 participants, else `draws` of them at random; p counts the observed one among them.
+/// beta by least squares; the distribution of its partial correlation by changing, for all trials of a participant at
+/// once, which are treated: what differs between participants in the effect stays in the reference distribution. Not of
+/// beta itself: changes unbalance a balanced design, and beta varies more then. All 2^n changes up to 14 participants, else
+/// `draws` of them at random; p counts the observed one among them.
 struct PermutationTest {
   double effect = 0.0;  ///< beta
   double p = 1.0;

@@ -1,13 +1,17 @@
 // Figures are those of R 4.2.2 and SciPy 1.10.1 for the same values, computed apart from this code.
 #include "common/study/statistics.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/base/index.h"
+#include "common/study/design.h"
 #include "common/study/distributions.h"
 #include "common/study/random_stream.h"
 #include "tests/support/uniformity.h"
@@ -118,8 +122,8 @@ TEST(UniformityTest, MeasuresTheDistanceOfSciPy) {
   EXPECT_LT(uniformity_test(values).p, 1e-3);
 }
 
-/// y = 10 + 3 i - 2 j + (0.7 + 0.2 i) c + sin(7 i + 3 j): beta and how many of the 32 changes are as far from zero,
-/// by least squares with dummy variables in NumPy.
+/// y = 10 + 3 i - 2 j + (0.7 + 0.2 i) c + sin(7 i + 3 j): beta, and in how many of the 32 changes c explains as much of
+/// what dummy variables of i and j leave, by least squares in NumPy.
 TEST(PermutationTest, IsThatOfLeastSquaresUnderAllChanges) {
   std::vector<TrialValue> trials;
   for (int i = 0; i < 5; ++i) {
@@ -132,7 +136,7 @@ TEST(PermutationTest, IsThatOfLeastSquaresUnderAllChanges) {
   const PermutationTest test = permutation_test(trials, 1);
   EXPECT_TRUE(test.exact);
   EXPECT_NEAR(test.effect, 1.40562488834375, kDigits);
-  EXPECT_NEAR(test.p, 6.0 / 32.0, kDigits);
+  EXPECT_NEAR(test.p, 2.0 / 32.0, kDigits);
 }
 
 TEST(PermutationTest, AtRandomFindsWhatIsThereAndNothingElse) {
@@ -149,6 +153,34 @@ TEST(PermutationTest, AtRandomFindsWhatIsThereAndNothingElse) {
   };
   EXPECT_EQ(p_of(2.0), 0.001) << "the observed one among 1000";
   EXPECT_GT(p_of(0.0), 0.05);
+}
+
+/// In the designs of experiments, where paths differ much more than trials do: a path is seen as often in one condition as
+/// in the other. That leaves the difference of means alone and makes its deviation large, so that the t test of an effect
+/// that there is not is too careful; the permutation test takes the paths out.
+TEST(PermutationTest, IsUniformInTheDesignWhereThePathsDiffer) {
+  constexpr int kPeople = 8, kPaths = 4;
+  constexpr std::uint64_t kSeeds = 400;
+  std::vector<double> permuted, paired;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    RandomStream random({seed, 77});
+    std::array<double, kPaths> path{};
+    for (double& one : path) one = 3.0 * random.normal();
+    std::vector<TrialValue> trials;
+    std::array<std::array<double, kPeople>, 2> sums{};
+    for (const PlannedTrial& t : make_design(
+             {.participants = kPeople, .tasks = 1, .practice = 0, .recorded = kPaths, .seed = seed})) {
+      const double value = path[as_size(t.stimulus)] + random.normal();
+      trials.push_back({t.participant, t.stimulus, t.guided, value});
+      sums[t.guided ? 1 : 0][as_size(t.participant)] += value;
+    }
+    permuted.push_back(permutation_test(trials, seed).p);
+    paired.push_back(paired_test(sums[0], sums[1]).p);
+  }
+  const UniformityTest test = uniformity_test(permuted);
+  EXPECT_GT(test.p, 0.01) << "D = " << test.distance;
+  EXPECT_LT(uniformity_test(paired).p, 1e-6);
+  EXPECT_LT(std::ranges::count_if(paired, [](double p) { return p < 0.05; }), 10) << "never too bold";
 }
 
 TEST(Power, OfThePairedTestIsThatOfR) {
