@@ -384,7 +384,9 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
   if (line.end == End::kLeftDomain && !mesh.on_border(last.position, 1e-12 + last.error)) {
     verdict.wrong_end = "left within the domain";
   }
-  // Where it stagnates it is to stay, but for speeds that the values at the vertices cannot tell from zero.
+  // Where it stagnates it is to stay, but for speeds that the values at the vertices cannot tell from zero: the last digit of
+  // a point, times the fastest rate, is some units of the last digit of the fastest speed.
+  constexpr Long kTold = 16 * 0x1p-52L;
   if (line.end == End::kStagnation) {
     const Long ahead = line.direction == TraceDirection::kForward ? 1 : -1;
     const Long3 then = field.at(seed, last.time + 2 * ahead);
@@ -394,7 +396,7 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
     Long slowest = length(field.velocity(then));
     for (Long t = 0x1p-70L; t < 2; t *= 4)
       slowest = std::min(slowest, length(field.velocity(field.at(seed, last.time + ahead * t))));
-    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) && slowest > 0x1p-52L * fastest) {
+    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) && slowest > kTold * fastest) {
       verdict.wrong_end = "moves on from its rest";
     }
   }

@@ -200,7 +200,8 @@ AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, 
   }
   make_modes<double>(vertices, tet, sign, b);
   find_exit(b, 4.0 * kDoublesReach);
-  if (rest_ || (exit_.face >= 0 && rate_ * exit_.time <= kDoublesReach)) return;
+  // Beside a fast rate doubles do not know a slow one from rest.
+  if (!(rate_ > 0.0) || (exit_.face >= 0 && rate_ * exit_.time <= kDoublesReach)) return;
   is_long_ = true;
   make_modes<DoubleDouble>(vertices, tet, sign, b);
   find_exit(b, kLongReach);

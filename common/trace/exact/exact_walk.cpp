@@ -156,20 +156,18 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
   if (speed > 0.0) direction_ = v * (1.0 / speed);
   turn_cosine_ = glm::dot(before, direction_);
 
-  // (1) of error_transport.h; on the robust path the modes carry it.
+  // (1) of error_ellipse.h; on the robust path the modes carry it.
   if (!robust_piece_) {
-    const Vec3& e = error_.vector();
-    const Pack4 d = along(cell_, Pack4{e, 0.0}), first = apply(cell_, d);
-    const Pack4 change = velocity(cell_, time * first);
-    constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which one term is enough
-    if (dot3(change, change) > kSmall * glm::dot(e, e)) {
+    error_.carry([&](const Vec3& e) {
+      const Pack4 d = along(cell_, Pack4{e, 0.0}), first = apply(cell_, d);
+      const Pack4 change = velocity(cell_, time * first);
+      constexpr double kSmall = 0.01;  // square of |time A e| / |e| below which one term is enough
+      if (!(dot3(change, change) > kSmall * glm::dot(e, e))) return e + change.xyz();
       const double* power = piece_.power;
-      error_.set(velocity(cell_, power[0] * d + (power[1] * first + power[2] * apply(cell_, first))).xyz());
-    } else {
-      error_.set(e + change.xyz());
-    }
+      return velocity(cell_, power[0] * d + (power[1] * first + power[2] * apply(cell_, first))).xyz();
+    });
   }
-  error_.add(local_error);
+  error_.add(local_error, direction_);
   end_.position = position(cell_, b_).xyz();
   end_.time = begin_.time + time;
   end_.arc = begin_.arc + arc;
@@ -198,9 +196,9 @@ std::optional<End> ExactWalk::cross(int face) {
     const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, seams_standing_++);
     if (there.cell == kNoCell) return End::kLeftDomain;
     if (there.opposed) return End::kOpposedCells;
-    error_.set(there.carried(error_.vector()));
+    error_.carry([&](const Vec3& e) { return there.carried(e); });
     settle(there.cell, there.x);
-    error_.add(there.error);
+    error_.add(there.error, direction_);
     end_.position = there.x;
     end_.speed = glm::length(there.v);
     end_.error += there.error;
@@ -246,7 +244,7 @@ void ExactWalk::settle(CellIndex cell, const Vec3& x) {
   pieces_in_cell_ = 0;
   enter_cell();
   w_ = rate(cell_, b_);
-  error_.add(glm::distance(position(cell_, b_).xyz(), x));
+  error_.add(glm::distance(position(cell_, b_).xyz(), x), direction_);
 }
 
 LinePoint ExactWalk::at(double theta) const {

@@ -10,7 +10,7 @@
 #include "common/trace/exact/affine_modes.h"
 #include "common/trace/exact/exact_kernel.h"
 #include "common/trace/exact/exact_mesh.h"
-#include "common/trace/walk/error_transport.h"
+#include "common/trace/walk/error_ellipse.h"
 #include "common/trace/walk/line_walk.h"
 
 namespace palpate {
@@ -93,7 +93,7 @@ class ExactWalk final : public LineWalk {
 
   ExactPiece piece_;  ///< the last one; of a robust one only the time
 
-  ErrorTransport error_;
+  ErrorEllipse error_;
   std::int64_t robust_pieces_ = 0, long_cells_ = 0;
 };
 

@@ -110,8 +110,10 @@ std::optional<End> ExactWalk::robust_piece() {
     piece_start_ = modes_time_;
     robust_piece_ = true;
     // The error is carried by the modes themselves.
-    const Pack4 d = along(cell_, Pack4{error_.vector(), 0.0});
-    error_.set(velocity(cell_, to_pack(modes.carried({d[0], d[1], d[2], d[3]}, h))).xyz());
+    error_.carry([&](const Vec3& e) {
+      const Pack4 d = along(cell_, Pack4{e, 0.0});
+      return velocity(cell_, to_pack(modes.carried({d[0], d[1], d[2], d[3]}, h))).xyz();
+    });
     double moved = std::max(0.0, -std::min(std::min(flow.b[0], flow.b[1]), std::min(flow.b[2], flow.b[3])));
     if (last) moved = std::max(moved, std::abs(flow.b[exit.face]));
     // Farther than time has digits: the exit is not where the solution is.

@@ -60,6 +60,60 @@ TEST_P(ExactOnAffineFields, StatesItsErrorAndEndsWhereTheCurveEnds) {
 
 INSTANTIATE_TEST_SUITE_P(Rates, ExactOnAffineFields, testing::Values(0, 4, 10, 20, 30, 40, 47, 54, 60));
 
+/// A field of exact_lines_bench, by its number there, and its lines.
+struct BenchField {
+  AffineField field;
+  AffineMesh mesh;
+  std::vector<Vec3> seeds;
+  TraceResult result;
+  double diagonal = 0.0;
+
+  explicit BenchField(unsigned number) {
+    std::mt19937_64 random{number};
+    const int exponent = static_cast<int>(random() % 61);
+    std::shared_ptr<const VectorField> flow;
+    while (!flow) {
+      field = draw_field(random, exponent);
+      mesh = draw_mesh(random);
+      flow = sampled(field, mesh);
+    }
+    for (int i = 0; i < 20; ++i) seeds.push_back(draw_seed(random, mesh));
+    TraceOptions options;
+    options.backward = true;
+    options.max_steps = 1000;
+    options.threads = 1;
+    result = trace_lines(*flow, seeds, options);
+    diagonal = flow->diagonal();
+  }
+};
+
+// Lines of these were off by up to 3900 times what they state: errors of later cells were counted along the flow, where they
+// cost nothing.
+TEST(ExactLines, StateWhatLaterCellsAddAcrossTheFlow) {
+  for (const unsigned number : {17623U, 11649U, 19473U, 18578U, 24449U}) {
+    const BenchField bench(number);
+    for (const Line& line : bench.result.lines) {
+      const LineVerdict verdict =
+          judge(line, bench.field, bench.mesh, bench.seeds[line.seed], bench.diagonal);
+      EXPECT_LE(verdict.worst_excess, 10.0) << number << " " << line.seed;
+      EXPECT_EQ(verdict.wrong_end, "") << number << " " << line.seed;
+    }
+  }
+}
+
+// A speed of 0.05 beside one of 2.6e13: in a cell of slivers doubles take it for rest.
+TEST(ExactLines, GoOnAlongASlowManifoldThatDoublesTakeForRest) {
+  const BenchField bench(12642U);
+  int left = 0;
+  for (const Line& line : bench.result.lines) {
+    if (line.direction != TraceDirection::kForward) continue;
+    if (line.seed != 3 && line.seed != 12 && line.seed != 18) continue;
+    EXPECT_EQ(line.end, End::kLeftDomain) << line.seed;
+    ++left;
+  }
+  EXPECT_EQ(left, 3);
+}
+
 // A spiral dies out, and the line creeps out of its cell along the axis: after as many turns as the rates are apart.
 TEST(ExactLines, LeaveSlowlyOnceASpiralHasDiedOut) {
   for (const int exponent : {2, 12, 30, 44}) {
