@@ -440,7 +440,7 @@ std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first, st
       in.read(reinterpret_cast<char*>(packed.data()), packed.size());
       z.next_in = packed.data();
       z.avail_in = static_cast<uInt>(in.gcount());
-      if (z.avail_in == 0) return {};  // cut off, which is the reader's to say
+      if (z.avail_in == 0) break;
     }
     // Another member may follow; anything else is no gzip data.
     if (result == Z_STREAM_END) {
@@ -456,9 +456,20 @@ std::string gzip_rest(const std::filesystem::path& file, std::uint64_t first, st
       return "its gzip data unpacks to more than the " + std::to_string(wanted) +
              " bytes that the header claims: the rest is left out";
     if (result != Z_OK && result != Z_STREAM_END) break;
-    if (result == Z_STREAM_END && consumed == size) return {};
+    if (result == Z_STREAM_END && consumed == size) break;
   }
-  return counted(as_size(size - consumed), "byte") + " after its gzip data are left out";
+  // Teem keeps what it opened of packed data that it cannot read: these do not come to it.
+  if (result != Z_STREAM_END || made < wanted) {
+    throw input_error({file.string(), "",
+                       "holds gzip data that " +
+                           std::string(result == Z_STREAM_END ? "end"
+                                       : result == Z_OK       ? "are cut off"
+                                                              : "are damaged") +
+                           " after " + std::to_string(made) + " bytes",
+                       std::to_string(wanted) + " by the header", "the file may be truncated"});
+  }
+  return consumed == size ? std::string()
+                          : counted(as_size(size - consumed), "byte") + " after its gzip data are left out";
 }
 
 }  // namespace palpate

@@ -97,6 +97,26 @@ TEST(Nrrd, SaysWhatItsGzipDataHoldsBeyondTheHeader) {
   }
 }
 
+TEST(Nrrd, SaysHowFarItsGzipDataGo) {
+  const TempFolder folder;
+  const std::string head = kScalarHead + "encoding: gzip\n\n", values = raw(counting(24));
+  const auto line = [&](const std::string& packed) -> std::string {
+    try {
+      (void)Source::open({{folder.write("a.nrrd", head + packed)}, {}});
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      return error.what();
+    }
+    return "accepted";
+  };
+  const std::string whole = gzip(values), cut = line(whole.substr(0, whole.size() - 12));
+  EXPECT_NE(cut.find("gzip data that are cut off after "), std::string::npos) << cut;
+  EXPECT_NE(cut.find("expected 96 by the header"), std::string::npos) << cut;
+  const std::string few = line(gzip(values.substr(0, 90)));
+  EXPECT_NE(few.find("gzip data that end after 90 bytes"), std::string::npos) << few;
+  EXPECT_EQ(line(whole), "accepted");
+}
+
 // Eight bytes where the header says eight, and ten.
 TEST(Nrrd, SaysWhatHexAndBzip2DataHoldBeyondTheHeader) {
   const TempFolder folder;
