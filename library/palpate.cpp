@@ -1,78 +1,23 @@
 #include "library/palpate/palpate.h"
 
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <limits>
-#include <mutex>
 #include <utility>
 
-#include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/parallel.h"
-#include "common/base/progress.h"
 #include "common/base/version.h"
 #include "common/field/analytic/examples.h"
 #include "common/field/scalar_choice.h"
-#include "common/field/scalar_field.h"
-#include "common/field/vector_field.h"
 #include "common/load/write/write_lines.h"
-#include "common/scene/input.h"
 #include "common/scene/seeds.h"
 #include "common/trace/trace.h"
+#include "library/access.h"
 
 namespace palpate::api {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::chrono::milliseconds kWatchPeriod{100};
-
-Error::Kind kind_of(ExitCode code) {
-  switch (code) {
-    case ExitCode::kUsage:
-      return Error::Kind::kUsage;
-    case ExitCode::kBadInput:
-      return Error::Kind::kBadInput;
-    case ExitCode::kInterrupted:
-      return Error::Kind::kInterrupted;
-    default:
-      return Error::Kind::kWorkFailed;
-  }
-}
-
-/// What `work` returns; what it throws as the library's own error.
-template <class Work>
-auto guarded(const Work& work) {
-  try {
-    return work();
-  } catch (const palpate::Error& error) {
-    throw Error(kind_of(error.code()), error.what());
-  } catch (const std::bad_alloc&) {
-    throw Error(Error::Kind::kWorkFailed, "not enough memory");
-  }
-}
-
-/// What `work` returns, which runs in a thread of its own while `watch` is asked in this one.
-template <class Work>
-auto watched(const Watcher& watch, const Work& work) {
-  return guarded([&] {
-    Progress progress;
-    if (!watch) return work(progress);
-    auto done = std::async(std::launch::async, [&] { return work(progress); });
-    try {
-      while (done.wait_for(kWatchPeriod) != std::future_status::ready) {
-        if (!watch(progress.stage(), progress.fraction())) progress.cancel();
-      }
-    } catch (...) {  // of the watcher; the future waits for the work
-      progress.cancel();
-      throw;
-    }
-    return done.get();
-  });
-}
-
-Point point_of(const Vec3& x) { return {x.x, x.y, x.z}; }
-Vec3 vec_of(const Point& x) { return {x[0], x[1], x[2]}; }
 
 Status status_of(SampleStatus status) {
   return status == SampleStatus::kOk        ? Status::kOk
@@ -99,48 +44,7 @@ void sample_all(std::span<const Point> x, std::span<Status> status, const Sample
   });
 }
 
-template <class Number>
-DataArray array_of(const char* name, std::span<const Number> values, std::shared_ptr<const void> owner) {
-  return {.name = name,
-          .association = Association::kPoint,
-          .components = 3,
-          .type = std::is_same_v<Number, float> ? ScalarType::kFloat32 : ScalarType::kFloat64,
-          .tuples = values.size() / 3,
-          .bytes = std::as_bytes(values),
-          .owner = std::move(owner),
-          .sparse = nullptr};
-}
-
-std::shared_ptr<const VectorField> field_of_arrays(DataSet block) {
-  const VectorChoice choice{VectorChoice::Kind::kArray, Association::kPoint, {"values"}, "values"};
-  std::vector<DataSet> blocks;
-  blocks.push_back(std::move(block));
-  return make_vector_field(blocks, choice, "values");
-}
-
-void check_count(std::size_t found, std::size_t expected) {
-  if (found == expected) return;
-  throw input_error({.file = "values",
-                     .place = {},
-                     .found = std::to_string(found) + " numbers",
-                     .expected = std::to_string(expected) + ", three for each point",
-                     .remedy = {}});
-}
-
 }  // namespace
-
-struct FieldData {
-  std::shared_ptr<const VectorField> field;
-};
-
-struct ScalarData {
-  std::shared_ptr<const ScalarField> field;
-};
-
-struct OpenData {
-  Input input;
-  mutable std::mutex mutex;
-};
 
 struct LineData {
   std::vector<std::int64_t> offsets{0};
@@ -150,66 +54,6 @@ struct LineData {
   std::vector<double> time, arc, speed, error;
   std::vector<std::uint32_t> outside;
   std::string method;
-};
-
-/// Makes the handles and looks into them.
-struct Access {
-  static Field field(std::shared_ptr<const VectorField> made) {
-    Field handle;
-    handle.data_ = std::make_shared<FieldData>(FieldData{std::move(made)});
-    return handle;
-  }
-  static Scalar scalar(std::shared_ptr<const ScalarField> made) {
-    Scalar handle;
-    handle.data_ = std::make_shared<ScalarData>(ScalarData{std::move(made)});
-    return handle;
-  }
-  static Data data(Input input) {
-    Data handle;
-    handle.data_ = std::shared_ptr<OpenData>(new OpenData{std::move(input), {}});
-    return handle;
-  }
-  static Lines lines(LineData made) {
-    Lines handle;
-    handle.data_ = std::make_shared<LineData>(std::move(made));
-    return handle;
-  }
-  static const VectorField& of(const Field& handle) { return *handle.data_->field; }
-
-  template <class Number>
-  static Field uniform(const std::array<std::int64_t, 3>& points, const Point& origin, const Point& spacing,
-                       std::span<const Number> values, const std::shared_ptr<const void>& owner) {
-    return guarded([&] {
-      UniformTopology grid;
-      std::size_t count = 1;
-      for (int k = 0; k < 3; ++k) {
-        const std::int64_t n = points[as_size(k)];
-        const bool fits = n > 0 && count <= values.size() / as_size(n);
-        // More points than there are numbers: the product is not needed, and may be beyond any integer.
-        count = fits ? count * as_size(n) : 0;
-        if (count == 0) break;
-        grid.points[k] = n;
-        grid.axes[k] = Vec3(0.0);
-        grid.axes[k][k] = spacing[as_size(k)];
-      }
-      if (count == 0) {
-        throw input_error({.file = "values",
-                           .place = {},
-                           .found = std::to_string(values.size()) + " numbers",
-                           .expected = "three for each of " + std::to_string(points[0]) + " x " +
-                                       std::to_string(points[1]) + " x " + std::to_string(points[2]) +
-                                       " points",
-                           .remedy = {}});
-      }
-      check_count(values.size(), 3 * count);
-      grid.origin = vec_of(origin);
-      return field(field_of_arrays({.name = {},
-                                    .topology = grid,
-                                    .arrays = {array_of("values", values, owner)},
-                                    .visible = {},
-                                    .hidden_cells = {}}));
-    });
-  }
 };
 
 std::string version() { return palpate::version(); }
@@ -241,51 +85,6 @@ void Scalar::gradient(std::span<const Point> x, std::span<Point> gradients, std:
 
 Field Field::example(const std::string& name) {
   return guarded([&] { return Access::field(make_vector_field(palpate::example(name))); });
-}
-
-Field Field::uniform(const std::array<std::int64_t, 3>& points, const Point& origin, const Point& spacing,
-                     const SharedDoubles& values) {
-  return Access::uniform(points, origin, spacing, values.values, values.owner);
-}
-
-Field Field::uniform(const std::array<std::int64_t, 3>& points, const Point& origin, const Point& spacing,
-                     const SharedFloats& values) {
-  return Access::uniform(points, origin, spacing, values.values, values.owner);
-}
-
-Field Field::tetrahedra(const SharedDoubles& points, std::span<const std::int64_t> cells,
-                        const SharedDoubles& values) {
-  constexpr std::uint8_t kTetrahedron = 10;
-  return guarded([&] {
-    check_count(values.values.size(), points.values.size());
-    const auto count = static_cast<std::int64_t>(points.values.size() / 3);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (cells[i] >= 0 && cells[i] < count) continue;
-      throw input_error({.file = "cells",
-                         .place = "cell " + std::to_string(i / 4),
-                         .found = "point " + std::to_string(cells[i]),
-                         .expected = "0 to " + std::to_string(count - 1),
-                         .remedy = {}});
-    }
-    if (cells.size() % 4 != 0 || cells.empty()) {
-      throw input_error({.file = "cells",
-                         .place = {},
-                         .found = std::to_string(cells.size()) + " numbers",
-                         .expected = "four for each cell",
-                         .remedy = {}});
-    }
-    UnstructuredTopology mesh{.positions = array_of("points", points.values, points.owner),
-                              .types = std::vector<std::uint8_t>(cells.size() / 4, kTetrahedron),
-                              .offsets = {},
-                              .connectivity = {cells.begin(), cells.end()}};
-    for (std::size_t c = 0; c <= cells.size() / 4; ++c)
-      mesh.offsets.push_back(static_cast<std::int64_t>(4 * c));
-    return Access::field(field_of_arrays({.name = {},
-                                          .topology = std::move(mesh),
-                                          .arrays = {array_of("values", values.values, values.owner)},
-                                          .visible = {},
-                                          .hidden_cells = {}}));
-  });
 }
 
 const std::string& Field::name() const noexcept { return data_->field->name(); }
@@ -449,7 +248,7 @@ Lines trace(const Field& field, std::span<const Point> seeds, const TraceOptions
     asked.threads = options.threads;
     std::vector<Vec3> from;
     for (const Point& x : seeds) from.push_back(vec_of(x));
-    TraceResult result = trace_lines(Access::of(field), from, asked, &progress);
+    TraceResult result = trace_lines(*Access::of(field), from, asked, &progress);
 
     LineData data;
     data.method = name_of(result.integrator);
@@ -471,7 +270,9 @@ Lines trace(const Field& field, std::span<const Point> seeds, const TraceOptions
       data.backward.push_back(line.direction == TraceDirection::kBackward ? 1 : 0);
       line = {};  // the memory is needed for the next
     }
-    return Access::lines(std::move(data));
+    Lines lines;
+    Access::set(lines, std::make_shared<LineData>(std::move(data)));
+    return lines;
   });
 }
 

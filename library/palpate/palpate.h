@@ -65,6 +65,14 @@ struct SharedDoubles {
 /// A scalar field: a number at each point of a grid, or a formula.
 class PALPATE_API Scalar {
  public:
+  /// Points at origin + (i, j, k) * spacing, trilinear between them. The numbers are not copied.
+  /// @param values of the points, i fastest. @param spacing not zero.
+  /// @throws Error (bad input) where there are more or fewer than points.
+  [[nodiscard]] static Scalar uniform(const std::array<std::int64_t, 3>& points, const Point& origin,
+                                      const Point& spacing, const SharedDoubles& values);
+  [[nodiscard]] static Scalar uniform(const std::array<std::int64_t, 3>& points, const Point& origin,
+                                      const Point& spacing, const SharedFloats& values);
+
   [[nodiscard]] const std::string& name() const noexcept;
   [[nodiscard]] Point lower() const noexcept;  ///< corner of the bounds
   [[nodiscard]] Point upper() const noexcept;

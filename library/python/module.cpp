@@ -1,73 +1,20 @@
 // The Python module: the library's face with NumPy arrays in place of spans. Arrays that come in are not copied where
 // their type and order fit; arrays that go out belong to the object that they were asked of.
 
-#include <pybind11/functional.h>
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
 
-#include "library/palpate/palpate.h"
+#include "library/python/binding.h"
 
-namespace py = pybind11;
-namespace api = palpate::api;
-
+namespace palpate::python {
 namespace {
 
 constexpr const char* kSampleDoc =
     "Values at points.\n\n"
     "x: array of shape (n, 3), in the data's lengths. Returns the values and, as uint8, their states: 0 a value,\n"
     "1 outside every cell, 2 the data is NaN or blanked there. Where there is no value it is NaN.";
-
-template <class Number>
-using Array = py::array_t<Number, py::array::c_style | py::array::forcecast>;
-
-/// A Python object that a C++ object keeps alive, from whatever thread it ends in.
-std::shared_ptr<const void> keep(py::object object) {
-  auto* kept = new py::object(std::move(object));
-  return {static_cast<const void*>(kept), [kept](const void*) {
-            const py::gil_scoped_acquire lock;
-            delete kept;
-          }};
-}
-
-std::span<const api::Point> points_of(const Array<double>& x, const char* name) {
-  if (x.ndim() != 2 || x.shape(1) != 3)
-    throw py::value_error(std::string(name) + ": expected an array of shape (n, 3)");
-  return {reinterpret_cast<const api::Point*>(x.data()), static_cast<std::size_t>(x.shape(0))};
-}
-
-/// Memory of `owner` as an array that cannot be written to.
-template <class Number>
-py::array view(const std::vector<py::ssize_t>& shape, const Number* data, py::handle owner) {
-  py::array_t<Number> array(shape, data, owner);
-  array.attr("flags").attr("writeable") = false;
-  return array;
-}
-
-template <class Number>
-py::array column(std::span<const Number> values, py::handle owner) {
-  return view({static_cast<py::ssize_t>(values.size())}, values.data(), owner);
-}
-
-/// A signal that Python has to see (Ctrl-C) ends the work.
-bool no_signal(const std::string&, double) {
-  const py::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  return true;
-}
-
-/// Signals reach the main thread alone; elsewhere the work needs nobody who watches.
-api::Watcher watcher() {
-  const py::module_ threading = py::module_::import("threading");
-  const bool main = threading.attr("current_thread")().is(threading.attr("main_thread")());
-  return main ? api::Watcher(no_signal) : api::Watcher();
-}
-
-template <class Work>
-auto unlocked(const Work& work) {
-  const py::gil_scoped_release free;
-  return work();
-}
 
 template <std::size_t N, class Made, class Sampled>
 py::tuple sampled(const Array<double>& x, std::vector<py::ssize_t> shape, const Sampled& sample) {
@@ -82,21 +29,31 @@ py::tuple sampled(const Array<double>& x, std::vector<py::ssize_t> shape, const 
   return py::make_tuple(values, status);
 }
 
-template <class Number, class Shared>
-api::Field uniform_of(const py::array& values, const api::Point& spacing, const api::Point& origin) {
+template <class Made, class Number, class Shared>
+Made uniform_of(const py::array& values, const api::Point& spacing, const api::Point& origin) {
   const Array<Number> numbers = Array<Number>::ensure(values);
   if (!numbers) throw py::error_already_set();
   const Shared shared{{numbers.data(), static_cast<std::size_t>(numbers.size())}, keep(numbers)};
   const std::array<std::int64_t, 3> points{numbers.shape(2), numbers.shape(1), numbers.shape(0)};
-  return unlocked([&] { return api::Field::uniform(points, origin, spacing, shared); });
+  return unlocked([&] { return Made::uniform(points, origin, spacing, shared); });
+}
+
+template <class Made>
+Made uniform_in(const py::array& values, const api::Point& spacing, const api::Point& origin) {
+  return values.dtype().is(py::dtype::of<float>())
+             ? uniform_of<Made, float, api::SharedFloats>(values, spacing, origin)
+             : uniform_of<Made, double, api::SharedDoubles>(values, spacing, origin);
 }
 
 api::Field uniform(const py::array& values, const api::Point& spacing, const api::Point& origin) {
   if (values.ndim() != 4 || values.shape(3) != 3)
     throw py::value_error("values: expected an array of shape (nz, ny, nx, 3)");
-  return values.dtype().is(py::dtype::of<float>())
-             ? uniform_of<float, api::SharedFloats>(values, spacing, origin)
-             : uniform_of<double, api::SharedDoubles>(values, spacing, origin);
+  return uniform_in<api::Field>(values, spacing, origin);
+}
+
+api::Scalar scalar_uniform(const py::array& values, const api::Point& spacing, const api::Point& origin) {
+  if (values.ndim() != 3) throw py::value_error("values: expected an array of shape (nz, ny, nx)");
+  return uniform_in<api::Scalar>(values, spacing, origin);
 }
 
 api::Field tetrahedra(const Array<double>& points, const Array<std::int64_t>& cells,
@@ -267,6 +224,9 @@ void add_data(py::module_& m) {
       py::arg("origin") = api::Point{0.0, 0.0, 0.0},
       "The trilinear field of values of shape (nz, ny, nx, 3): values[k, j, i] at origin + (i, j, k) * spacing.\n"
       "float32 and float64 in C order are used where they lie and must not change; others are copied.");
+  m.def("scalar", &scalar_uniform, py::arg("values"), py::arg("spacing") = api::Point{1.0, 1.0, 1.0},
+        py::arg("origin") = api::Point{0.0, 0.0, 0.0},
+        "The trilinear scalar field of values of shape (nz, ny, nx), likewise.");
   m.def(
       "tetrahedra", &tetrahedra, py::arg("points"), py::arg("cells"), py::arg("values"),
       "The field that is linear in each tetrahedron. points (n, 3), cells (m, 4) of their indices, values (n, 3).");
@@ -339,11 +299,15 @@ void add_errors(py::module_& m) {
 }
 
 }  // namespace
+}  // namespace palpate::python
 
 PYBIND11_MODULE(_palpate, m) {
-  m.attr("__version__") = api::version();
-  add_errors(m);
-  add_fields(m);
-  add_data(m);
-  add_lines(m);
+  namespace python = palpate::python;
+  m.attr("__version__") = palpate::api::version();
+  python::add_errors(m);
+  python::add_fields(m);
+  python::add_data(m);
+  python::add_lines(m);
+  python::add_tensors(m);
+  python::add_touch(m);
 }

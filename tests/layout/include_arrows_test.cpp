@@ -88,8 +88,9 @@ bool allowed(const std::string& from, const std::string& to) {
   }
   if (from.starts_with("library/")) {
     std::set<std::string> may = closure("scene");
+    may.merge(closure("servo"));
     may.merge(closure("trace"));
-    return to == "library/palpate" || (to_common && may.count(to.substr(7)) > 0);
+    return to == "library/palpate" || to == "library/access.h" || (to_common && may.count(to.substr(7)) > 0);
   }
   return from.starts_with("apps/") && to_common;
 }
