@@ -65,11 +65,15 @@ struct ForceFieldSettings {
 struct ChainSettings {
   double stiffness = 200.0;  ///< k of the coupling [N/m]
   double damping = 0.0;      ///< b of the coupling, where links hold the hand back [N s/m]
+  double viscosity = 0.0;    ///< drag of the hand everywhere, as in a syrup [N s/m]
   PassivitySettings passivity;
   StreamlineSettings streamline;
   TickSettings ticks;
   DragSettings drag;
   ShapeSettings shape;
+  CarrySettings carry;
+  ContactSettings contact;
+  EventSettings events;
   GridAxisSettings grid_axis;
   PlaneWidgetSettings plane_widget;
   IsosurfaceSettings isosurface;
@@ -84,9 +88,10 @@ struct ChainSettings {
   /// Whether every value can be used: finite, none below its least, kappa at most one.
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
-           passivity.valid() && streamline.valid() && ticks.valid() && drag.valid() && shape.valid() &&
-           grid_axis.valid() && plane_widget.valid() && isosurface.valid() && linear.valid() &&
-           texture.valid() && anisotropy.valid() && fibre.valid() && force_field.valid();
+           std::isfinite(viscosity) && viscosity >= 0.0 && passivity.valid() && streamline.valid() &&
+           ticks.valid() && drag.valid() && shape.valid() && carry.valid() && contact.valid() &&
+           events.valid() && grid_axis.valid() && plane_widget.valid() && isosurface.valid() &&
+           linear.valid() && texture.valid() && anisotropy.valid() && fibre.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -94,11 +99,15 @@ struct ChainSettings {
   static void each(Self& self, Visit&& visit) {
     visit("stiffness", self.stiffness);
     visit("damping", self.damping);
+    visit("viscosity", self.viscosity);
     PassivitySettings::each(self.passivity, visit);
     StreamlineSettings::each(self.streamline, visit);
     TickSettings::each(self.ticks, visit);
     DragSettings::each(self.drag, visit);
     ShapeSettings::each(self.shape, visit);
+    CarrySettings::each(self.carry, visit);
+    ContactSettings::each(self.contact, visit);
+    EventSettings::each(self.events, visit);
     GridAxisSettings::each(self.grid_axis, visit);
     PlaneWidgetSettings::each(self.plane_widget, visit);
     IsosurfaceSettings::each(self.isosurface, visit);

@@ -53,9 +53,11 @@ struct LinkUpdate {
   Mat3 jacobian{1.0};
   double residual = 0.0;  ///< [m] distance of the proxy from its own feature
   HoldState state = HoldState::kFree;
-  bool jumped = false;  ///< the feature itself changed: the force must start from zero
-  int iterations = 0;   ///< used
-  int cells = 0;        ///< used
+  bool jumped = false;   ///< the feature itself changed: the force must start from zero
+  bool at_end = false;   ///< its line ends here
+  bool crossed = false;  ///< a surface was met, left or passed in this very step
+  int iterations = 0;    ///< used
+  int cells = 0;         ///< used
 };
 
 class Constraint {
@@ -71,6 +73,8 @@ class Constraint {
   virtual void reset() noexcept = 0;
   /// The buttons of the device from now on, bit i: button i is down.
   virtual void press(std::uint32_t /*buttons*/) noexcept {}
+  /// Time passes before the next update [s], finite, >= 0: for what moves by itself.
+  virtual void advance(double /*seconds*/) noexcept {}
   /// Moves the proxy after `probe`, which is finite.
   virtual void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept = 0;
 };

@@ -34,6 +34,19 @@ void ProxyChain::apply(const ChainSettings& settings) noexcept {
   for (const auto& link : links_) link->apply(settings);
 }
 
+void ProxyChain::surround(std::vector<std::unique_ptr<Constraint>> before,
+                          std::vector<std::unique_ptr<Constraint>> after) {
+  for (auto& link : links_) before.push_back(std::move(link));
+  for (auto& link : after) before.push_back(std::move(link));
+  links_ = std::move(before);
+  PALPATE_CHECK(size() <= ChainStep::kMaxLinks);
+  apply(settings_);
+}
+
+void ProxyChain::advance(double seconds) noexcept {
+  for (const auto& link : links_) link->advance(seconds);
+}
+
 void ProxyChain::reset() noexcept {
   for (const auto& link : links_) link->reset();
 }
@@ -45,7 +58,7 @@ void ProxyChain::press(std::uint32_t buttons) noexcept {
 ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
   ChainForce springs(form_);
-  Vec3 damper{0.0}, pulled = probe, pulled_velocity = velocity;
+  Vec3 damper = -settings_.viscosity * velocity, pulled = probe, pulled_velocity = velocity;
   for (const auto& link : links_) {
     LinkUpdate update;
     link->update(pulled, budget_, update);
@@ -58,6 +71,8 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
     result.state = std::max(result.state, update.state);
     result.residual = update.residual;
     result.jumped = result.jumped || update.jumped;
+    result.at_end = result.at_end || update.at_end;
+    result.crossed = result.crossed || update.crossed;
     result.iterations += update.iterations;
     result.cells += update.cells;
     pulled = update.proxy;

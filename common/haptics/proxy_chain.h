@@ -13,7 +13,8 @@
 ///
 ///   -b (1 - J_i) u_i,   u_i = J_(i-1) ... J_1 xdot
 ///
-/// left out where it would push (u_i . (1 - J_i) u_i < 0: a proxy that outruns its probe).
+/// left out where it would push (u_i . (1 - J_i) u_i < 0: a proxy that outruns its probe). A viscosity drags the
+/// hand everywhere: F -= b_v xdot.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ namespace palpate {
 
 /// The result of one servo step, workspace frame.
 struct ChainStep {
-  static constexpr int kMaxLinks = 4;
+  static constexpr int kMaxLinks = 12;  ///< four of a mode, and four fixtures that rub
 
   Vec3 force{0.0};                        ///< [N] before the safety stage
   Vec3 active{0.0};                       ///< [N] part of it that is meant to drive the hand
@@ -39,6 +40,8 @@ struct ChainStep {
   HoldState state = HoldState::kFree;
   double residual = 0.0;  ///< [m] of the last proxy from its own feature
   bool jumped = false;    ///< a feature changed: the force must start from zero
+  bool at_end = false;    ///< a line that holds the hand ends here
+  bool crossed = false;   ///< a surface was met, left or passed
   int iterations = 0;
   int cells = 0;
 
@@ -60,10 +63,16 @@ class ProxyChain {
   void set_force_form(ChainForceForm form) noexcept { form_ = form; }
   [[nodiscard]] int size() const noexcept { return static_cast<int>(links_.size()); }
 
+  /// Puts links in front of its own, and behind them. @pre at most ChainStep::kMaxLinks in all.
+  void surround(std::vector<std::unique_ptr<Constraint>> before,
+                std::vector<std::unique_ptr<Constraint>> after);
+
   /// Forgets all proxies.
   void reset() noexcept;
   /// The buttons of the device from the next step on.
   void press(std::uint32_t buttons) noexcept;
+  /// Time passes before the next step [s], finite, >= 0.
+  void advance(double seconds) noexcept;
   /// Moves the proxies after `probe`, one after the other.
   /// @param velocity xdot of the hand [m/s]. @pre both finite.
   [[nodiscard]] ChainStep step(const Vec3& probe, const Vec3& velocity = Vec3{0.0}) noexcept;

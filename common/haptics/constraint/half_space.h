@@ -10,11 +10,12 @@
 
 #include "common/base/check.h"
 #include "common/haptics/constraint.h"
+#include "common/haptics/constraint/touched_surface.h"
 #include "common/haptics/frame_along.h"
 
 namespace palpate {
 
-class HalfSpaceConstraint final : public Constraint {
+class HalfSpaceConstraint final : public Constraint, public TouchedSurface {
  public:
   /// @param point o on the plane [m]  @param outward n, not zero.
   HalfSpaceConstraint(const Vec3& point, const Vec3& outward)
@@ -23,12 +24,16 @@ class HalfSpaceConstraint final : public Constraint {
   }
 
   void apply(const ChainSettings& /*settings*/) noexcept override {}
-  void reset() noexcept override {}
+  void reset() noexcept override { depth_ = 0.0; }
   void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override;
+  [[nodiscard]] SurfaceContact contact() const noexcept override {
+    return {.touches = depth_ > 0.0, .depth = depth_, .normal = axes_[0]};
+  }
 
  private:
   Vec3 point_;
-  Mat3 axes_;  ///< n first
+  Mat3 axes_;           ///< n first
+  double depth_ = 0.0;  ///< of the probe [m]
 };
 
 inline void HalfSpaceConstraint::update(const Vec3& probe, const UpdateBudget& /*budget*/,
@@ -37,6 +42,8 @@ inline void HalfSpaceConstraint::update(const Vec3& probe, const UpdateBudget& /
   const double depth = std::min(0.0, glm::dot(probe - point_, outward));
   link.proxy = probe - depth * outward;
   link.frame = axes_;
+  link.crossed = (depth < 0.0) != (depth_ > 0.0);
+  depth_ = -depth;
   if (!(depth < 0.0)) return;
   link.state = HoldState::kHeld;
   link.jacobian = Mat3{1.0} - glm::outerProduct(outward, outward);

@@ -46,6 +46,7 @@ void IsosurfaceConstraint::reset() noexcept {
   held_ = false;
   begun_ = false;
   edited_ = false;
+  contact_ = {};
 }
 
 /// Whether a probe that comes from that side is held.
@@ -58,6 +59,7 @@ bool IsosurfaceConstraint::stops(std::int8_t from) const noexcept {
 void IsosurfaceConstraint::update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept {
   const Vec3 x = workspace_.local_from_workspace(probe);
   SearchWork work{.limit = budget.iterations};
+  const int before = held_by();
   link.proxy = probe;
   if (edited_) move_to_edited(work, link);
   // A probe that one surface lets go may be caught by the next in the same step, but not without end.
@@ -76,6 +78,8 @@ void IsosurfaceConstraint::update(const Vec3& probe, const UpdateBudget& budget,
     }
   }
   link.iterations = work.used;
+  link.crossed = held_by() != before || link.state == HoldState::kReleased;
+  contact_ = {.touches = held_, .depth = glm::distance(probe, link.proxy), .normal = link.frame[0]};
 }
 
 /// Walks the path of a free probe. True where a surface catches it.

@@ -23,12 +23,13 @@
 #include <memory>
 
 #include "common/haptics/constraint.h"
+#include "common/haptics/constraint/touched_surface.h"
 #include "common/haptics/workspace.h"
 #include "common/trace/isosurface/isosurface.h"
 
 namespace palpate {
 
-class IsosurfaceConstraint final : public Constraint {
+class IsosurfaceConstraint final : public Constraint, public TouchedSurface {
  public:
   /// @param workspace over the frame of `field`.  @param otherwise isovalues where the settings have none.
   IsosurfaceConstraint(std::shared_ptr<const ScalarField> field, const Workspace& workspace,
@@ -38,6 +39,7 @@ class IsosurfaceConstraint final : public Constraint {
   void reset() noexcept override;
   void update(const Vec3& probe, const UpdateBudget& budget, LinkUpdate& link) noexcept override;
 
+  [[nodiscard]] SurfaceContact contact() const noexcept override { return contact_; }
   /// @name For constraints that follow in the chain, and for pictures
   /// @{
   [[nodiscard]] const ScalarField& field() const noexcept { return *field_; }
@@ -76,6 +78,7 @@ class IsosurfaceConstraint final : public Constraint {
   std::int8_t free_side_ = 0;  ///< of a wall
   SurfacePoint point_;
   SurfaceFit fit_;
+  SurfaceContact contact_;
 };
 
 }  // namespace palpate

@@ -80,6 +80,71 @@ struct ShapeSettings {
   }
 };
 
+/// What can be edited of a hand that is carried along a curve (shape.h).
+struct CarrySettings {
+  double speed = 0.0;  ///< [m/s] at which the proxy goes along it; 0: the hand moves it
+  double force = 1.0;  ///< [N] along the curve, at most: a hand that holds back or runs ahead feels no more
+
+  bool operator==(const CarrySettings&) const = default;
+
+  [[nodiscard]] bool valid() const noexcept {
+    return std::isfinite(speed) && speed >= 0.0 && std::isfinite(force) && force >= 0.0;
+  }
+
+  /// See ChainSettings::each().
+  template <typename Self, typename Visit>
+  static void each(Self& self, Visit&& visit) {
+    visit("carry.speed", self.speed);
+    visit("carry.force", self.force);
+  }
+};
+
+/// What can be edited of how surfaces rub (surface_friction.h).
+struct ContactSettings {
+  double sticking = 0.0;  ///< coefficient up to which a hand sticks
+  double sliding = 0.0;   ///< coefficient while it slides, no more than the former
+  double grain = 0.0;     ///< way by which it sticks and slips as on sandpaper [m]; 0: smooth
+
+  bool operator==(const ContactSettings&) const = default;
+
+  /// Whether anything rubs.
+  [[nodiscard]] bool rubs() const noexcept { return sticking > 0.0 || grain > 0.0; }
+
+  [[nodiscard]] bool valid() const noexcept {
+    return std::isfinite(sticking) && sliding >= 0.0 && sliding <= sticking && std::isfinite(grain) &&
+           grain >= 0.0;
+  }
+
+  /// See ChainSettings::each().
+  template <typename Self, typename Visit>
+  static void each(Self& self, Visit&& visit) {
+    visit("contact.sticking", self.sticking);
+    visit("contact.sliding", self.sliding);
+    visit("contact.grain", self.grain);
+  }
+};
+
+/// What can be edited of how events are felt (servo/event_pulse.h).
+struct EventSettings {
+  double force = 0.0;        ///< of the vibration at its beginning [N]; 0: none
+  double frequency = 150.0;  ///< [Hz]
+
+  static constexpr double kHighest = 400.0;  ///< [Hz] that a servo of 1 kHz can show
+
+  bool operator==(const EventSettings&) const = default;
+
+  [[nodiscard]] bool valid() const noexcept {
+    return std::isfinite(force) && force >= 0.0 && frequency > 0.0 && frequency <= kHighest;
+  }
+
+  /// See ChainSettings::each().
+  template <typename Self, typename Visit>
+  static void each(Self& self, Visit&& visit) {
+    visit("events.force", self.force);
+    visit("events.frequency", self.frequency);
+  }
+};
+
 /// What can be edited of textures that tell of noise. Apart from noise_texture.h, which needs all settings.
 struct TextureSettings {
   bool by_noise = false;  ///< whether modes of a volume have one; takes effect when the chain is built

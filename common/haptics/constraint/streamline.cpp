@@ -203,6 +203,7 @@ void StreamlineConstraint::search(const Vec3& x, const UpdateBudget& budget, Lin
       // A border holds the proxy; a critical point, a line not yet grown and a spent budget are fall-backs.
       const bool border = at_end && end && *end != End::kStagnation;
       if (!border) link.state = HoldState::kFellBack;
+      link.at_end = border;
       return;
     }
     piece_ = next;
