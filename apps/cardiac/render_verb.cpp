@@ -81,19 +81,23 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   drawn.points = layer.layer.fibres.points;
   drawn.what = counted(drawn.lines, "fibre");
   drawn.view = std::move(layer.view);
-  if (!options.hand.path.empty()) {
+  if (!options.hand.path.empty() || !options.touch.fixtures.list.empty()) {
     const ScalarField& depth = *heart->heart().layer;
     const Workspace workspace = touch_workspace(options.touch, depth.diagonal(), depth.frame());
-    const HapticScene scene{nullptr,
-                            workspace,
-                            touch_settings(options.touch, nullptr, workspace),
-                            options.common.threads,
-                            heart->heart().layer,
-                            heart->heart().fibres};
+    HapticScene scene{nullptr,
+                      workspace,
+                      touch_settings(options.touch, nullptr, workspace),
+                      options.common.threads,
+                      heart->heart().layer,
+                      heart->heart().fibres};
+    for (const std::string& note :
+         take_fixtures(options.touch, depth.bounds(), scene, drawn.view, &context.progress))
+      context.console.note(note);
+    if (options.hand.path.empty()) return drawn;
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
-    drawn.view.probe =
-        probe_after(read_probe_path(options.hand.path.string()),
-                    find_mode(modes, options.touch.mode).make(scene), scene, options.touch, drawn.view.style);
+    drawn.view.probe = probe_after(read_probe_path(options.hand.path.string()),
+                                   make_chain(find_mode(modes, options.touch.mode), scene), scene,
+                                   options.touch, drawn.view.style);
   }
   return drawn;
 }

@@ -22,14 +22,18 @@
 namespace palpate {
 namespace {
 
-/// Adds what a hand on that path has felt.
+/// Adds the fixtures, and what a hand on that path has felt.
 void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
                 const Document& options, const std::shared_ptr<const ScalarField>& scalar,
-                const std::shared_ptr<const VectorField>& field) {
+                const std::shared_ptr<const VectorField>& field, const VerbContext& context) {
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
-  const HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
-                          options.common.threads, scalar};
-  view.probe = probe_after(path, mode.make(scene), scene, options.touch, view.style);
+  HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
+                    options.common.threads, scalar};
+  for (const std::string& note :
+       take_fixtures(options.touch, field->bounds(), scene, view, &context.progress))
+    context.console.note(note);
+  if (options.hand.path.empty()) return;
+  view.probe = probe_after(path, make_chain(mode, scene), scene, options.touch, view.style);
   view.probe->reference_speed = reference_speed(view);
 }
 
@@ -95,8 +99,10 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
     const std::string note = show_haptic_surfaces(drawn.view, *scalar, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
-  if (!options.hand.path.empty()) {
-    show_probe(drawn.view, read_probe_path(options.hand.path.string()), mode, options, scalar, field);
+  if (!options.hand.path.empty() || !options.touch.fixtures.list.empty()) {
+    const std::vector<PathRow> path =
+        options.hand.path.empty() ? std::vector<PathRow>() : read_probe_path(options.hand.path.string());
+    show_probe(drawn.view, path, mode, options, scalar, field, context);
   }
   const bool haptic = surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty();
   if (options.touch.fade_lines && haptic) fade_lines(drawn.view);

@@ -30,19 +30,22 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
     const std::string note = show_haptic_surfaces(view, *volume.field, options.touch, &context.progress);
     if (!note.empty()) context.console.note(note);
   }
-  if (options.hand.path.empty()) return;
   const Workspace workspace = touch_workspace(options.touch, volume.field->diagonal(), volume.field->frame());
-  const HapticScene scene{nullptr, workspace, touch_settings(options.touch, nullptr, workspace),
-                          options.common.threads, volume.field};
-  view.probe = probe_after(read_probe_path(options.hand.path.string()), mode.make(scene), scene,
+  HapticScene scene{nullptr, workspace, touch_settings(options.touch, nullptr, workspace),
+                    options.common.threads, volume.field};
+  for (const std::string& note :
+       take_fixtures(options.touch, volume.field->bounds(), scene, view, &context.progress))
+    context.console.note(note);
+  if (options.hand.path.empty()) return;
+  view.probe = probe_after(read_probe_path(options.hand.path.string()), make_chain(mode, scene), scene,
                            options.touch, view.style);
 }
 
 DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,
                       const VerbContext& context, double aspect) {
   DrawnScene drawn;
-  const bool touched =
-      !options.hand.path.empty() || wants_surfaces(options, find_mode(modes, options.touch.mode).name);
+  const bool touched = !options.hand.path.empty() || !options.touch.fixtures.list.empty() ||
+                       wants_surfaces(options, find_mode(modes, options.touch.mode).name);
   TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
                                   : TangibleVolume{.image = load_volume(input, &context.progress)};
   volume.secondary = load_secondary(input, options.volume, &context.progress);

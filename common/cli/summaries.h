@@ -110,10 +110,11 @@ struct ProbeSummary {
   std::string input;
   std::string field;
   std::string mode;
-  std::string scalar;           ///< of which isosurfaces are felt; empty: of none
-  std::string output;           ///< empty: none
-  PlanePoses planes;            ///< of the plane widget at the end, data coordinates
-  std::vector<Vec4> landmarks;  ///< of the grid: n, d with n.x = d
+  std::string scalar;                 ///< of which isosurfaces are felt; empty: of none
+  std::string output;                 ///< empty: none
+  std::vector<std::string> fixtures;  ///< as they were asked for, in the order of the chain
+  PlanePoses planes;                  ///< of the plane widget at the end, data coordinates
+  std::vector<Vec4> landmarks;        ///< of the grid: n, d with n.x = d
   std::optional<Box> box;  ///< of interest, where the hand has left it on a haptic grid, data coordinates
   std::optional<Vec3> focal_point;  ///< of the view that the hand has moved over the grid
   std::string tract;                ///< where the way of the proxy was saved; empty: nowhere

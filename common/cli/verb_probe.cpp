@@ -62,6 +62,7 @@ std::string summary_text(const ProbeSummary& summary) {
     }
     text += "\n";
   }
+  for (const std::string& fixture : summary.fixtures) text += "  fixture    " + fixture + "\n";
   for (int i = 0; i < summary.planes.count; ++i) {
     const Vec4 plane = plane_of_pose(summary.planes.pose[as_size(i)]);
     text += "  plane      " + exact_number(plane.x) + "," + exact_number(plane.y) + "," +
@@ -192,6 +193,12 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     simulated->limits = summary.limits;
   }
   (void)touch_settings(options.touch);
+  FixtureStore store;
+  const FixtureList fixtures = store.list(options.touch.fixtures.list, &context.progress);
+  summary.fixtures = options.touch.fixtures.list;
+  for (const auto& fixture : fixtures) {
+    for (const std::string& note : fixture->notes) console.note(note);
+  }
   (void)focal_point_of(options.view);
   std::vector<PathRow> path;
   std::vector<TrackedHands> hands;
@@ -277,11 +284,13 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
                           field_key(label, input.time().step) + scalar_key(options.touch.scalar),
                           haptic.scalar, haptic.tensor};
     int links = 0;
+    FixtureList replayed;
     ReplaySource replay(std::move(*recording), [&](const std::string& description) {
       HapticChain made = build_chain(description, modes, open, options.common.threads);
       links = std::max(links, made.chain->size());
       planes = made.planes;
       noise = made.noise;
+      replayed = made.fixtures;
       return std::move(made.chain);
     });
     logged.noise = noise.get();
@@ -291,6 +300,7 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
       const DescribedChain chain = parse_chain(replay.recording().chains.back());
       summary.mode = chain.mode;
       summary.settings = chain.settings;
+      for (const auto& fixture : replayed) summary.fixtures.push_back(fixture->text);
       summary.workspace_scale = chain.workspace_scale;
     }
     for (const RecordedChange& change : replay.recording().changes) {
@@ -299,8 +309,10 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     summary.replay = verdict_text(replay.verdict(), replay.recording());
     summary.replay_differs = replay.verdict().differs != 0;
   } else {
-    HapticChain haptics = mode.make(
-        {haptic.field, workspace, summary.settings, options.common.threads, haptic.scalar, haptic.tensor});
+    HapticScene scene{haptic.field,           workspace,     summary.settings,
+                      options.common.threads, haptic.scalar, haptic.tensor};
+    scene.fixtures = fixtures;
+    HapticChain haptics = make_chain(mode, scene);
     noise = haptics.noise;
     logged.noise = noise.get();
     if (file) run.log_to(*file, haptics.chain->size(), logged);

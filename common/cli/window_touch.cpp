@@ -152,6 +152,9 @@ ProbeSessionOptions window_touch(std::vector<HapticMode> modes, const Document& 
   ProbeSessionOptions touch;
   touch.modes = std::move(modes);
   touch.choice = touch_choice(options.touch, touch.modes);
+  for (const auto& fixture : touch.fixtures.list(touch.choice.fixtures, &context.progress)) {
+    for (const std::string& note : fixture->notes) context.console.note(note);
+  }
   touch.limits = touch_limits(options.touch);
   touch.workspace_scale = options.touch.workspace_scale;
   touch.threads = options.common.threads;

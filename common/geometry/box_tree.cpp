@@ -18,6 +18,8 @@ BoxTree::BoxTree(std::span<const Box> boxes) {
   nodes_.shrink_to_fit();
 }
 
+void BoxTree::renumber() noexcept { std::iota(order_.begin(), order_.end(), 0U); }
+
 void BoxTree::build(std::span<const Box> boxes, std::span<const Vec3> middles, std::uint32_t first,
                     std::uint32_t count) {
   const std::size_t here = nodes_.size();

@@ -34,6 +34,10 @@ class BoxTree {
   explicit BoxTree(std::span<const Box> boxes);
 
   [[nodiscard]] bool empty() const noexcept { return nodes_.empty(); }
+  /// Things as they lie side by side in the tree.
+  [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
+  /// The things have been put into that order, and are called by their places in it from now on.
+  void renumber() noexcept;
   /// Around all things; empty where there are none.
   [[nodiscard]] Box bounds() const noexcept { return nodes_.empty() ? Box{} : nodes_.front().box; }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "common/base/index.h"
 #include "common/base/text.h"
@@ -63,9 +64,13 @@ SurfaceMesh::SurfaceMesh(std::span<const Vec3> points, std::span<const Triangle>
   if (triangles.size() > kMostTriangles)
     throw std::length_error("a surface has 50 million triangles at most");
   weld(points, triangles);
+  sort();
   join();
   turn();
   gather();
+}
+
+void SurfaceMesh::sort() {
   std::vector<Box> boxes;
   boxes.reserve(triangles_.size());
   for (const Triangle& t : triangles_) {
@@ -74,6 +79,25 @@ SurfaceMesh::SurfaceMesh(std::span<const Vec3> points, std::span<const Triangle>
     boxes.push_back(box);
   }
   tree_ = BoxTree(boxes);
+  constexpr std::uint32_t kUnused = 0xffff'ffffU;
+  std::vector<std::uint32_t> placed(points_.size(), kUnused);
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  points.reserve(points_.size());
+  triangles.reserve(triangles_.size());
+  for (const std::uint32_t from : tree_.order()) {
+    Triangle& t = triangles.emplace_back(triangles_[from]);
+    for (std::uint32_t& p : t) {
+      if (placed[p] == kUnused) {
+        placed[p] = static_cast<std::uint32_t>(points.size());
+        points.push_back(points_[p]);
+      }
+      p = placed[p];
+    }
+  }
+  points_ = std::move(points);
+  triangles_ = std::move(triangles);
+  tree_.renumber();
 }
 
 void SurfaceMesh::weld(std::span<const Vec3> points, std::span<const Triangle> triangles) {

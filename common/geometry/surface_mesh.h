@@ -48,7 +48,8 @@ class SurfaceMesh {
  public:
   static constexpr std::size_t kMostTriangles = 50'000'000;
 
-  /// Points at the very same place become one.
+  /// Points at the very same place become one. Points and triangles are put into the order of the tree, in which
+  /// neighbours lie side by side in memory: a walk over a million triangles waits for little of it.
   /// @throws std::length_error for more than kMostTriangles; std::out_of_range for an index that is no point's.
   SurfaceMesh(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
@@ -83,6 +84,7 @@ class SurfaceMesh {
   static constexpr std::uint32_t kOpen = 0xffff'ffffU, kSeveral = 0xffff'fffeU;
 
   void weld(std::span<const Vec3> points, std::span<const Triangle> triangles);
+  void sort();
   void join();
   void turn();
   void gather();

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/field/noise_field.h"
+#include "common/hand/fixture_view.h"
 
 namespace palpate {
 
@@ -115,6 +116,7 @@ void HapticData::follow(const HapticChain& made) {
   surfaces_of_ = made.surfaces_of;
   chain_isovalues_ = made.isovalues;
   noise_ = made.noise;
+  fixture_views_ = show_fixtures(made.fixtures, workspace(), open_.bounds());
 }
 
 HapticLevels HapticData::levels() const {
@@ -132,11 +134,11 @@ std::optional<double> HapticData::surfaces_fraction() const {
   return surfaces_ ? surfaces_->fraction() : std::nullopt;
 }
 
-HapticChain HapticData::build(const std::string& description, std::span<const HapticMode> modes) const {
+HapticChain HapticData::build(const std::string& description, std::span<const HapticMode> modes) {
   NamedField open = open_;
   if (parse_chain(description).settings.texture.by_noise && open.scalar)
     open.noise = noises_->wait(open.scalar);
-  return build_chain(description, modes, open, threads_);
+  return build_chain(description, modes, open, threads_, &store_);
 }
 
 void HapticData::request_lines(SeedShape shape, const Vec3& probe, const Camera& camera,

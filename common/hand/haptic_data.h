@@ -10,6 +10,7 @@
 #include <optional>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "common/field/scalar_field.h"
 #include "common/hand/drawn/local_lines.h"
@@ -18,6 +19,7 @@
 #include "common/hand/mode/linear_proposal.h"
 #include "common/haptics/workspace.h"
 #include "common/render/camera.h"
+#include "common/render/surface/surface_view.h"
 
 namespace palpate {
 
@@ -105,9 +107,18 @@ class HapticData {
   [[nodiscard]] bool has_noise() const { return noises_->of(open_.scalar).has_value(); }
   /// The noise of the chain that is felt; null: none is.
   [[nodiscard]] const std::shared_ptr<const ScalarField>& noise() const noexcept { return noise_; }
+  /// The fixtures of that list, each read once. @throws Error as FixtureStore::list().
+  [[nodiscard]] FixtureList read_fixtures(const std::vector<std::string>& texts) {
+    return store_.list(texts);
+  }
+  /// Knows these already.
+  void keep_fixtures(const FixtureStore& store) { store_ = store; }
+  /// What is drawn of the fixtures of the chain that is felt.
+  [[nodiscard]] const std::vector<SurfaceView>& fixture_views() const noexcept { return fixture_views_; }
+
   /// Builds what `description` says, waiting for the noise where that is felt. @throws Error as
   /// build_chain().
-  [[nodiscard]] HapticChain build(const std::string& description, std::span<const HapticMode> modes) const;
+  [[nodiscard]] HapticChain build(const std::string& description, std::span<const HapticMode> modes);
 
   /// Has streamlines traced near `probe` (data coordinates) as `camera` sees it, which can be coloured like
   /// lines of `style`; none: kNone or no flow.
@@ -122,6 +133,8 @@ class HapticData {
   mutable ScalarStatistics statistics_;
   std::shared_ptr<const ScalarField> surfaces_of_, noise_;  ///< of the chain that is felt: HapticChain
   Isovalues chain_isovalues_, chosen_;
+  FixtureStore store_;
+  std::vector<SurfaceView> fixture_views_;
   std::function<void()> wake_;
   std::unique_ptr<LocalLines> local_;  ///< this and the next two from the first input on
   std::unique_ptr<HapticSurfaces> surfaces_;

@@ -26,6 +26,7 @@ namespace palpate {
 struct ProbeSessionOptions {
   std::vector<HapticMode> modes;  ///< empty: no touch at all
   TouchChoice choice;             ///< at the start
+  FixtureStore fixtures;          ///< that have been read
   DeviceLimits limits;
   double workspace_scale = 0.0;             ///< [m] per data unit; 0: the default
   double servo_rate = ServoOptions{}.rate;  ///< [Hz]

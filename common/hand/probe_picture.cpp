@@ -5,6 +5,7 @@
 
 #include "common/base/index.h"
 #include "common/hand/drawn/followed_curve.h"
+#include "common/hand/fixture_view.h"
 #include "common/hand/touch_options.h"
 #include "common/servo/hand_step.h"
 
@@ -20,6 +21,18 @@ std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace
   for (int i = 0; i < step.links; ++i)
     places.push_back(workspace.data_from_workspace(step.proxies[as_size(i)]));
   return places;
+}
+
+std::vector<std::string> take_fixtures(const TouchOptions& options, const Box& bounds, HapticScene& scene,
+                                       SceneView& view, Progress* progress) {
+  FixtureStore store;
+  scene.fixtures = store.list(options.fixtures.list, progress);
+  for (SurfaceView& surface : show_fixtures(scene.fixtures, scene.workspace, bounds))
+    view.surfaces.push_back(std::move(surface));
+  std::vector<std::string> notes;
+  for (const auto& fixture : scene.fixtures)
+    notes.insert(notes.end(), fixture->notes.begin(), fixture->notes.end());
+  return notes;
 }
 
 ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,

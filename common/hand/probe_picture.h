@@ -2,8 +2,10 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
+#include "common/base/progress.h"
 #include "common/device/probe_path.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/proxy_chain.h"
@@ -17,6 +19,11 @@ namespace palpate {
 
 /// The proxies of all links [data units], in the order of the chain.
 [[nodiscard]] std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace);
+
+/// The fixtures that the options ask for are added to `scene` and, drawn, to `view`; what is to be known of them is
+/// returned, a sentence each. @throws Error as FixtureStore::list().
+[[nodiscard]] std::vector<std::string> take_fixtures(const TouchOptions& options, const Box& bounds,
+                                                     HapticScene& scene, SceneView& view, Progress* progress);
 
 /// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
 /// line that is followed then, and where the first proxy has been.

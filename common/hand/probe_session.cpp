@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/hand/mode/chain_description.h"
 #include "common/hand/mode/grid_mode.h"
@@ -39,6 +40,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
       notes_(options_.notes),
       servo_(options_) {
   if (!available()) return;
+  data_.keep_fixtures(options_.fixtures);
   if (options_.lines != nullptr) trail_.put({.kept = options_.lines, .drawn = nullptr});
   hand_.put_on_grid(mode() == kGridMode);
   data_.choose(choice_.settings.isosurface.isovalues);
@@ -96,6 +98,7 @@ void ProbeSession::forget() {
   ++choice.settings.plane_widget.edit;
   choice.settings.isosurface.isovalues = {};
   choice.settings.ticks.interval = 0.0;
+  choice.fixtures.clear();
   choose(choice);
 }
 
@@ -122,8 +125,10 @@ void ProbeSession::restart_chain() {
                           .normal = dial->normal,
                           .detents = dial->detents});
   }
+  // A slider or knob is felt alone.
+  const FixtureList fixtures = hand_.dial() ? FixtureList{} : data_.read_fixtures(choice_.fixtures);
   const std::string description =
-      describe_chain(chain_spec, data_.workspace().scale(), settings, data_.field().name);
+      describe_chain(chain_spec, data_.workspace().scale(), settings, data_.field().name, fixtures);
   HapticChain made = data_.build(description, options_.modes);
   follow_chain(made);
   textured_ = chain_settings().texture.by_noise;
@@ -133,6 +138,9 @@ void ProbeSession::restart_chain() {
 /// From now on what this chain follows and feels is drawn.
 void ProbeSession::follow_chain(const HapticChain& made) {
   data_.follow(made);
+  fixture_notes_.clear();
+  for (const auto& fixture : made.fixtures)
+    fixture_notes_.insert(fixture_notes_.end(), fixture->notes.begin(), fixture->notes.end());
   trail_.follow(made);
   hand_.planes().follow(made.planes);
 }
@@ -179,9 +187,21 @@ void ProbeSession::take_proposal() {
   if (statistics != nullptr) linear = proposed(linear, *statistics);
 }
 
+void ProbeSession::take_fixtures(const TouchChoice& before) {
+  if (choice_.fixtures == before.fixtures) return;
+  fixture_problem_.clear();
+  try {
+    (void)data_.read_fixtures(choice_.fixtures);
+  } catch (const Error& error) {
+    fixture_problem_ = error.what();
+    choice_.fixtures = before.fixtures;
+  }
+}
+
 void ProbeSession::choose(const TouchChoice& choice) {
   if (choice == choice_) return;
   const TouchChoice before = std::exchange(choice_, choice);
+  take_fixtures(before);
   take_proposal();
   hand_.put_on_grid(mode() == kGridMode);
   // Planes stay where the hand has put them while another mode is felt.
@@ -189,7 +209,8 @@ void ProbeSession::choose(const TouchChoice& choice) {
   if (servo_.replaying()) return;
   data_.choose(choice_.settings.isosurface.isovalues);
   if (!servo_.running()) return;
-  if (choice.mode != before.mode || choice.ticks != before.ticks ||
+  if (choice.mode != before.mode || choice.ticks != before.ticks || choice_.fixtures != before.fixtures ||
+      choice.settings.contact.rubs() != before.settings.contact.rubs() ||
       choice.settings.linear.rebuilds(before.settings.linear) ||
       choice.settings.grid_axis.rebuilds(before.settings.grid_axis) ||
       choice.settings.isosurface.along_streamline != before.settings.isosurface.along_streamline ||

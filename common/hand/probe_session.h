@@ -82,6 +82,10 @@ class ProbeSession {
   /// place of the mode; none: the mode again. What is drawn or followed meanwhile is neither path nor tract.
   void hold_dial(const std::optional<Dial>& dial);
 
+  /// Why the last change of the fixtures was not taken; empty: it was.
+  [[nodiscard]] const std::string& fixture_problem() const noexcept { return fixture_problem_; }
+  /// What is to be known of those that are felt, a sentence each.
+  [[nodiscard]] const std::vector<std::string>& fixture_notes() const noexcept { return fixture_notes_; }
   [[nodiscard]] const TouchChoice& choice() const noexcept { return choice_; }
   void choose(const TouchChoice& choice);
   /// The choice, planes where the hand has put them, and the annotations go into `options`.
@@ -113,6 +117,8 @@ class ProbeSession {
   void finish();
 
  private:
+  /// Reads fixtures that are new in `choice`; those that cannot be read go back to `before`.
+  void take_fixtures(const TouchChoice& before);
   /// Where the measure of mode `linear` is kAuto and there is a scalar: makes it and the curves.
   void take_proposal();
   /// Whether isosurfaces or layers that are felt are in the picture. A heart's layer is there with its fibres:
@@ -130,6 +136,8 @@ class ProbeSession {
   ProbeTrail trail_;
   ProbeHand hand_;
   AnnotationList notes_;
+  std::string fixture_problem_;
+  std::vector<std::string> fixture_notes_;
   bool textured_ = false;  ///< the chain that is felt was built with the noise of the data
   bool closed_ = false;    ///< what is shown has nothing to feel
   bool forgets_ = false;   ///< the next field is another input's, whatever it is

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/hand/drawn/drawn_tract.h"
 #include "common/haptics/chain_settings.h"
@@ -16,6 +17,7 @@ namespace palpate {
 struct TouchChoice {
   std::size_t mode = 0;  ///< index into the modes
   ChainSettings settings;
+  std::vector<std::string> fixtures;  ///< FixtureSpec::list
   bool ticks = false;  ///< tick marks: at settings.ticks.interval, or default_tick_interval() where that is 0
   bool show_balls = true;
   bool show_path = true;

@@ -63,6 +63,38 @@ IsosurfaceSettings isosurface_settings(const TouchOptions& options) {
   return settings;
 }
 
+void take_fixtures(const FixtureSpec& spec, ChainSettings& settings) {
+  settings.shape = {.snap_distance = kMetresPerMillimetre * spec.snap,
+                    .release_distance = kMetresPerMillimetre * spec.release};
+  settings.carry = {.speed = kMetresPerMillimetre * spec.carry, .force = spec.carry_force};
+  settings.contact = {.sticking = spec.static_friction,
+                      .sliding = spec.dynamic_friction,
+                      .grain = kMetresPerMillimetre * spec.grain};
+  settings.viscosity = spec.viscosity;
+  settings.events = {.force = spec.event_force, .frequency = spec.event_frequency};
+  if (!settings.shape.valid())
+    throw usage_error(
+        "--fixture-release: a distance above zero, no smaller than --fixture-snap, is expected");
+  if (!settings.carry.valid()) throw usage_error("--carry: a speed and a force of zero or more are expected");
+  if (!settings.contact.valid())
+    throw usage_error("--dynamic-friction: a number from zero to --static-friction is expected");
+  if (!settings.events.valid()) throw usage_error("--event-force: a force of zero or more is expected");
+}
+
+void keep_fixtures(const ChainSettings& settings, FixtureSpec& spec) {
+  constexpr double kMillimetres = 1e3;
+  spec.snap = kMillimetres * settings.shape.snap_distance;
+  spec.release = kMillimetres * settings.shape.release_distance;
+  spec.carry = kMillimetres * settings.carry.speed;
+  spec.carry_force = settings.carry.force;
+  spec.static_friction = settings.contact.sticking;
+  spec.dynamic_friction = settings.contact.sliding;
+  spec.grain = kMillimetres * settings.contact.grain;
+  spec.viscosity = settings.viscosity;
+  spec.event_force = settings.events.force;
+  spec.event_frequency = settings.events.frequency;
+}
+
 SeedShape seed_shape_of(const TouchOptions& options) {
   const auto name = std::ranges::find(kSeedShapeNames, options.local_lines);
   if (name == kSeedShapeNames.end())
@@ -97,6 +129,7 @@ ChainSettings touch_settings(const TouchOptions& options) {
   settings.plane_widget = plane_settings(options.planes);
   settings.force_field.strength = options.field_force;
   settings.force_field.damping = options.field_damping;
+  take_fixtures(options.fixtures, settings);
   if (!options.density_curve.empty()) {
     const auto problem = HapticTransferFunction::read(options.density_curve, settings.force_field.density);
     if (problem) throw usage_error("--density-curve: " + *problem);
@@ -145,6 +178,7 @@ TouchChoice touch_choice(const TouchOptions& options, const std::vector<HapticMo
   const int edit = now.settings.plane_widget.edit;
   now.settings = touch_settings(options);
   now.settings.plane_widget.edit = edit;
+  now.fixtures = options.fixtures.list;
   now.ticks = wants_ticks(options);
   now.stroke = stroke_use_from_name(options.stroke);
   now.show_surface = options.show_surfaces;
@@ -182,6 +216,8 @@ void keep_touch(const TouchChoice& choice, const std::string& mode, TouchOptions
   options.density_curve = settings.force_field.density.text();
   options.anisotropy_curve = settings.anisotropy.tau.text(1.0 / kMillimetres);
   options.noise_texture = texture_text(settings.texture);
+  options.fixtures.list = choice.fixtures;
+  keep_fixtures(settings, options.fixtures);
   options.linear = linear_text(settings.linear);
   options.grid = grid_text(settings.grid_axis);
   options.planes = plane_text(settings.plane_widget);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace palpate {
 
@@ -31,6 +32,21 @@ struct PlaneSpec {
   double detent = 15.0;  ///< [degrees]
   double sphere = 25.0;  ///< radius [mm]
   double reach = 8.0;    ///< [mm]
+};
+
+/// What is felt beside the mode, and of surfaces of all kinds (hand/mode/fixture.h).
+struct FixtureSpec {
+  std::vector<std::string> list;  ///< grammar of read_fixture(), in the order of the chain
+  double snap = 5.0;              ///< [mm] at which a shape catches
+  double release = 10.0;          ///< [mm] at which it lets go
+  double carry = 0.0;             ///< [mm/s] along curves
+  double carry_force = 1.0;       ///< [N]
+  double static_friction = 0.0;
+  double dynamic_friction = 0.0;
+  double grain = 0.0;              ///< [mm]
+  double viscosity = 0.0;          ///< [N s/m]
+  double event_force = 0.0;        ///< [N]
+  double event_frequency = 150.0;  ///< [Hz]
 };
 
 }  // namespace palpate

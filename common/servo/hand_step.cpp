@@ -15,12 +15,16 @@ bool is_finite(const ChainStep& step) noexcept {
          std::all_of(step.proxies.begin(), step.proxies.begin() + step.links, finite);
 }
 
+/// [s] after a stall nothing that moves by itself leaps on by more than this.
+constexpr double kLongestStep = 0.05;
+
 }  // namespace
 
 std::unique_ptr<ProxyChain> HandStepper::exchange_chain(std::unique_ptr<ProxyChain> chain) noexcept {
   chain_.swap(chain);
   last_ = {};
   passivity_.reset();
+  pulse_.stop();
   starting_ = true;
   return chain;
 }
@@ -59,14 +63,18 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
     last_sample_ = input.sample;
     last_sample_time_ = input.sample.time;
     if (chain_) chain_->press(input.sample.buttons);
+    if (chain_) chain_->advance(dt > 0.0 ? std::min(dt, kLongestStep) : 0.0);
     const ChainStep now = chain_ ? chain_->step(input.sample.position, velocity) : ChainStep{};
     if (!is_finite(now)) {
       chain_->reset();
       passivity_.reset();
       request.cut = ForceCut::kNotFinite;
     } else {
-      last_ = now;
+      const ChainStep before = std::exchange(last_, now);
       request.force = controlled(now, input.sample.position, dt);
+      const Vec3 told = pulse(before, now, input.time, request.force);
+      request.force += told;
+      last_.active += told;
       if (now.state == HoldState::kFault) {
         request.cut = ForceCut::kChain;
       } else if (now.jumped) {
@@ -125,12 +133,22 @@ Vec3 HandStepper::controlled(const ChainStep& step, const Vec3& probe, double dt
   return passivity_.control(probe, passed, step.force, stored, settings.passivity);
 }
 
+Vec3 HandStepper::pulse(const ChainStep& before, const ChainStep& now, double time,
+                        const Vec3& felt) noexcept {
+  if (!chain_) return Vec3{0.0};
+  const bool out = (before.state == HoldState::kOutside) != (now.state == HoldState::kOutside);
+  const bool event = now.crossed || (now.at_end && !before.at_end) || (out && before.links > 0);
+  if (event) pulse_.start(time, felt);
+  return pulse_.force(time, chain_->settings().events);
+}
+
 void HandStepper::let_go() noexcept {
   if (std::isnan(last_sample_time_)) return;
   last_sample_time_ = kNever;
   velocity_.reset();
   speed_.reset();
   passivity_.reset();
+  pulse_.stop();
   last_ = {};
   starting_ = true;
   if (chain_) chain_->reset();

@@ -1,7 +1,7 @@
 /// One servo step, without a thread, a clock or a device: what the hand does goes in, what it feels comes
 /// out.
 ///
-///   sanity of the sample -> ProxyChain::step -> PassivityController -> SafetyStage
+///   sanity of the sample -> ProxyChain::step -> PassivityController, EventPulse -> SafetyStage
 ///
 /// The live loop, `probe` and a replay all step with this, so the same inputs give the same bits in all
 /// three. Workspace frame, SI units.
@@ -15,6 +15,7 @@
 #include "common/haptics/passivity.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/velocity_estimate.h"
+#include "common/servo/event_pulse.h"
 #include "common/servo/hand_speed.h"
 #include "common/servo/safety_stage.h"
 
@@ -79,6 +80,9 @@ class HandStepper {
   [[nodiscard]] bool watches(int links) const noexcept;
   /// The force of the chain with the controller's damping, where that is in use. @param dt as in judge().
   [[nodiscard]] Vec3 controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept;
+  /// The vibration of the last event, begun where this step is one. @param felt [N]
+  [[nodiscard]] Vec3 pulse(const ChainStep& before, const ChainStep& now, double time,
+                           const Vec3& felt) noexcept;
   void let_go() noexcept;
 
   std::unique_ptr<ProxyChain> chain_;
@@ -89,6 +93,7 @@ class HandStepper {
   VelocityEstimate velocity_{kPositionNoise};
   HandSpeed speed_;
   PassivityController passivity_;
+  EventPulse pulse_;
   double last_time_ = kNever;  ///< [s] the last finite time of a step
   std::uint64_t next_ = 0;
   bool starting_ = true;  ///< the next step starts from zero force

@@ -105,6 +105,8 @@ void ExplorerWindow::follow_hand() {
   const bool lenses =
       view_.volume && view_.volume->shown && (!view_.volume->lenses.empty() || is_cut(*view_.volume));
   view_.surfaces = lenses ? std::vector<SurfaceView>() : show_surfaces(touch_.data().surfaces().meshes);
+  const std::vector<SurfaceView>& fixtures = touch_.data().fixture_views();
+  view_.surfaces.insert(view_.surfaces.end(), fixtures.begin(), fixtures.end());
   if (scene_) view_.surfaces.insert(view_.surfaces.end(), scene_->surfaces.begin(), scene_->surfaces.end());
 }
 

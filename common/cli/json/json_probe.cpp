@@ -68,6 +68,7 @@ std::string probe_json(const ProbeSummary& summary) {
             {"seconds_load", summary.seconds_load},
             {"seconds_probe", summary.seconds_probe},
             {"version", version()}};
+  if (!summary.fixtures.empty()) json["fixtures"] = summary.fixtures;
   if (!summary.scalar.empty()) {
     const IsosurfaceSettings& surface = summary.settings.isosurface;
     json["scalar"] = summary.scalar;

@@ -14,7 +14,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::string_view kScaleKey = " scale=", kFieldKey = " field=";
+constexpr std::string_view kScaleKey = " scale=", kFixturesKey = " fixtures=", kFieldKey = " field=";
 
 [[noreturn]] void refuse(const std::string& description, const std::string& what) {
   throw Error(ExitCode::kBadInput, "the recording's chain '" + description + "': " + what);
@@ -27,9 +27,11 @@ std::string field_key(const std::string& label, std::size_t time_step) {
 }
 
 std::string describe_chain(const std::string& mode, double workspace_scale, const ChainSettings& settings,
-                           const std::string& field_name) {
+                           const std::string& field_name, const FixtureList& fixtures) {
   std::string text = mode;
-  text.append(kScaleKey) += exact_number(workspace_scale) + " " + settings_text(settings);
+  text.append(kScaleKey) += exact_number(workspace_scale);
+  if (!fixtures.empty()) text.append(kFixturesKey) += fixture_word(fixtures);
+  text += " " + settings_text(settings);
   return text.append(kFieldKey) + field_name;
 }
 
@@ -49,13 +51,18 @@ DescribedChain parse_chain(const std::string& description) {
     refuse(description, "its scale is no number above zero");
   }
   rest.remove_prefix(as_size(scale.ptr - rest.data()));
+  if (rest.starts_with(kFixturesKey)) {
+    rest.remove_prefix(kFixturesKey.size());
+    chain.fixtures = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(chain.fixtures.size());
+  }
   if (!rest.starts_with(' ')) refuse(description, "it lacks settings");
   if (const auto problem = read_settings(rest.substr(1), chain.settings)) refuse(description, *problem);
   return chain;
 }
 
 HapticChain build_chain(const std::string& description, std::span<const HapticMode> modes,
-                        const NamedField& open, int threads) {
+                        const NamedField& open, int threads, FixtureStore* store) {
   const DescribedChain chain = parse_chain(description);
   if (chain.field_name != open.name) {
     refuse(description, "it was recorded on field '" + chain.field_name + "', open is '" + open.name +
@@ -72,7 +79,11 @@ HapticChain build_chain(const std::string& description, std::span<const HapticMo
   const auto mode = std::find_if(modes.begin(), modes.end(),
                                  [&](const HapticMode& each) { return each.name == chain.mode; });
   if (mode == modes.end()) refuse(description, "there is no mode '" + chain.mode + "'");
-  return mode->make({open.field, workspace, chain.settings, threads, open.scalar, open.tensor, open.noise});
+  FixtureStore fresh;
+  HapticScene scene{open.field, workspace, chain.settings, threads, open.scalar, open.tensor, open.noise};
+  if (!chain.fixtures.empty())
+    scene.fixtures = fixtures_of_word(chain.fixtures, store != nullptr ? *store : fresh);
+  return make_chain(*mode, scene);
 }
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// Modes that hold the hand to no feature: the same drag everywhere, and the force fields of a flow or a scalar.
+// Modes that hold the hand to no feature: nothing at all, the same drag everywhere, and the force fields of a flow or a scalar.
 #include <utility>
 
 #include "common/hand/mode/haptic_mode.h"
@@ -7,6 +7,12 @@
 #include "common/haptics/force_field/force_field.h"
 
 namespace palpate {
+
+HapticChain make_free(const HapticScene& scene) {
+  HapticChain made;
+  made.chain = std::make_unique<ProxyChain>(std::vector<std::unique_ptr<Constraint>>{}, scene.settings);
+  return made;
+}
 
 HapticChain make_isotropic(const HapticScene& scene) {
   return chain_of(std::make_unique<IsotropicDrag>(), scene);

@@ -28,6 +28,14 @@ std::vector<HapticMode> modes_of(FieldKind kind) {
   return modes;
 }
 
+HapticChain make_chain(const HapticMode& mode, const HapticScene& scene) {
+  HapticChain made = mode.make(scene);
+  if (scene.fixtures.empty()) return made;
+  add_fixtures(*made.chain, scene.fixtures, scene.workspace);
+  made.fixtures = scene.fixtures;
+  return made;
+}
+
 HapticChain chain_of(std::unique_ptr<Constraint> link, const HapticScene& scene) {
   std::vector<std::unique_ptr<Constraint>> links;
   links.push_back(std::move(link));

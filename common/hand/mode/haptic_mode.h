@@ -10,6 +10,7 @@
 #include "common/field/scalar_field.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
+#include "common/hand/mode/fixture.h"
 #include "common/haptics/proxy_chain.h"
 #include "common/haptics/widget/plane_widget.h"
 #include "common/haptics/workspace.h"
@@ -31,6 +32,7 @@ struct HapticChain {
   std::shared_ptr<const ScalarField> noise = nullptr;  ///< that is felt as a texture; null where none is
   std::vector<Vec4> landmarks = {};  ///< of a grid: planes n, d with n.x = d in data coordinates
   std::string note = {};             ///< what the user is to know of what is felt; empty: nothing
+  FixtureList fixtures = {};         ///< around it
 };
 
 /// What a chain is built over.
@@ -42,6 +44,7 @@ struct HapticScene {
   std::shared_ptr<const ScalarField> scalar;  ///< what modes of a scalar work on; null where there is none
   std::shared_ptr<const TensorField> tensor = nullptr;  ///< of an image of tensors, else null
   std::shared_ptr<const ScalarField> noise = nullptr;  ///< of `scalar`; null: it is measured where it is felt
+  FixtureList fixtures = {};
 };
 
 /// The frame of the fields that are there. @pre One of them is.
@@ -64,7 +67,7 @@ inline constexpr const char* kPlaneWidgetMode = "plane-widget";
 struct HapticMode {
   std::string name;     ///< "streamline"
   std::string summary;  ///< what the hand feels, for help and panels
-  /// Builds the chain; allocates all that the servo will need.
+  /// Builds the chain, without fixtures (make_chain()); allocates all that the servo will need.
   std::function<HapticChain(const HapticScene&)> make;
   std::vector<FieldKind> fields = {};  ///< kinds of field that can be felt so
   bool texture = false;                ///< appends a texture by noise where one is asked for
@@ -72,6 +75,9 @@ struct HapticMode {
 
 /// The modes by which fields of a kind are felt, the default one first.
 [[nodiscard]] std::vector<HapticMode> modes_of(FieldKind kind);
+
+/// The chain of a mode with the fixtures of `scene` around it.
+[[nodiscard]] HapticChain make_chain(const HapticMode& mode, const HapticScene& scene);
 
 /// A chain of one link with the settings of `scene`.
 [[nodiscard]] HapticChain chain_of(std::unique_ptr<Constraint> link, const HapticScene& scene);

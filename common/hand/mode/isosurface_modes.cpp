@@ -6,6 +6,7 @@
 #include "common/hand/mode/texture_link.h"
 #include "common/haptics/constraint/isosurface.h"
 #include "common/haptics/constraint/streamline.h"
+#include "common/haptics/constraint/surface_friction.h"
 
 namespace palpate {
 
@@ -21,7 +22,10 @@ HapticChain make_isosurface_in_flow(const HapticScene& scene) {
   const auto scalar = scalar_or_speed(scene);
   made.surfaces_of = scalar;
   made.isovalues = {{otsu_threshold(*scalar)}, 1};
-  links.push_back(std::make_unique<IsosurfaceConstraint>(scalar, scene.workspace, made.isovalues));
+  auto surface = std::make_unique<IsosurfaceConstraint>(scalar, scene.workspace, made.isovalues);
+  const IsosurfaceConstraint& rubbed = *surface;
+  links.push_back(std::move(surface));
+  if (scene.settings.contact.rubs()) links.push_back(std::make_unique<SurfaceFriction>(rubbed));
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }
@@ -30,7 +34,12 @@ HapticChain make_isosurface(const HapticScene& scene) {
   const Isovalues otherwise{{otsu_threshold(*scene.scalar)}, 1};
   auto surface = std::make_unique<IsosurfaceConstraint>(scene.scalar, scene.workspace, otherwise);
   const IsosurfaceConstraint* const its = surface.get();
-  HapticChain made = textured_chain(std::move(surface), scene, its);
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::move(surface));
+  if (scene.settings.contact.rubs()) links.push_back(std::make_unique<SurfaceFriction>(*its));
+  HapticChain made;
+  made.noise = add_texture(links, scene, its);
+  made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   made.surfaces_of = scene.scalar;
   made.isovalues = otherwise;
   return made;

@@ -19,12 +19,11 @@ std::shared_ptr<const ScalarField> add_texture(std::vector<std::unique_ptr<Const
   return noise;
 }
 
-HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene,
-                           const IsosurfaceConstraint* surface) {
+HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene) {
   std::vector<std::unique_ptr<Constraint>> links;
   links.push_back(std::move(link));
   HapticChain made;
-  made.noise = add_texture(links, scene, surface);
+  made.noise = add_texture(links, scene);
   made.chain = std::make_unique<ProxyChain>(std::move(links), scene.settings);
   return made;
 }

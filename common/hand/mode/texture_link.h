@@ -18,9 +18,8 @@ namespace palpate {
                                                              const HapticScene& scene,
                                                              const IsosurfaceConstraint* surface = nullptr);
 
-/// A chain of `link` alone, or with a texture. @param surface the same link, where only that has the texture.
-[[nodiscard]] HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene,
-                                         const IsosurfaceConstraint* surface = nullptr);
+/// A chain of `link` alone, or with a texture.
+[[nodiscard]] HapticChain textured_chain(std::unique_ptr<Constraint> link, const HapticScene& scene);
 
 /// What `--noise-texture` says: "off", "on", or the curve of the grain [mm].
 /// @throws Error (usage) that says what is expected.

@@ -5,6 +5,7 @@
 #include "common/hand/mode/haptic_mode.h"
 #include "common/haptics/constraint/fibre_groove.h"
 #include "common/haptics/constraint/layer.h"
+#include "common/haptics/constraint/surface_friction.h"
 
 namespace palpate {
 namespace {
@@ -20,6 +21,8 @@ HapticChain make_wall(const HapticScene& scene, Links links) {
   const LayerConstraint& on = *layer;
   std::vector<std::unique_ptr<Constraint>> chain;
   chain.push_back(std::move(layer));
+  if (links == Links::kLayer && scene.settings.contact.rubs())
+    chain.push_back(std::make_unique<SurfaceFriction>(on.surface()));
   if (links != Links::kLayer) {
     const auto heart =
         std::make_shared<const LayeredHeart>(Heart{.fibres = scene.tensor, .layer = scene.scalar});

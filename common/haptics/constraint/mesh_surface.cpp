@@ -7,10 +7,11 @@
 namespace palpate {
 namespace {
 
-constexpr double kGap = 1e-7;        // [m] a ten-thousandth of a millimetre: nothing that is felt
-constexpr int kVisitsOfAWay = 1024;  // boxes and triangles that are looked at along the way of a free probe
-constexpr int kWallsInARow = 4;      // that a probe goes over to in one update
-constexpr double kAroundTheRim = 1e-6;  // part of the stretch that points off the surface there
+constexpr double kGap = 1e-7;     // [m] a ten-thousandth of a millimetre: nothing that is felt
+constexpr int kMostVisits = 512;  // of boxes and triangles along the ways of a free probe, in one update
+constexpr int kTrianglesAnIteration = 2;  // that are walked over
+constexpr int kWallsInARow = 4;           // that a probe goes over to in one update
+constexpr double kAroundTheRim = 1e-6;    // part of the stretch that points off the surface there
 
 }  // namespace
 
@@ -32,9 +33,11 @@ void MeshConstraint::update(const Vec3& probe, const UpdateBudget& budget, LinkU
   }
   const bool held_before = held_;
   bool slipped = false;
+  Work work{.triangles = kTrianglesAnIteration * budget.iterations, .visits = kMostVisits};
   for (int walls = 0;; ++walls) {
     if (held_) {
-      const Hold now = follow(x, budget.iterations, link);
+      const Hold now = follow(x, work, link);
+      link.iterations = (work.looked + kTrianglesAnIteration - 1) / kTrianglesAnIteration;
       if (now == Hold::kHeld) break;
       held_ = false;
       slipped = slipped || now == Hold::kSlipped;
@@ -43,7 +46,7 @@ void MeshConstraint::update(const Vec3& probe, const UpdateBudget& budget, LinkU
         return;
       }
     }
-    if (!meet(x, link)) {
+    if (!meet(x, work, link)) {
       link.crossed = held_before;
       link.jumped = slipped;
       if (slipped) link.state = HoldState::kReleased;
@@ -58,12 +61,13 @@ void MeshConstraint::update(const Vec3& probe, const UpdateBudget& budget, LinkU
   describe(probe, link);
 }
 
-bool MeshConstraint::meet(const Vec3& x, LinkUpdate& link) noexcept {
+bool MeshConstraint::meet(const Vec3& x, Work& work, LinkUpdate& link) noexcept {
   const Vec3 way = x - from_;
   const double length = glm::length(way);
   if (!(length > 0.0)) return false;
   // What comes as near as the gap has met it: so a free probe is never on the surface itself.
-  const BoxTree::Found found = mesh_->first_met(from_, x + (gap_ / length) * way, kVisitsOfAWay);
+  const BoxTree::Found found = mesh_->first_met(from_, x + (gap_ / length) * way, work.visits);
+  work.visits -= found.visits;
   if (!found.complete) link.state = HoldState::kFellBack;
   if (found.thing == BoxTree::kNone) {
     from_ = x;
@@ -77,8 +81,8 @@ bool MeshConstraint::meet(const Vec3& x, LinkUpdate& link) noexcept {
   return true;
 }
 
-MeshConstraint::Hold MeshConstraint::follow(const Vec3& x, int most, LinkUpdate& link) noexcept {
-  if (link.iterations >= most || !mesh_->walk(x, place_, most, link.iterations)) {
+MeshConstraint::Hold MeshConstraint::follow(const Vec3& x, Work& work, LinkUpdate& link) noexcept {
+  if (work.looked >= work.triangles || !mesh_->walk(x, place_, work.triangles, work.looked)) {
     link.state = HoldState::kFellBack;
     return Hold::kHeld;
   }

@@ -39,8 +39,14 @@ class MeshConstraint final : public Constraint, public TouchedSurface {
   [[nodiscard]] SurfaceContact contact() const noexcept override { return contact_; }
 
  private:
+  /// What an update may still do.
+  struct Work {
+    int triangles;   ///< that may be walked over
+    int looked = 0;  ///< of them
+    int visits;      ///< of the tree
+  };
   /// Whether the way from `from_` to `x` meets the surface, which holds the probe then.
-  [[nodiscard]] bool meet(const Vec3& x, LinkUpdate& link) noexcept;
+  [[nodiscard]] bool meet(const Vec3& x, Work& work, LinkUpdate& link) noexcept;
   enum class Hold : std::uint8_t {
     kHeld,
     kRests,   ///< free, and as near as the gap
@@ -48,7 +54,7 @@ class MeshConstraint final : public Constraint, public TouchedSurface {
     kSlipped  ///< free, around a rim
   };
   /// Moves the proxy after `x`.
-  [[nodiscard]] Hold follow(const Vec3& x, int most, LinkUpdate& link) noexcept;
+  [[nodiscard]] Hold follow(const Vec3& x, Work& work, LinkUpdate& link) noexcept;
   void describe(const Vec3& x, LinkUpdate& link) noexcept;
 
   std::shared_ptr<const SurfaceMesh> mesh_;

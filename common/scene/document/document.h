@@ -227,9 +227,10 @@ struct TouchOptions {
   double depth = 10.0;           ///< [mm] at which an isosurface lets through
   double snap = 0.0;             ///< [mm] at which a layer catches
   bool along_streamline = false;
-  LinearSpec linear;                     ///< mode linear
-  GridSpec grid;                         ///< mode grid
-  PlaneSpec planes;                      ///< mode plane-widget
+  LinearSpec linear;  ///< mode linear
+  GridSpec grid;      ///< mode grid
+  PlaneSpec planes;   ///< mode plane-widget
+  FixtureSpec fixtures;
   std::string noise_texture = "off";     ///< grammar of texture_settings()
   double field_force = 1.0;              ///< [N] of the force-field modes
   double field_damping = 5.0;            ///< [N s/m], likewise

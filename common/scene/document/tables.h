@@ -53,6 +53,8 @@ inline constexpr Place kGridAt = kTouchAt<&TouchOptions::grid, M...>;
 template <auto... M>
 inline constexpr Place kPlanesAt = kTouchAt<&TouchOptions::planes, M...>;
 template <auto... M>
+inline constexpr Place kFixtureAt = kTouchAt<&TouchOptions::fixtures, M...>;
+template <auto... M>
 inline constexpr Place kHandAt = kAt<&Document::hand, M...>;
 template <auto... M>
 inline constexpr Place kOutputAt = kAt<&Document::output, M...>;

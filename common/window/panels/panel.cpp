@@ -141,7 +141,8 @@ void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& 
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       if (section("TOUCH"))
-        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
+        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, state.fixture, view,
+                                         state.marking);
     }
     PanelContext on{state, *state.scene, view, actions, layout.picture};
     for (const PanelPart& part : parts) part(on);

@@ -57,6 +57,7 @@ struct PanelState {
   std::vector<InputFiles> recent;                                        ///< newest first
   std::string replay_verdict;                                            ///< that was said
   std::string lines_file = "followed.vtp";                               ///< edited
+  std::string fixture;                                                   ///< that is being typed
   std::string transfer_file = "transfer.csv", focus_file = "focus.csv";  ///< edited
   CachedHistogram histogram;                                             ///< of the volume
 

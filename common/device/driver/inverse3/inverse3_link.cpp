@@ -76,6 +76,10 @@ std::string inverse3_help() {
 Inverse3Link::Inverse3Link(WebTransport& transport, const Inverse3Settings& settings)
     : transport_(transport), settings_(settings), limits_(settings.arm.limits()) {
   atoms_.has_position = true;
+  // The thread that renews the force finds its memory there.
+  constexpr std::size_t kLongestSent = 512, kLongestHeard = 64U << 10U;
+  sent_.reserve(kLongestSent);
+  heard_.reserve(kLongestHeard);
 }
 
 Inverse3Link::~Inverse3Link() { close(); }

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <exception>
-
-#include <nlohmann/json.hpp>
 
 #include "common/base/index.h"
 
@@ -73,11 +70,9 @@ struct HaplyEntry {
   std::optional<bool> calibrated, powered;
 };
 
-/// Follows the parser through a message: no tree of it is built.
+/// Follows the scan of a message: no tree of it is built.
 class HaplyReader {
  public:
-  using Json = nlohmann::json;
-
   HaplyReader(std::string_view wanted, HaplyState& state) noexcept : wanted_(wanted), state_(state) {}
 
   bool null() noexcept { return rooted(); }
@@ -93,45 +88,36 @@ class HaplyReader {
     }
     return rooted();
   }
-  bool number_integer(Json::number_integer_t value) noexcept { return number(static_cast<double>(value)); }
-  bool number_unsigned(Json::number_unsigned_t value) noexcept { return number(static_cast<double>(value)); }
-  bool number_float(Json::number_float_t value, const Json::string_t& /*text*/) noexcept {
-    return number(value);
+  bool number(double value) noexcept {
+    const bool axis = key_ >= HaplyKey::kX && key_ <= HaplyKey::kZ;
+    const std::size_t i = as_size(key_) - as_size(HaplyKey::kX);
+    if (axis && within(HaplyKey::kPosition)) entry_.position[i] = value;
+    return rooted();
   }
-  bool string(const Json::string_t& value) noexcept {
+  bool string(std::string_view value) noexcept {
     const bool of_entry = depth_ == 3 && (room() == HaplyKey::kDevices || room() == HaplyKey::kGrips);
     if (of_entry && key_ == HaplyKey::kDeviceId) entry_.id = HaplyId::from(value);
     return rooted();
   }
-  bool binary(const Json::binary_t& /*value*/) noexcept { return false; }
-  bool key(const Json::string_t& text) noexcept {
-    key_ = haply_key(text);
-    return true;
-  }
-  bool start_object(std::size_t /*size*/) noexcept {
+  void key(std::string_view text) noexcept { key_ = haply_key(text); }
+  bool start_object() noexcept {
     if (!enter()) return false;
     if (depth_ == 3) entry_ = {};
     return true;
   }
-  bool end_object() noexcept {
+  void end_object() noexcept {
     if (depth_ == 3) commit();
     --depth_;
     key_ = HaplyKey::kElement;
-    return true;
   }
-  bool start_array(std::size_t /*size*/) noexcept {
+  bool start_array() noexcept {
     if (depth_ == 0 || !enter()) return false;
     key_ = HaplyKey::kElement;
     return true;
   }
-  bool end_array() noexcept {
+  void end_array() noexcept {
     --depth_;
     key_ = HaplyKey::kElement;
-    return true;
-  }
-  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
-                   const Json::exception& /*what*/) noexcept {
-    return false;
   }
 
  private:
@@ -145,12 +131,6 @@ class HaplyReader {
     if (depth_ == kHaplyDeepest) return false;
     path_[depth_++] = key_;
     return true;
-  }
-  bool number(double value) noexcept {
-    const bool axis = key_ >= HaplyKey::kX && key_ <= HaplyKey::kZ;
-    const std::size_t i = as_size(key_) - as_size(HaplyKey::kX);
-    if (axis && within(HaplyKey::kPosition)) entry_.position[i] = value;
-    return rooted();
   }
   void commit() noexcept {
     if (room() == HaplyKey::kDevices) {
@@ -175,6 +155,171 @@ class HaplyReader {
   HaplyKey key_ = HaplyKey::kOther;
   HaplyEntry entry_;
   bool grip_ = false;
+};
+
+/// Scans a text by the grammar of JSON (RFC 8259) and tells `reader` of its values in their order. It neither
+/// allocates nor copies: words are told as they are written, with their escapes. The reader bounds the nesting.
+class JsonScan {
+ public:
+  JsonScan(std::string_view text, HaplyReader& reader) noexcept : rest_(text), reader_(reader) {}
+
+  /// Whether all of the text is one value that the reader took.
+  bool run() noexcept {
+    if (!value()) return false;
+    skip_blanks();
+    return rest_.empty();
+  }
+
+ private:
+  void skip_blanks() noexcept {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+  }
+  bool take(std::string_view word) noexcept {
+    if (!rest_.starts_with(word)) return false;
+    rest_.remove_prefix(word.size());
+    return true;
+  }
+  bool value() noexcept {
+    skip_blanks();
+    if (rest_.empty()) return false;
+    switch (rest_.front()) {
+      case '{':
+        return object();
+      case '[':
+        return array();
+      case '"': {
+        std::string_view text;
+        return word(text) && reader_.string(text);
+      }
+      case 't':
+        return take("true") && reader_.boolean(true);
+      case 'f':
+        return take("false") && reader_.boolean(false);
+      case 'n':
+        return take("null") && reader_.null();
+      default:
+        return number();
+    }
+  }
+  bool object() noexcept {
+    rest_.remove_prefix(1);
+    if (!reader_.start_object()) return false;
+    skip_blanks();
+    for (bool first = true; !take("}"); first = false) {
+      if (!first && !take(",")) return false;
+      skip_blanks();
+      std::string_view key;
+      if (!word(key)) return false;
+      reader_.key(key);
+      skip_blanks();
+      if (!take(":") || !value()) return false;
+      skip_blanks();
+    }
+    reader_.end_object();
+    return true;
+  }
+  bool array() noexcept {
+    rest_.remove_prefix(1);
+    if (!reader_.start_array()) return false;
+    skip_blanks();
+    for (bool first = true; !take("]"); first = false) {
+      if (!first && !take(",")) return false;
+      if (!value()) return false;
+      skip_blanks();
+    }
+    reader_.end_array();
+    return true;
+  }
+  std::size_t digits() noexcept {
+    const std::size_t count = std::min(rest_.find_first_not_of("0123456789"), rest_.size());
+    rest_.remove_prefix(count);
+    return count;
+  }
+  bool number() noexcept {
+    const std::string_view from = rest_;
+    (void)take("-");
+    const bool zero = rest_.starts_with('0');
+    const std::size_t whole = digits();
+    if (whole == 0 || (zero && whole > 1)) return false;
+    if (take(".") && digits() == 0) return false;
+    bool small = zero;
+    if (take("e") || take("E")) {
+      small = rest_.starts_with('-');
+      if (!take("-")) (void)take("+");
+      if (digits() == 0) return false;
+    }
+    const std::string_view text = from.substr(0, from.size() - rest_.size());
+    double value = 0.0;
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Too small to be told from zero is zero; too large is no number.
+    if (read.ec == std::errc::result_out_of_range && small) value = 0.0;
+    return (read.ec == std::errc() || small) && reader_.number(value);
+  }
+  /// A string, without its quotes.
+  bool word(std::string_view& text) noexcept {
+    if (!take("\"")) return false;
+    const std::string_view from = rest_;
+    while (!rest_.empty() && rest_.front() != '"') {
+      if (!letter()) return false;
+    }
+    text = from.substr(0, from.size() - rest_.size());
+    return take("\"");
+  }
+  bool letter() noexcept {
+    const auto c = static_cast<unsigned char>(rest_.front());
+    constexpr unsigned kBlank = 0x20, kPlain = 0x80;
+    if (c < kBlank) return false;
+    if (c >= kPlain) return utf8();
+    rest_.remove_prefix(1);
+    return c != '\\' || escape();
+  }
+  bool escape() noexcept {
+    if (rest_.empty()) return false;
+    const char kind = rest_.front();
+    rest_.remove_prefix(1);
+    if (kind != 'u') return std::string_view("\"\\/bfnrt").find(kind) != std::string_view::npos;
+    constexpr unsigned kHigh = 0xD800, kLow = 0xDC00, kEnd = 0xE000;
+    const unsigned code = four_digits();
+    if (code < kHigh || (code >= kEnd && code <= kMostCode)) return true;
+    if (code >= kLow || !take("\\u")) return false;  // half of a pair
+    const unsigned second = four_digits();
+    return second >= kLow && second < kEnd;
+  }
+  static constexpr unsigned kMostCode = 0xFFFF;
+  /// More than kMostCode where there are none.
+  unsigned four_digits() noexcept {
+    unsigned code = 0;
+    constexpr std::size_t kDigits = 4;
+    const std::string_view text = rest_.substr(0, kDigits);
+    const auto read = std::from_chars(text.data(), text.data() + text.size(), code, 16);
+    if (text.size() != kDigits || read.ec != std::errc() || read.ptr != text.data() + kDigits)
+      return kMostCode + 1;
+    rest_.remove_prefix(kDigits);
+    return code;
+  }
+  /// One code of two to four bytes, in its shortest form and no half of a pair (RFC 3629).
+  bool utf8() noexcept {
+    const auto byte = [this](std::size_t i) {
+      return i < rest_.size() ? static_cast<unsigned char>(rest_[i]) : 0U;
+    };
+    const unsigned lead = byte(0);
+    const std::size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
+                               : lead >= 0xE0 && lead < 0xF0 ? 3
+                               : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                             : 0;
+    if (length == 0) return false;
+    const unsigned least = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+    const unsigned most = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+    if (byte(1) < least || byte(1) > most) return false;
+    for (std::size_t i = 2; i < length; ++i) {
+      if (byte(i) < 0x80 || byte(i) > 0xBF) return false;
+    }
+    rest_.remove_prefix(length);
+    return true;
+  }
+
+  std::string_view rest_;
+  HaplyReader& reader_;
 };
 
 }  // namespace
@@ -214,11 +359,7 @@ std::optional<HaplyId> HaplyId::from(std::string_view text) noexcept {
 bool read_haply_state(std::string_view message, std::string_view wanted, HaplyState& state) noexcept {
   state = {};
   HaplyReader reader(wanted, state);
-  try {
-    return nlohmann::json::sax_parse(message.begin(), message.end(), &reader);
-  } catch (const std::exception&) {  // no memory for one of its words
-    return false;
-  }
+  return JsonScan(message, reader).run();
 }
 
 void write_haply_force(std::string& text, const HaplyId& device, const Vec3& force, HaplySpelling spelling) {

@@ -47,7 +47,7 @@ struct HaplyState {
 
 inline constexpr std::size_t kHaplyDeepest = 16;  ///< levels of nesting
 
-/// Reads a message. @param wanted the device that is asked for; empty: the first one.
+/// Reads a message, without allocating. @param wanted the device that is asked for; empty: the first one.
 /// @return false for what is no message of the service.
 [[nodiscard]] bool read_haply_state(std::string_view message, std::string_view wanted,
                                     HaplyState& state) noexcept;
