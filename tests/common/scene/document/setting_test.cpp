@@ -96,8 +96,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("series", a, b, c, d);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, linear, grid, planes, q, r, s, t, u, v, w, x,
-                 y, z, z1, z2, z3, z4, z5, z6, z7, z8] = document.touch;
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, linear, grid, planes, fixtures, q, r, s, t,
+                 u, v, w, x, y, z, z1, z2, z3, z4, z5, z6, z7, z8] = document.touch;
     expect("touch", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1, z2, z3,
            z4, z5, z6, z7, z8);
     const auto& [l1, l2, l3, l4, l5, l6] = linear;
@@ -106,6 +106,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("grid", g1, g2, g3, g4, g5, g6, g7, g8);
     const auto& [p1, p2, p3, p4] = planes;
     expect("planes", p1, p2, p3, p4);
+    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11] = fixtures;
+    expect("fixtures", f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11);
   }
   {
     const auto& [a, b, c, d, e, f] = document.hand;
