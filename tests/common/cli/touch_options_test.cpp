@@ -115,9 +115,10 @@ TEST(TouchOptions, SayFromHowManyLinksAChainIsControlled) {
 TEST(TouchChoiceOfADocument, ComesBackWithAllThatAPanelEdits) {
   const std::vector<HapticMode> modes = modes_of(FieldKind::kVector);
   TouchChoice choice;
-  auto& [mode, settings, ticks, balls, path, surface, stroke, fade, local] = choice;
+  auto& [mode, settings, fixtures, ticks, balls, path, surface, stroke, fade, local] = choice;
   mode = 1;
   settings.stiffness = 123.5;  // the others have tests of their modes
+  fixtures = {"plane:0,0,1,0", "mode"};
   ticks = true;
   balls = path = fade = false;
   surface = false;
@@ -128,6 +129,7 @@ TEST(TouchChoiceOfADocument, ComesBackWithAllThatAPanelEdits) {
   const TouchChoice back = touch_choice(kept, modes);
   EXPECT_EQ(back.mode, 1U);
   EXPECT_EQ(back.settings.stiffness, 123.5);
+  EXPECT_EQ(back.fixtures, choice.fixtures);
   EXPECT_TRUE(back.ticks);
   EXPECT_FALSE(back.show_balls || back.show_path || back.fade_rest);
   EXPECT_EQ(back.show_surface, false);
