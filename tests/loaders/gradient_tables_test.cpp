@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -99,6 +100,27 @@ TEST(DiffusionNifti, TakesTheTablesOfEddyAndOfMrtrix) {
   TensorSpec named;
   named.bvec = second.path("other.b");
   EXPECT_NEAR(along(first_tensor(file, named), {-1.0, 2.0, 3.0}), 1.0, 1e-6);
+}
+
+// Free water diffuses by 0.003 mm^2/s: what is a thousand times as fast, or a millionth, was not measured in s/mm^2.
+TEST(DiffusionNifti, WeightingsInAnotherUnitAreDoubted) {
+  const TempFolder folder;
+  const auto file = folder.write("dwi.nii", image(8, kLeftHanded, signals({1.0, 2.0, 3.0})));
+  folder.write("dwi.bvec", bvec_rows());
+  for (const auto& [unit, doubted] : {std::pair("1000", 0), std::pair("1", 1), std::pair("1000000000", 1)}) {
+    std::string text = bval_text();
+    for (std::size_t at = 0; (at = text.find("1000", at)) != std::string::npos;
+         at += std::string(unit).size())
+      text.replace(at, 4, unit);
+    folder.write("dwi.bval", text);
+    const TensorImage made = open(file).load_tensor_image(1);
+    EXPECT_EQ(std::count_if(made.notes.begin(), made.notes.end(),
+                            [](const std::string& note) {
+                              return note.starts_with("WARNING: the mean diffusivity is");
+                            }),
+              doubted)
+        << unit;
+  }
 }
 
 TEST(DiffusionNifti, RefusesGradientsThatDoNotGoWithTheImage) {

@@ -88,6 +88,26 @@ bool say_quality(const GradientTable& table, std::vector<std::string>& notes) {
   return false;
 }
 
+/// A warning where the mean diffusivity of most voxels is none of matter: then b-values are in another unit.
+void say_diffusivity(std::span<const float> tensors, std::vector<std::string>& notes) {
+  std::vector<float> means;
+  for (std::size_t at = 0; at + 6 <= tensors.size(); at += 6) {
+    const float mean = (tensors[at] + tensors[at + 3] + tensors[at + 5]) / 3.0F;
+    if (std::isfinite(mean)) means.push_back(mean);
+  }
+  if (means.empty()) return;
+  const auto middle = means.begin() + static_cast<std::ptrdiff_t>(means.size() / 2);
+  std::nth_element(means.begin(), middle, means.end());
+  // Free water at 37 degrees: 3e-3 mm^2/s (Holz, Heil, Sacco 2000). Nothing in a body is thirty times as fast.
+  constexpr double kMost = 0.1, kLeast = 1e-6;
+  const double mean = std::abs(static_cast<double>(*middle));
+  if (mean == 0.0 || (mean >= kLeast && mean <= kMost)) return;
+  notes.push_back(
+      "WARNING: the mean diffusivity is " + short_number(static_cast<double>(*middle)) +
+      " mm^2/s in the middle of all voxels, where free water has 0.003: b-values may be in another "
+      "unit than s/mm^2, or volumes no signals");
+}
+
 }  // namespace
 
 FittedImage fit_image(const DataArray& signals, const UniformTopology& topology, const GradientTable& table,
@@ -132,6 +152,7 @@ FittedImage fit_image(const DataArray& signals, const UniformTopology& topology,
   if (fit.unusable > 0)
     notes.push_back(counted(fit.unusable, "voxel") + " without a usable signal: no tensor there");
   say_negative(fit.negative, fit.fitted, notes);
+  say_diffusivity(fit.tensors, notes);
   return fitted;
 }
 
