@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "common/scene/session_of.h"
