@@ -302,7 +302,14 @@ bool is_plot3d(const FileHead& head, Plot3dFile kind) {
   const Plot3dBytes bytes{head.bytes, head.tail, head.file_size};
   return find_plot3d_layout(bytes, kind).has_value() || may_be_plot3d_text(bytes, kind);
 }
-bool looks_like_plot3d(const FileHead& head, const FormatRow&) { return is_plot3d(head, Plot3dFile::kGrid); }
+/// ParaView's list of grids and solutions, in JSON.
+bool is_plot3d_index(const FileHead& head) {
+  return head.ending == ".p3d" && trimmed(text_of(head)).starts_with('{') &&
+         has(text_of(head), "\"filenames\"");
+}
+bool looks_like_plot3d(const FileHead& head, const FormatRow&) {
+  return is_plot3d_index(head) || is_plot3d(head, Plot3dFile::kGrid);
+}
 /// @}
 
 std::string first_bytes(std::string_view bytes) {

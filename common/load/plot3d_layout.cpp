@@ -287,33 +287,56 @@ std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3
   return find_text_layout(text, kind, [count](std::uint64_t numbers) { return numbers == count; });
 }
 
-std::string plot3d_bytes(std::string_view text, const Plot3dLayout& layout, Plot3dFile kind) {
-  Words words(text);
+std::string plot3d_bytes(std::string_view file, const Plot3dLayout& layout, Plot3dFile kind) {
   std::string bytes;
   const auto put = [&bytes](auto value) {
     std::array<char, sizeof(value)> raw{};
     std::memcpy(raw.data(), &value, sizeof(value));
     bytes.append(raw.data(), raw.size());
   };
+  Words words(layout.text ? file : std::string_view());
+  const Reader reader(std::as_bytes(std::span(file)), layout.big_endian);
+  std::uint64_t at = layout.data_offset;
+  const auto next = [&]() -> double {
+    if (layout.text) return written_number(words.next()).value_or(0.0);
+    const std::uint64_t here = at;
+    at += layout.double_precision ? 8 : 4;
+    return layout.double_precision ? reader.at<double>(here).value_or(0.0)
+                                   : double{reader.at<float>(here).value_or(0.0F)};
+  };
+  const auto put_numbers = [&](std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) put(next());
+  };
   const auto put_integers = [&](std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const double number = written_number(words.next()).value_or(0.0);
+    for (std::uint64_t i = 0; i < count; ++i, at += layout.text ? 0 : 4) {
       constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+      const double number = layout.text ? next() : double{1.0} * reader.at<std::int32_t>(at).value_or(0);
       put(std::abs(number) <= kMost ? static_cast<std::int32_t>(number) : std::int32_t{0});
     }
   };
-  const auto put_numbers = [&](std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i) put(written_number(words.next()).value_or(0.0));
-  };
+  const auto skip_mark = [&] { at += layout.record_marks ? 4 : 0; };
+
   const std::uint64_t axes = axes_of(layout);
-  put_integers((layout.multi_grid ? 1 : 0) + axes * layout.grids.size());
+  put(static_cast<std::int32_t>(layout.grids.size()));
   for (const Index3& n : layout.grids) {
+    for (std::size_t axis = 0; axis < axes; ++axis) put(static_cast<std::int32_t>(n[static_cast<int>(axis)]));
+  }
+  if (layout.text) {
+    for (std::size_t i = 0; i < (layout.multi_grid ? 1 : 0) + axes * layout.grids.size(); ++i)
+      (void)words.next();
+  }
+  for (const Index3& n : layout.grids) {
+    skip_mark();
     if (kind == Plot3dFile::kGrid) {
       put_numbers(axes * count_of(n));
       if (layout.blanking) put_integers(count_of(n));
     } else {
-      put_numbers(4 + count_of(n) * solution_values(layout));
+      put_numbers(4);
+      skip_mark();
+      skip_mark();
+      put_numbers(count_of(n) * solution_values(layout));
     }
+    skip_mark();
   }
   return bytes;
 }

@@ -60,9 +60,10 @@ inline constexpr std::size_t kPlot3dTailBytes = 4096;
 /// nothing: also where a word is no number, or more are repeated than 2^24 beside the file's size.
 [[nodiscard]] std::optional<Plot3dLayout> find_plot3d_text_layout(std::string_view text, Plot3dFile kind);
 
-/// The text as a binary file of its layout: this machine's byte order, double precision, no record marks.
-/// @pre `layout` was found in `text`.
-[[nodiscard]] std::string plot3d_bytes(std::string_view text, const Plot3dLayout& layout, Plot3dFile kind);
+/// The same file, text or binary, in one layout: binary of this machine's byte order, double precision, several grids, no
+/// record marks.
+/// @pre `layout` was found in `file`, the whole of it.
+[[nodiscard]] std::string plot3d_bytes(std::string_view file, const Plot3dLayout& layout, Plot3dFile kind);
 
 /// "big endian, 1 grid, single precision, no record marks, no blanking"
 [[nodiscard]] std::string describe(const Plot3dLayout& layout, Plot3dFile kind);

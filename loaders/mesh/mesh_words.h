@@ -16,9 +16,12 @@ namespace palpate {
 class MeshWords {
  public:
   /// @param text outlives this. @param file for messages. @param comment begins what is no text up to the end of its
-  /// line; '\0' for none.
+  /// line; '\0' for none. A byte order mark before it is passed over.
   MeshWords(std::string_view text, std::string file, char comment = '\0')
-      : text_(text), file_(std::move(file)), comment_(comment) {}
+      : text_(text),
+        file_(std::move(file)),
+        comment_(comment),
+        at_(text.starts_with("\xEF\xBB\xBF") ? 3 : 0) {}
 
   /// Whether nothing but blanks and comments is left.
   [[nodiscard]] bool done();

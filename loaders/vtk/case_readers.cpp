@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -70,6 +71,7 @@ class EnsightCase {
   }
 
   static std::vector<std::string> add_boundary(std::vector<DataSet>&, double) { return {}; }
+  static bool add_values(DataSet&, const std::string&, double) { return false; }
 
   /// VTK's readers take what is there of a truncated file: its size has to account for the values. Those of
   /// the nodes stand once in EnSight 6, which gives every part all nodes.
@@ -162,11 +164,21 @@ class OpenFoamCase {
   std::vector<std::string> add_boundary(std::vector<DataSet>& blocks, double time) {
     return boundary_.add(blocks, time);
   }
+  /// Those of a field that VTK's reader cannot read.
+  [[nodiscard]] bool add_values(DataSet& block, const std::string& name, double time) const {
+    return boundary_.add_values(block, name, time);
+  }
 
  private:
   std::filesystem::path folder_;
   FoamBoundaryReader boundary_;
 };
+
+std::set<std::string> without(const std::set<std::string>& all, const std::set<std::string>& some) {
+  std::set<std::string> out;
+  std::ranges::set_difference(all, some, std::inserter(out, out.end()));
+  return out;
+}
 
 template <class Case>
 class CaseReader : public Loader {
@@ -204,8 +216,16 @@ class CaseReader : public Loader {
     if (times.size() > 1) info.times = times;
     select(nullptr);
     update(times_.empty() ? 0 : times_.size() - 1);
-    for (const VtkBlock& block : usable(&info.notes))
+    for (const VtkBlock& block : usable(&info.notes)) {
       info.blocks.push_back(describe_block(block.data, block.name));
+      for (const std::string& name : own_) {
+        DataSet with = convert_block(block.data, block.name, {}, file_);
+        if (!case_.add_values(with, name, times_.back())) continue;
+        const DataArray& array = with.arrays.back();
+        info.blocks.back().arrays.push_back(
+            {name, array.association, array.components, array.type, array.tuples});
+      }
+    }
     note_boundary(info);
     find_steps(times, info);
     blocks_ = info.blocks;
@@ -214,11 +234,20 @@ class CaseReader : public Loader {
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
     const std::set<std::string> wanted(names.begin(), names.end());
-    select(&wanted);
+    const std::set<std::string> own = read_here(wanted, step), of_vtk = without(wanted, own);
+    select(&of_vtk);
     update(step);
     std::vector<DataSet> blocks;
-    for (const VtkBlock& block : usable(nullptr))
-      blocks.push_back(convert_block(block.data, block.name, wanted, file_));
+    for (const VtkBlock& block : usable(nullptr)) {
+      blocks.push_back(convert_block(block.data, block.name, of_vtk, file_));
+      // Behind a field that it could not read, VTK's reader leaves those of other times out without a word.
+      if (!Case::kChecksFields || times_.empty()) continue;
+      for (const std::string& name : wanted) {
+        if (blocks.back().find(name, Association::kCell) == nullptr &&
+            blocks.back().find(name, Association::kPoint) == nullptr)
+          (void)case_.add_values(blocks.back(), name, times_[step]);
+      }
+    }
     // VTK goes on with the values of the time before.
     for (DataSet& block : blocks)
       std::erase_if(block.arrays, [&](const DataArray& array) { return !is_given(array.name, step); });
@@ -263,9 +292,9 @@ class CaseReader : public Loader {
   void find_steps(const std::vector<double>& times, FileInfo& info) {
     for (const std::string& name : arrays()) {
       std::vector<std::size_t> steps = case_.steps_of(name, times);
-      if (steps.empty() || broken_.count(name) > 0) continue;
+      if (steps.empty() || (broken_.count(name) > 0 && own_.count(name) == 0)) continue;
       const std::set<std::string> one{name};
-      if (steps.back() + 1 < times.size()) {
+      if (steps.back() + 1 < times.size() && own_.count(name) == 0) {
         const std::string why = reads(&one, steps.back());
         if (!why.empty()) {
           info.notes.push_back("field '" + name + "' left out: " + why);
@@ -313,22 +342,66 @@ class CaseReader : public Loader {
     const std::size_t last = times_.empty() ? 0 : times_.size() - 1;
     if (!reads(nullptr, last).empty()) {
       const std::set<std::string> none;
-      if (const std::string why = reads(&none, last); !why.empty())
-        throw input_error({file_, "", why, "", "the file may be damaged"});
+      select(&none);
+      update(last);  // refuses the case where the mesh cannot be read
       for (const std::string& name : arrays()) {
         const std::set<std::string> one{name};
         const std::string why = reads(&one, last);
         if (why.empty()) continue;
         broken_.insert(name);
-        notes.push_back("field '" + name + "' left out: " + why);
+        if (is_readable(name, last)) {
+          own_.insert(name);
+        } else {
+          notes.push_back("field '" + name + "' left out: " + why);
+        }
       }
     }
     while (times_.size() > 1) {
       const std::string why = reads(nullptr, 0);
       if (why.empty()) return;
+      const std::set<std::string> all = arrays();
+      if (std::ranges::all_of(all, [this](const std::string& name) { return can_be_read_first(name); }))
+        return;
       notes.push_back("time " + short_number(times_.front()) + " left out: " + why);
       times_.erase(times_.begin());
     }
+  }
+
+  /// Whether a field that VTK's reader cannot read can be read without it.
+  [[nodiscard]] bool is_readable(const std::string& name, std::size_t step) {
+    const std::set<std::string> none;
+    if (times_.empty() || !reads(&none, step).empty()) return false;
+    const std::vector<VtkBlock> blocks = usable(nullptr);
+    return std::ranges::any_of(blocks, [&](const VtkBlock& block) {
+      DataSet with = convert_block(block.data, block.name, {}, file_);
+      return case_.add_values(with, name, times_[step]);
+    });
+  }
+
+  /// Whether a field is not given at the first step, is left out, or can be read there. Once it has complained, VTK's
+  /// reader leaves a field out without a word: what it returns is looked at.
+  [[nodiscard]] bool can_be_read_first(const std::string& name) {
+    const std::vector<std::size_t> steps = case_.steps_of(name, times_);
+    if (broken_.count(name) > 0 || (!steps.empty() && steps.front() > 0) || is_readable(name, 0)) return true;
+    const std::set<std::string> one{name};
+    if (!reads(&one, 0).empty()) return false;
+    const std::vector<VtkBlock> blocks = usable(nullptr);
+    return std::ranges::any_of(blocks, [&](const VtkBlock& block) {
+      const std::vector<ArrayInfo> there = describe_block(block.data, block.name).arrays;
+      return std::ranges::any_of(there, [&](const ArrayInfo& array) { return array.name == name; });
+    });
+  }
+
+  /// Those of `wanted` that are read without VTK's reader at this step.
+  [[nodiscard]] std::set<std::string> read_here(const std::set<std::string>& wanted, std::size_t step) {
+    std::set<std::string> out;
+    std::ranges::set_intersection(wanted, own_, std::inserter(out, out.end()));
+    const std::set<std::string> others = without(wanted, out);
+    if (!Case::kChecksFields || reads(&others, step).empty()) return out;
+    for (const std::string& name : others) {
+      if (is_readable(name, step)) out.insert(name);
+    }
+    return out;
   }
 
   /// What of the boundary cannot be read, at the time that was read last, and the precision that values have.
@@ -384,7 +457,8 @@ class CaseReader : public Loader {
   std::vector<double> times_;
   std::vector<BlockInfo> blocks_;
   std::map<std::string, std::vector<std::size_t>> given_;  ///< steps of the fields that not all times have
-  std::set<std::string> broken_;                           ///< fields that cannot be read
+  std::set<std::string> broken_;                           ///< fields that VTK's reader cannot read
+  std::set<std::string> own_;                              ///< those of them that can be read without it
 };
 
 /// An OpenFOAM case, whole or in the folders of processors.

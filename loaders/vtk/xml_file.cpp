@@ -32,6 +32,11 @@ XmlScan checked_scan(const std::string& file) {
   if (find_format(file) == Format::kVtkParallel) return check_parallel(file, read_parallel_index(file));
   const MappedFile mapped(file);
   XmlScan scan = scan_xml(mapped.text());
+  if (scan.new_polyhedra) {
+    throw input_error({file, "", "has polyhedra in arrays of VTK 9.4 (polyhedron_to_faces)",
+                       "the arrays faces and faceoffsets of the versions before",
+                       "write it with VTK 9.3 or ParaView 5.12, or as EnSight"});
+  }
   if (!scan.problem.empty()) throw input_error({file, "", scan.problem, "", "the file may be damaged"});
   return scan;
 }

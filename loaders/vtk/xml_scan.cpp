@@ -381,6 +381,7 @@ void scan(std::string_view text, XmlScan& result) {
       context.faces = {};
       if (!tag.closes) context.section = tag.name;
     } else if (tag.name == "DataArray") {
+      result.new_polyhedra = result.new_polyhedra || tag.at("Name") == "polyhedron_to_faces";
       if (const std::size_t end = text.find('<', tags.position());
           !tag.closes && tag.at("format") == "ascii" && is_xml_number(tag.at("type")) &&
           end != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text[end - 1])) != 0) {

@@ -53,6 +53,7 @@ struct XmlScan {
   std::vector<XmlArray> arrays;  ///< of PointData and CellData, of the first piece that has points
   Extent whole;                  ///< of structured kinds
   std::string problem;           ///< what is wrong, or empty
+  bool new_polyhedra = false;    ///< cells have faces in the arrays that VTK 9.4 began to write
   /// Where text of numbers ends with a letter ("nan") before a tag: VTK's reader wants a blank there.
   std::vector<std::size_t> ends_in_letter;
   /// Meshes: where pieces without points stand in the text, if the first is one. VTK takes the arrays of the

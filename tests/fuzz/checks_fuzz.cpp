@@ -16,6 +16,7 @@
 #include "loaders/vtk/foam/foam_baffles.h"
 #include "loaders/vtk/foam/foam_boundary.h"
 #include "loaders/vtk/foam/foam_collated.h"
+#include "loaders/vtk/foam/foam_point_values.h"
 #include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"

@@ -201,7 +201,7 @@ TEST(OpenFoam, AFieldOrATimeThatCannotBeReadCostsItselfAndAWord) {
   const test::TempFolder folder;
   const auto file = test::write_openfoam(folder);
   const std::string head = test::foam_header("volVectorField", "U") + "dimensions [0 1 -1 0 0 0 0];\n";
-  folder.write("0/U", head + "#includeEtc \"caseDicts/none\"\ninternalField uniform (1 2 3);\n");
+  folder.write("0/U", head + "internalField uniform #calc \"1\";\n");
   folder.write("0.5/p", test::foam_header("volScalarField", "p") +
                             "dimensions [0 2 -2 0 0 0 0];\ninternalField uniform #calc \"1\";\n");
   Source source = Source::open({{file}, {}});

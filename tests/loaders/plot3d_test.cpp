@@ -305,6 +305,71 @@ TEST(Plot3d, TextIsReadInDoublePrecisionAndAsFortranWritesIt) {
   EXPECT_FALSE(find_plot3d_text_layout("2 2 2 18446744073709551615*0.5", Plot3dFile::kGrid));
 }
 
+TEST(Plot3d, GridAndSolutionMayHaveLayoutsOfTheirOwn) {
+  const test::TempFolder folder;
+  const std::vector<Layout> layouts = all_layouts();
+  for (std::size_t n = 0; n < layouts.size() / 2; n += 3) {  // the second half is flat
+    const Layout& l = layouts[n];
+    for (int differs = 0; differs < 4; ++differs) {
+      Layout of_solution = l;
+      if (differs == 0) of_solution.doubles = !l.doubles;
+      if (differs == 1) of_solution.big = !l.big;
+      if (differs == 2) of_solution.marks = !l.marks;
+      if (differs == 3) of_solution.text = of_solution.doubles = true, of_solution.marks = false;
+      const std::string what = name(l) + ", solution " + name(of_solution);
+      Source source = Source::open(
+          {{folder.write("grid.xyz", grid_file(l))}, folder.write("solution.q", solution_file(of_solution))});
+      const auto blocks = source.read({"Density", "Momentum"});
+      ASSERT_EQ(blocks.size(), dims_of(l).size()) << what;
+      for (std::size_t g = 0; g < blocks.size(); ++g) {
+        std::size_t p = 0;
+        for_points(dims_of(l)[g], [&](int i, int j, int k) {
+          const auto& topology = std::get<StructuredTopology>(blocks[g].topology);
+          ASSERT_EQ(topology.positions.at(p, 1), coordinate(g, 1, i, j, k)) << what;
+          ASSERT_EQ(blocks[g].find("Momentum", Association::kPoint)->at(p, 0), value(g, 1, i, j, k)) << what;
+          if (l.blanking) {
+            ASSERT_EQ(blocks[g].visible.at(p) != 0, i != 1) << what;
+          }
+          ++p;
+        });
+      }
+    }
+  }
+}
+
+TEST(Plot3d, ListsOfParaViewAreSeries) {
+  const test::TempFolder folder;
+  std::filesystem::create_directories(folder.path("run"));
+  Layout doubles;
+  doubles.doubles = true;
+  (void)folder.write("run/a.xyz", grid_file({}));
+  (void)folder.write("run/a.q", solution_file({}));
+  (void)folder.write("run/b.q", solution_file(doubles));
+  const auto list = folder.write(
+      "all.p3d",
+      R"({"auto-detect-format": true, "filenames": [{"time": 0.5, "xyz": "run/a.xyz", "q": "run/a.q"},)"
+      R"( {"time": 2, "xyz": "run/a.xyz", "q": "run/b.q"}]})");
+  Source source = Source::open({{list}, {}});
+  EXPECT_EQ(source.info().times, (std::vector<double>{0.5, 2.0}));
+  for (const std::size_t step : {0, 1, 0})
+    EXPECT_EQ(source.read({"Density"}, step).at(0).find("Density", Association::kPoint)->at(1),
+              value(0, 0, 1, 0, 0));
+  const auto refused = [&](const std::string& text, const std::string& why) {
+    try {
+      (void)Source::open({{folder.write("bad.p3d", text)}, {}});
+      FAIL() << "was accepted: " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ExitCode::kBadInput);
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused(R"({"filenames": [{"time": 0.5, "xyz": "run/gone.xyz"}]})", "gone.xyz");
+  refused(R"({"filenames": [{"q": "run/a.q"}]})", "without a grid");
+  refused(R"({"filenames": [{"time": 1, "xyz": "run/a.xyz"}, {"time": 1, "xyz": "run/a.xyz"}]})",
+          "do not rise");
+  refused(R"({"filenames": [{"time": 1)", "no list");
+}
+
 TEST(Plot3d, ASolutionOfAnotherGridIsRefused) {
   const test::TempFolder folder;
   const auto grid = folder.write("grid.xyz", grid_file({}));

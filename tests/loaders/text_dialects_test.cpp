@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/field/field_grid.h"
 #include "common/load/load.h"
+#include "tests/loaders/case_fixtures.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
@@ -286,6 +287,50 @@ TEST(TextDialects, ALostPieceCostsItselfAndAWord) {
     }
   }
   EXPECT_NE(refusal(folder.write("b.pvd", index_of({{"0", "0", "gone.vtu"}}))), "");
+}
+
+TEST(TextDialects, AByteOrderMarkBeforeAMeshIsPassedOver) {
+  const TempFolder folder;
+  const std::string tecplot =
+      "TITLE = \"t\"\nVARIABLES = X Y Z U\nZONE I=2, J=2, K=2, F=POINT\n0 0 0 0\n1 0 0 1\n0 1 0 2\n1 1 0 3\n"
+      "0 0 1 4\n1 0 1 5\n0 1 1 6\n1 1 1 7\n";
+  Source source = opened(folder.write("a.dat", "\xEF\xBB\xBF" + tecplot));
+  EXPECT_EQ(source.read({"U"}).at(0).arrays.at(0).at(3), 3.0);
+}
+
+// VTK's reader would look for them in the geometry for ever.
+TEST(Ensight, StepsInOneFileBesideAGeometryWithoutAreRefused) {
+  const TempFolder folder;
+  (void)test::write_ensight_text(folder);
+  (void)folder.write("cube.all", "BEGIN TIME STEP\n");
+  const auto file = folder.write(
+      "sets.case",
+      "FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: cube.geo\nVARIABLE\nvector per node: 1 1 velocity cube.all\n"
+      "TIME\ntime set: 1\nnumber of steps: 2\nfilename start number: 0\nfilename increment: 1\n"
+      "time values: 0.0 0.5\nFILE\nfile set: 1\nnumber of steps: 2\n");
+  try {
+    (void)Source::open({{file}, {}});
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("all steps of 'velocity' in one file"), std::string::npos)
+        << error.what();
+  }
+}
+
+// VTK 9.1 reads them as cells without faces.
+TEST(VtkXmlText, PolyhedraOfLaterVersionsAreNamed) {
+  const TempFolder folder;
+  std::string text = mesh(cube_piece(0, ""));
+  text.insert(text.find("</Cells>"), array("polyhedron_to_faces", "Int64", 1, "0"));
+  try {
+    (void)opened(folder.write("a.vtu", text));
+    FAIL() << "was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("polyhedra in arrays of VTK 9.4"), std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(VtkXmlText, NumbersMayEndWithNaNDirectlyBeforeATag) {

@@ -77,6 +77,10 @@ std::size_t file_word(const std::string& section, const std::string& kind, std::
   return section == "VARIABLE" && values && words > 1 ? words : 0;
 }
 
+bool is_number(const std::string& word) {
+  return std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 }  // namespace
 
 bool is_ensight6(std::string_view case_text) {
@@ -93,6 +97,7 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
   std::istringstream lines{std::string(text)};
   std::string section;
   std::string out;
+  std::size_t sets_of_geometry = 0;
   for (std::string line; std::getline(lines, line);) {
     while (!line.empty() && line.back() == '\r') line.pop_back();
     const std::size_t colon = line.find(':');
@@ -110,10 +115,17 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
       continue;
     }
     // Numbers of the time set and file set precede a geometry's file.
-    while (section == "GEOMETRY" && word < words.size() &&
-           std::all_of(words[word - 1].begin(), words[word - 1].end(),
-                       [](unsigned char c) { return std::isdigit(c) != 0; })) {
+    while (section == "GEOMETRY" && word < words.size() && is_number(words[word - 1])) {
       ++word;
+    }
+    if (section == "GEOMETRY") sets_of_geometry = word - 1;
+    // VTK looks for steps in the file of the geometry then, without an end.
+    if (section == "VARIABLE" && is_number(words[0]) && is_number(words[1]) && words.size() > 3 &&
+        sets_of_geometry < 2) {
+      throw input_error(
+          {case_file, "",
+           "has all steps of '" + words[words.size() - 2] + "' in one file, but a geometry without steps",
+           "the geometry in a file set, too", "write a file a step (" + words.back() + "****)"});
     }
     std::string& file = words[word - 1];
     const std::filesystem::path path = folder / file;

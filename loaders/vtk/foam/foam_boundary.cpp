@@ -52,6 +52,9 @@ FoamPatchValues values_in(FoamTokens& tokens, std::size_t components) {
       out.numbers.push_back(foam_scalar(bytes, i, tokens.storage()));
   } else {
     while (!tokens.done() && tokens.peek() != ")") append_foam_tuple(tokens, components, out.numbers);
+    const std::size_t tuples = out.numbers.size() / components;
+    if (count != std::numeric_limits<std::size_t>::max() && tuples != count)
+      throw FoamMalformed{std::to_string(tuples) + " values where " + std::to_string(count) + " are due"};
   }
   tokens.expect(")");
   return out;
@@ -400,53 +403,6 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
       problem = std::to_string(tuples) + " values for " + std::to_string(patch.faces) + " faces";
     }
     if (!problem.empty()) problems.push_back(name + problem);
-  }
-  return out;
-}
-
-std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
-                                      std::size_t first_face,
-                                      const std::map<std::string, FoamPatchValues>& values, int components,
-                                      const std::vector<Vec3>& positions) {
-  const auto n = as_size(components);
-  std::vector<double> out, weights;
-  for (const FoamPatch& patch : patches) {
-    const auto found = values.find(patch.name);
-    if (found == values.end() || patch.first_face < first_face) continue;
-    const FoamPatchValues& given = found->second;
-    if (given.slides || given.numbers.size() / n < (given.uniform ? 1 : patch.faces)) continue;
-    for (std::size_t i = 0; i < patch.faces; ++i) {
-      const std::size_t face = patch.first_face - first_face + i;
-      if (face + 1 >= faces.begin.size()) break;
-      const std::size_t begin = faces.begin[face], end = faces.begin[face + 1];
-      Vec3 middle{0.0};
-      bool known = end > begin;
-      for (std::size_t p = begin; p < end; ++p) {
-        known = known && faces.points[p] >= 0 && as_size(faces.points[p]) < positions.size();
-        if (known) middle += positions[as_size(faces.points[p])] / static_cast<double>(end - begin);
-      }
-      if (!known) continue;
-      if (out.empty()) {
-        out.assign(positions.size() * n, 0.0);
-        weights.assign(positions.size(), 0.0);
-      }
-      const double* const value = given.numbers.data() + (given.uniform ? 0 : i * n);
-      for (std::size_t p = begin; p < end; ++p) {
-        const auto point = as_size(faces.points[p]);
-        const double way = glm::distance(positions[point], middle);
-        const double weight = way > 0.0 && std::isfinite(1.0 / way) ? 1.0 / way : 1.0;
-        // Sums that do not overflow: the mean so far, moved.
-        weights[point] += weight;
-        for (std::size_t c = 0; c < n; ++c) {
-          double& mean = out[point * n + c];
-          mean += weight / weights[point] * (value[c] - mean);
-        }
-      }
-    }
-  }
-  for (std::size_t p = 0; p < weights.size(); ++p) {
-    if (weights[p] > 0.0) continue;
-    for (std::size_t c = 0; c < n; ++c) out[p * n + c] = std::numeric_limits<double>::quiet_NaN();
   }
   return out;
 }

@@ -64,15 +64,6 @@ struct FoamFaces {
                                                                         std::vector<std::string>& problems,
                                                                         const FoamInclude& include = {});
 
-/// The values of a field at the points of the boundary, `components` a point, NaN where none is given: the mean of
-/// those of the faces around that have one, weighted by the inverse distance of their middles (as OpenFOAM's
-/// volPointInterpolation does), whatever their patches.
-/// @returns nothing where no point has one. @param positions of all points of the mesh.
-[[nodiscard]] std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches,
-                                                    const FoamFaces& faces, std::size_t first_face,
-                                                    const std::map<std::string, FoamPatchValues>& values,
-                                                    int components, const std::vector<Vec3>& positions);
-
 /// At the points of the boundary the sum of A n n^T over the faces around that a vector slides along, as xx, xy, xz,
 /// yy, yz, zz: A the area, n the normal. Zero elsewhere; nothing where there are no such faces.
 [[nodiscard]] std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches,

@@ -12,6 +12,7 @@
 #include "common/base/text.h"
 #include "common/field/cells/boundary_values.h"
 #include "loaders/vtk/foam/foam_collated.h"
+#include "loaders/vtk/foam/foam_point_values.h"
 #include "loaders/vtk/foam/foam_precision.h"
 #include "loaders/vtk/foam/foam_text.h"
 
@@ -184,6 +185,38 @@ void order_as_vtk(FoamPatchValues& values) {
   }
 }
 
+/// The internalField, one tuple a cell, in the order of VTK's components.
+/// @throws FoamMalformed.
+std::vector<double> values_of_cells(std::string_view text, int components, std::size_t cells,
+                                    const FoamInclude& include) {
+  FoamPatchValues values = read_foam_inner_values(text, components, include);
+  if (!values.uniform) {
+    if (components == 6) order_as_vtk(values);
+    return std::move(values.numbers);
+  }
+  std::vector<double> out;
+  for (std::size_t cell = 0; cell < cells; ++cell)
+    out.insert(out.end(), values.numbers.begin(), values.numbers.end());
+  return out;
+}
+
+/// The numbers a cell that a file's class says; 0 where it is no field of cells.
+int components_of_class(std::string_view text) {
+  FoamTokens tokens(text.substr(0, 4096), FoamStorage{});
+  while (!tokens.done()) {
+    if (tokens.next() != "class") continue;
+    const std::string_view name = tokens.next();
+    for (const auto& [known, components] : {std::pair{"volScalarField", 1},
+                                            {"volVectorField", 3},
+                                            {"volSymmTensorField", 6},
+                                            {"volTensorField", 9}}) {
+      if (name == known) return components;
+    }
+    return 0;
+  }
+  return 0;
+}
+
 }  // namespace
 
 fs::path foam_folder(const std::string& file) {
@@ -304,16 +337,9 @@ void FoamBoundaryReader::restore_values(DataSet& block, const fs::path& folder,
     try {
       const FoamText text(folder / array.name);
       if (is_single_precision(text.text())) continue;
-      FoamPatchValues values = read_foam_inner_values(text.text(), array.components, include);
-      if (values.uniform) {
-        const std::vector<double> one = std::move(values.numbers);
-        values.numbers.clear();
-        for (std::size_t tuple = 0; tuple < array.tuples; ++tuple)
-          values.numbers.insert(values.numbers.end(), one.begin(), one.end());
-      } else if (array.components == 6) {
-        order_as_vtk(values);
-      }
-      if (auto exact = in_double(array, values.numbers)) {
+      const std::vector<double> values =
+          values_of_cells(text.text(), array.components, array.tuples, include);
+      if (auto exact = in_double(array, values)) {
         array = *std::move(exact);
         continue;
       }
@@ -326,6 +352,33 @@ void FoamBoundaryReader::restore_values(DataSet& block, const fs::path& folder,
   }
 }
 
+fs::path FoamBoundaryReader::folder_at(double time, const fs::path& region) const {
+  fs::path at;
+  for (const auto& [when, folder] : times_in(folder_)) {
+    if (when == time) at = folder / region;
+  }
+  return at;
+}
+
+bool FoamBoundaryReader::add_values(DataSet& block, const std::string& name, double time) const {
+  const fs::path at = folder_at(time, region_of(block.name));
+  if (at.empty() || !there(at / name)) return false;
+  const FoamInclude include = [&](std::string_view file) { return included(at, file); };
+  try {
+    const FoamText text(at / name);
+    const int components = components_of_class(text.text());
+    if (components == 0) return false;
+    const std::vector<double> values = values_of_cells(text.text(), components, block.cell_count(), include);
+    if (values.size() != block.cell_count() * as_size(components)) return false;
+    block.arrays.push_back(make_array(name, Association::kCell, components, values));
+    return true;
+  } catch (const FoamMalformed&) {
+    return false;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, double time) {
   std::set<std::string> problems;
   for (DataSet& block : blocks) {
@@ -333,10 +386,7 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
     if (mesh_of_block == nullptr) continue;
     const fs::path region = region_of(block.name);
     restore_points(block, region, time, problems);
-    fs::path at;
-    for (const auto& [when, folder] : times_in(folder_)) {
-      if (when == time) at = folder / region;
-    }
+    const fs::path at = folder_at(time, region);
     if (at.empty()) continue;
     restore_values(block, at, problems);
     const FoamInclude include = [&](std::string_view name) { return included(at, name); };
@@ -386,9 +436,10 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
           block.arrays.push_back(make_array(sliding_array_of(array.name), Association::kPoint, 6,
                                             std::span<const double>(normals)));
         }
-        const std::vector<double> numbers =
+        std::vector<double> numbers =
             foam_point_values(mesh.patches, mesh.faces, mesh.first_face, values, array.components, positions);
         if (numbers.empty()) continue;
+        leave_out_bad_cells(std::get<UnstructuredTopology>(block.topology), array, numbers);
         block.arrays.push_back(make_array(boundary_array_of(array.name), Association::kPoint,
                                           array.components, std::span<const double>(numbers)));
       } catch (const Error& error) {

@@ -32,6 +32,10 @@ class FoamBoundaryReader {
   /// single precision.
   std::vector<std::string> add(std::vector<DataSet>& blocks, double time);
 
+  /// Adds the values of a field of cells that VTK's reader cannot read (it knows no NaN in text) to their block.
+  /// @returns whether the field is there at `time` and is a readable one of this block's cells.
+  bool add_values(DataSet& block, const std::string& name, double time) const;
+
  private:
   struct Mesh {
     std::vector<FoamPatch> patches;
@@ -46,6 +50,7 @@ class FoamBoundaryReader {
                       std::set<std::string>& problems) const;
   void restore_values(DataSet& block, const std::filesystem::path& folder,
                       std::set<std::string>& problems) const;
+  [[nodiscard]] std::filesystem::path folder_at(double time, const std::filesystem::path& region) const;
   [[nodiscard]] std::string included(const std::filesystem::path& folder, std::string_view name) const;
   const Mesh& mesh_in(const std::filesystem::path& folder);
 
