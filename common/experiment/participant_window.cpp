@@ -73,6 +73,7 @@ class ParticipantWindow {
   void open_trial();
   void close_trial();
   void leave_start();
+  [[nodiscard]] bool mouse_is_off_start() const;
   void end_trial(bool by_clock);
   void watch_force();
   void tell(const std::string& what) const {
@@ -166,7 +167,7 @@ void ParticipantWindow::open_trial() {
                                       options_.touch);
   const Vec3 start = live_->trial().start();
   camera_ = seen().camera;
-  depth_ = task.info().flat ? 0.0 : glm::dot(start - camera_.focal_point, camera_.axes[2]) + 0.02;
+  depth_ = task.info().flat ? 0.0 : glm::dot(start - camera_.focal_point, camera_.axes[2]);
   device_.place(camera_);
   refusal_ = ForceCut::kNone;
   screen_ = ParticipantScreen::kStart;
@@ -236,6 +237,14 @@ void ParticipantWindow::lead_mouse(bool grab) {
   device_.move(now, lead_, pressed_);
 }
 
+/// Whether a hand that is led by the mouse would leave the start as soon as nothing holds it there any more.
+bool ParticipantWindow::mouse_is_off_start() const {
+  if (!device_.by_mouse()) return false;
+  Vec3 off = lead_ - live_->trial().start();
+  if (live_->info().flat) off.z = 0.0;
+  return glm::length(off) > LiveTrial::kAtStart;
+}
+
 void ParticipantWindow::space() {
   switch (screen_) {
     case ParticipantScreen::kWelcome:
@@ -248,7 +257,7 @@ void ParticipantWindow::space() {
     case ParticipantScreen::kStart:
       if (live_->latched()) {
         live_->arm();
-      } else if (live_->may_begin()) {
+      } else if (live_->may_begin() && !mouse_is_off_start()) {
         live_->begin(folder_.plan().guidance, static_cast<std::uint64_t>(frame_));
         screen_ = ParticipantScreen::kTrial;
       }
@@ -337,7 +346,10 @@ std::string ParticipantWindow::hint() const {
   if (std::string advice = device_.advice(); !advice.empty()) return advice;
   if (screen_ == ParticipantScreen::kStart) {
     const std::string refusal = refusal_text(live_->refusal(), live_->latched());
-    return refusal.empty() ? "Bring the crosshair to the blue dot, then press the space bar." : refusal;
+    if (!refusal.empty()) return refusal;
+    return live_->may_begin() && mouse_is_off_start()
+               ? "Bring the mouse to the blue dot, too, then press the space bar."
+               : "Bring the crosshair to the blue dot, then press the space bar.";
   }
   if (live_->flawed()) return kNoForceInTrial;
   return live_->seconds() > live_->info().limit ? "The time is up: finish, then press the space bar." : "";

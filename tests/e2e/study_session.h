@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -121,12 +122,15 @@ class MouseAndKeys {
 /// left corner of a display without a window manager.
 class Hands {
  public:
-  /// @param slow [s] for which each picture stays longer than it must. @param faults presses F12 at the first start and
+  /// @param slow [s] for which each picture of the first two trials stays longer than it must. @param faults presses F12 at the first start and
   /// in the first trial.
   explicit Hands(double slow = 0.0, bool faults = false) : slow_(slow), faults_(faults) {}
 
   void operator()(const ParticipantSight& sight) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(slow_));
+    constexpr std::size_t kSlowTrials = 2;
+    if (!left_at_first_) left_at_first_ = sight.left;
+    if (*left_at_first_ - sight.left < kSlowTrials)
+      std::this_thread::sleep_for(std::chrono::duration<double>(slow_));
     if (!x_) {
       x_ = std::make_shared<MouseAndKeys>();
       act({{0.0, "mousemove 200 200"},
@@ -263,6 +267,7 @@ class Hands {
   }
 
   double slow_;
+  std::optional<std::size_t> left_at_first_;  ///< trials
   bool faults_, off_in_trial_ = false, hold_long_ = true, pressed_ = false;
   bool at_start_ = false, traced_ = false, said_ = false;  ///< what is done of a trial
   Vec3 aim_{0.0}, goal_{0.0};                              ///< [m] of the mouse, and of the crosshair at last
@@ -299,6 +304,9 @@ class Photographs {
   ParticipantScreen screen_ = ParticipantScreen::kThanks;
 };
 
+/// What is told, before a number [m], of how deep the mouse leads as a start is shown: off the start, towards the viewer.
+inline constexpr std::string_view kStartDepth = "depth off the start: ";
+
 struct SessionWish {
   const StudyTasks& tasks;  ///< prepared
   Hands hands;
@@ -322,7 +330,12 @@ inline pid_t start_session(const fs::path& folder, const SessionWish& wish) {
     options.stereo.mode = wish.stereo;
     std::ofstream told(wish.told);
     std::string hint;
-    options.each_frame = [&told, &hint, hands = wish.hands](const ParticipantSight& sight) mutable {
+    ParticipantScreen screen = ParticipantScreen::kThanks;
+    options.each_frame = [&told, &hint, &screen, hands = wish.hands](const ParticipantSight& sight) mutable {
+      const bool opened = std::exchange(screen, sight.screen) != sight.screen;
+      if (opened && sight.screen == ParticipantScreen::kStart) {
+        told << kStartDepth << glm::dot(sight.lead - sight.trial->start(), sight.camera.axes[2]) << std::endl;
+      }
       if (std::exchange(hint, sight.hint) != sight.hint) told << "screen: " << sight.hint << std::endl;
       hands(sight);
     };

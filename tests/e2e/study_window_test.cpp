@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,7 +35,9 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
   const fs::path pictures =
       std::getenv("PALPATE_WRITE_PAGES") != nullptr ? source_folder() / "docs" / "guide" : fs::path();
 
-  const pid_t first = start_session(path, {.tasks = tasks, .hands = Hands(), .pictures = pictures});
+  const fs::path told = temporary.path("told.txt"), told_later = temporary.path("later.txt");
+  const pid_t first =
+      start_session(path, {.tasks = tasks, .hands = Hands(), .told = told, .pictures = pictures});
   const fs::path at_work = path / "sub-P01" / "trial_at_work.txt";
   SessionGuard first_guard(first);
   ASSERT_GT(first, 0);
@@ -56,12 +59,24 @@ TEST(StudyWindow, ASessionThatIsKilledGoesOnWithoutLoss) {
   EXPECT_GE(before.size(), 3U) << "all that were done are there";
   EXPECT_EQ(folder.participants().size(), 1U) << "the window has entered who began";
 
-  // The second part under a window that is slow: nothing depends on how many pictures there are.
+  // The second part begins under a window that is slow: nothing depends on how many pictures there are.
   constexpr double kSlow = 0.12;  // [s]
-  SessionGuard second(start_session(path, {.tasks = tasks, .hands = Hands(kSlow), .pictures = pictures}));
+  SessionGuard second(
+      start_session(path, {.tasks = tasks, .hands = Hands(kSlow), .told = told_later, .pictures = pictures}));
   status = outcome_of(second);
   ASSERT_TRUE(status && WIFEXITED(*status));
   EXPECT_EQ(WEXITSTATUS(*status), 0);
+  // The mouse leads at the depth of the start as that is shown: nothing draws the hand off it, in no task.
+  std::size_t starts = 0;
+  for (const fs::path& file : {told, told_later}) {
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with(kStartDepth)) continue;
+      ++starts;
+      EXPECT_NEAR(std::stod(line.substr(kStartDepth.size())), 0.0, 1e-6);
+    }
+  }
+  EXPECT_GE(starts, 8U) << "each trial has one";
   EXPECT_TRUE(folder.left_for(who).empty());
   EXPECT_FALSE(fs::exists(at_work));
   EXPECT_EQ(folder.answers("P01").at("harder_3d"), "4");
