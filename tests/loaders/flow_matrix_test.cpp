@@ -21,6 +21,7 @@
 #include "common/load/load.h"
 #include "tests/loaders/cell_kinds.h"
 #include "tests/loaders/hdf5_file.h"
+#include "tests/loaders/solver_cells.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
@@ -154,6 +155,17 @@ std::vector<Dialect> dialects() {
           return Files{{"a.geo", files.geometry}, {"a.vec", files.variable}};
         }};
   };
+  const auto foam = [](const char* encoding, bool binary, const std::vector<Variant>& variants) {
+    return Dialect{"OpenFOAM",
+                   encoding,
+                   "system/controlDict",
+                   variants,
+                   [=](const CellKind& kind, const Variant& v) {
+                     return foam_files(kind, binary, v.wide).empty() ? "" : foam_control_file();
+                   },
+                   false,
+                   [=](const CellKind& kind, const Variant& v) { return foam_files(kind, binary, v.wide); }};
+  };
   return {
       {"VTK legacy", "ascii", "a.vtk", text,
        [](const CellKind& kind, const Variant& v) { return legacy_file(kind, v, false); }},
@@ -197,7 +209,17 @@ std::vector<Dialect> dialects() {
          return Files{{"a.cel", star_cells_file(kind)}};
        }},
       ensight("ascii", false, one),
-      ensight("C Binary", true, orders)};
+      ensight("C Binary", true, orders),
+      {"EnSight 6", "ascii", "a.case", one,
+       [](const CellKind& kind, const Variant&) { return ensight6_files(kind).flow_case; }, true,
+       [](const CellKind& kind, const Variant&) {
+         const EnsightFiles files = ensight6_files(kind);
+         return Files{{"a.geo", files.geometry}, {"a.vec", files.variable}};
+       }},
+      {"Exodus II", "netCDF", "a.exo", text,
+       [](const CellKind& kind, const Variant& v) { return exodus_file(kind, v.wide); }},
+      foam("ascii, values of cells", false, one),
+      foam("binary, values of cells", true, text)};
 }
 
 /// The edges of a cell by the places of their ends, lower one first.
@@ -229,7 +251,10 @@ std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool 
   // makes the same cell, and then the nodes between them in that order.
   std::vector<Vec3> there, values;
   const DataArray* const velocity = block.find("Velocity", Association::kPoint);
-  const DataArray* const whole = velocity != nullptr ? velocity : block.find("U", Association::kPoint);
+  const DataArray* const named = block.find("U", Association::kPoint);
+  const DataArray* const whole = velocity != nullptr ? velocity
+                                 : named != nullptr  ? named
+                                                     : block.find("U_", Association::kPoint);
   for (const std::int64_t id : mesh->connectivity) {
     const auto point = static_cast<std::size_t>(id);
     there.emplace_back(mesh->positions.at(point, 0), mesh->positions.at(point, 1),
@@ -288,9 +313,13 @@ TEST(FlowMatrix, EveryKindOfCellIsRightOrRefusedInEveryDialect) {
       for (const Variant& variant : dialect.variants) {
         const std::string content = dialect.write(kind, variant);
         if (content.empty()) continue;
-        const auto path = folder.write(dialect.name, content);
+        const auto put = [&folder](const std::string& name, const std::string& bytes) {
+          std::filesystem::create_directories(folder.path(name).parent_path());
+          return folder.write(name, bytes);
+        };
+        const auto path = put(dialect.name, content);
         if (dialect.beside) {
-          for (const auto& [name, text] : dialect.beside(kind, variant)) (void)folder.write(name, text);
+          for (const auto& [name, text] : dialect.beside(kind, variant)) (void)put(name, text);
         }
         const std::string what = std::string(dialect.format) + ", " + dialect.encoding + ", " + kind.name +
                                  (variant.wide ? ", double" : ", float") +

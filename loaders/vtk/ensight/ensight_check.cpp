@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -77,6 +78,25 @@ std::size_t file_word(const std::string& section, const std::string& kind, std::
   return section == "VARIABLE" && values && words > 1 ? words : 0;
 }
 
+/// VTK's reader of EnSight 6 takes such cells through their corners, and says nothing.
+void refuse_curved_cells(const std::filesystem::path& pattern) {
+  std::filesystem::path path = pattern;
+  if (path.filename().string().find('*') != std::string::npos) {
+    const auto files = matching_files(path.parent_path(), path.filename().string());
+    if (files.empty()) return;
+    path = files.begin()->second;
+  }
+  std::ifstream lines(path);
+  for (std::string line; std::getline(lines, line);) {
+    for (const char* const shape : {"tetra10", "hexa20", "penta15", "pyramid13"}) {
+      if (line.compare(0, std::string_view(shape).size(), shape) != 0) continue;
+      throw input_error({path.string(), "",
+                         std::string("has cells ") + shape + ", of which only corners are read",
+                         "cells of corners alone in EnSight 6", "write it as EnSight Gold"});
+    }
+  }
+}
+
 bool is_number(const std::string& word) {
   return std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
@@ -140,6 +160,7 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
       throw input_error({case_file, "", "names the file '" + path.string() + "'",
                          "names without blanks: VTK's reader knows none", "rename or link it"});
     }
+    if (section == "GEOMETRY" && kind == "model" && is_ensight6(text)) refuse_curved_cells(path);
     file = prefix + path.string();
     out += line.substr(0, colon + 1);
     for (const std::string& part : words) out += " " + part;
