@@ -86,10 +86,13 @@ void refuse_curved_cells(const std::filesystem::path& pattern) {
     if (files.empty()) return;
     path = files.begin()->second;
   }
-  std::ifstream lines(path);
+  constexpr std::size_t kFirstLine = 80;
+  const bool binary = read_head(path, kFirstLine).bytes.find("Binary") != std::string::npos;
+  std::ifstream lines(path, std::ios::binary);
   for (std::string line; std::getline(lines, line);) {
     for (const char* const shape : {"tetra10", "hexa20", "penta15", "pyramid13"}) {
-      if (line.compare(0, std::string_view(shape).size(), shape) != 0) continue;
+      const std::size_t at = line.find(shape);
+      if (at == std::string::npos || (at > 0 && !binary)) continue;
       throw input_error({path.string(), "",
                          std::string("has cells ") + shape + ", of which only corners are read",
                          "cells of corners alone in EnSight 6", "write it as EnSight Gold"});
