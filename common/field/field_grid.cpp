@@ -293,10 +293,11 @@ void note_seams(const Seams& seams, bool ranked, FieldNotes& notes) {
 
 void note_curved(const CurvedSplit& curved, FieldNotes& notes) {
   const std::string n = std::to_string(curved.parts);
-  notes.lines.push_back(
-      count_text(curved.cells, "curved cell", "curved cells") + " split into " + n + " x " + n + " x " + n +
-      " parts each, with the values of their polynomials: linear interpolation within " +
-      "them is off by up to " + number_text(100.0 * curved.error) + " % of the largest value");
+  notes.lines.push_back(count_text(curved.cells, "curved cell", "curved cells") + " split into " + n + " x " +
+                        n + " x " + n +
+                        " parts each, with the values of their polynomials: linear interpolation within " +
+                        "them is off by up to " + number_text(100.0 * curved.made.error) +
+                        " % of the largest value (counted into the errors of lines)");
   if (curved.rational > 0) {
     notes.lines.push_back(count_text(curved.rational, "Bezier cell", "Bezier cells") +
                           ": weights of rational ones are not read, taken as 1");

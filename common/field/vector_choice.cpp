@@ -41,9 +41,11 @@ struct ComponentName {
   int component = 0;
 };
 
-/// What solvers put before or behind "u v w" beside the velocity itself: "umean".
-bool is_average(const std::string& name) {
-  return name == "mean" || name == "avg" || name == "average" || name == "prime";
+/// What stands behind "u v w" beside the velocity itself: "umean"; "uo" and "ua" are those of oceans and of air in the
+/// names of CMIP.
+bool is_kind_of_velocity(const std::string& name) {
+  return name == "mean" || name == "avg" || name == "average" || name == "prime" || name == "o" ||
+         name == "a";
 }
 
 /// Every way to read a name as a component: a letter x y z (first or last), a last digit, u v w or i j k.
@@ -69,7 +71,7 @@ std::vector<ComponentName> component_names(std::string_view given) {
   if (head.empty() || means_momentum(name) || head == "rho" || is_speed(head)) {
     add(name.back(), "uvw", head + "*uvw");
   }
-  if (is_speed(rest) || is_average(rest)) add(name.front(), "uvw", "uvw*" + rest);
+  if (is_speed(rest) || is_kind_of_velocity(rest)) add(name.front(), "uvw", "uvw*" + rest);
   // "Velocity[i]", "velocity_i"
   const bool bracket = !given.empty() && (given.back() == ']' || given.back() == ')');
   if (!head.empty() && (bracket || is_speed(head))) add(name.back(), "ijk", head + "*ijk");
@@ -171,8 +173,8 @@ std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
     VectorChoice choice{
         VectorChoice::Kind::kComponents, triple.arrays[0]->association, {}, bracketed(triple)};
     for (const ArrayInfo* array : triple.arrays) choice.arrays.push_back(array->name);
-    const bool velocity =
-        means_velocity(triple.name) || (triple.uvw && (triple.name.empty() || is_average(triple.name)));
+    const bool velocity = means_velocity(triple.name) ||
+                          (triple.uvw && (triple.name.empty() || is_kind_of_velocity(triple.name)));
     add(std::move(choice), velocity, is_real(triple.arrays[0]->type), triple.order);
   }
 

@@ -88,6 +88,18 @@ std::vector<Part> parts_of(std::uint8_t linear, int n) {
   return out;
 }
 
+/// Whether parts may have an edge along this step between neighbours of the lattice, as tetrahedra split them.
+bool is_edge(std::uint8_t linear, const Lattice& step) {
+  const auto sum_is_small = [](int sum) { return sum >= -1 && sum <= 1; };
+  if (linear == kTetrahedron) {
+    // Of Kuhn's tetrahedra, in barycentric coordinates: one of the four gives to another, or two to two in one way.
+    const bool one = sum_is_small(step[0] + step[1]) && sum_is_small(step[1] + step[2]) &&
+                     sum_is_small(step[0] + step[2]) && sum_is_small(step[0] + step[1] + step[2]);
+    return one || step == Lattice{1, -1, 1};
+  }
+  return linear != kWedge || sum_is_small(step[0] + step[1]);
+}
+
 /// A cell's lattice, once for all cells of a type and number of nodes.
 struct Template {
   std::unique_ptr<CurvedCell> cell;  ///< null where none is known
@@ -199,7 +211,9 @@ class CurvedSplitter {
           if (!in_reference(polynomial.linear_type(), a, n)) continue;
           const Vec3 f = at(Vec3(i, j, k));
           for (int d = 14; d < 27; ++d) {  // one of each pair of opposite neighbours
-            const Lattice b{i + d % 3 - 1, j + d / 3 % 3 - 1, k + d / 9 - 1};
+            const Lattice step{d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1};
+            if (!is_edge(polynomial.linear_type(), step)) continue;
+            const Lattice b{i + step[0], j + step[1], k + step[2]};
             if (!in_reference(polynomial.linear_type(), b, n)) continue;
             const Vec3 middle = 0.5 * Vec3(i + b[0], j + b[1], k + b[2]);
             const double off = glm::distance(at(middle), 0.5 * (f + at(Vec3(b[0], b[1], b[2]))));
@@ -251,7 +265,7 @@ class CurvedSplitter {
       most = 0.0;
       for (const Sampled& s : sampled) most = std::max(most, bound(*s.block, s.cell, out_.parts));
     }
-    out_.error = largest > 0.0 ? most / largest : 0.0;
+    out_.made.error = largest > 0.0 ? most / largest : 0.0;
     for (auto& [key, shape] : shapes_) {
       if (shape.cell) fill(shape, out_.parts);
     }

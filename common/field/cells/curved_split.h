@@ -26,6 +26,9 @@ struct MadePoints {
   std::vector<std::size_t> begin{0};  ///< of each in the next two
   std::vector<std::uint32_t> input;
   std::vector<double> weight;
+  /// By which linear interpolation between them is off, as a part of the largest value: 3/2 of the most that it is
+  /// off in the middle of an edge, which bounds it for polynomials of order two; of up to 64 cells.
+  double error = 0.0;
 };
 
 struct CurvedSplit {
@@ -35,9 +38,6 @@ struct CurvedSplit {
   MadePoints made;                      ///< in the order in which input_of has none; no `point` yet
   std::size_t cells = 0;                ///< that were curved
   int parts = 1;                        ///< n
-  /// By which linear interpolation in the parts is off, as a part of the largest value: 3/2 of the most that it is
-  /// off in the middle of an edge, which bounds it for polynomials of order two; of up to 64 cells.
-  double error = 0.0;
   std::size_t rational = 0;  ///< Bezier cells
 };
 

@@ -10,6 +10,8 @@
 #include <variant>
 
 #include "common/base/parallel.h"
+#include "common/field/cells/curved_split.h"
+#include "common/field/field_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/rest_speed.h"
 
@@ -51,6 +53,8 @@ ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_me
       },
       values.values);
   mark_resting();
+  if (field.grid() && field.grid()->made)
+    value_error_ = field.grid()->made->error * field.max_speed() * values.scale;
   static_assert(sizeof(TetMesh::Tet) == sizeof(std::uint32_t[4]));
   view_ = {.vertices = vertices_.get(),
            .cells = reinterpret_cast<const std::uint32_t(*)[4]>(mesh_->cells().data()),

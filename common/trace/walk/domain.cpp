@@ -10,6 +10,8 @@ namespace palpate {
 
 TetDomain::TetDomain(const ExactMesh& mesh, double sign) : mesh_(&mesh), sign_(sign) {}
 
+double TetDomain::value_error() const { return mesh_->value_error(); }
+
 BoxDomain::BoxDomain(const VectorField& field, double sign)
     : grid_(field.box_grid()), values_(&field.values()), sign_(sign) {
   rest_speed_ = std::visit(

@@ -253,6 +253,7 @@ class TetDomain {
     return first;
   }
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry);
+  [[nodiscard]] double value_error() const;  ///< exact_mesh.h
   /// The last cross() led to a cell that shares no points with the one before: the velocity may jump.
   [[nodiscard]] bool crossed_seam() const { return crossed_seam_; }
   /// What is known of that.

@@ -456,7 +456,10 @@ class FaceWalk final : public LineWalk {
     local_ = local;
     if constexpr (Method::kLookedAtTwice)
       local_ = std::max(local, two_steps_.add(y_, k_, y_end, k_end, length));
-    error_.add(local_ + kUlp * domain_.size(), n);
+    double of_values = 0.0;
+    if constexpr (requires { domain_.value_error(); })
+      of_values = domain_.value_error() * std::abs(y_end[3] - y_[3]);
+    error_.add(local_ + of_values + kUlp * domain_.size(), n);
     y_ = y_end;
     k_ = k_end;
     pending_face_ = face;

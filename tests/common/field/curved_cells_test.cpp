@@ -274,7 +274,7 @@ TEST(CurvedCells, ValuesAreThoseOfThePolynomialWithinTheStatedError) {
     const auto split = split_curved({&block, 1}, value);
     ASSERT_TRUE(split);
     // Some diagonals fit into the finer lattice alone, and count there.
-    EXPECT_LE(split->error, 3.0 * kCurvedError);
+    EXPECT_LE(split->made.error, 3.0 * kCurvedError);
     EXPECT_GE(split->parts, 2);
     const auto field = field_of(block);
     EXPECT_NEAR(field->max_speed(), std::hypot(11.0, 0.4), 0.05);
@@ -288,7 +288,7 @@ TEST(CurvedCells, ValuesAreThoseOfThePolynomialWithinTheStatedError) {
       ASSERT_EQ(sample.status, SampleStatus::kOk) << n;
       most = std::max(most, glm::distance(sample.value, parabola(at)));
     }
-    EXPECT_LE(most, split->error * std::hypot(11.0, 0.8) + 1e-9);
+    EXPECT_LE(most, split->made.error * std::hypot(11.0, 0.8) + 1e-9);
   }
 }
 

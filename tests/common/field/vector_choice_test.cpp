@@ -42,7 +42,8 @@ TEST(VectorChoice, ComponentsAreFoundUnderTheNamesThatSolversGive) {
         std::array{"u", "v", "w"}, std::array{"Ux", "Uy", "Uz"},
         std::array{"Velocity[i]", "Velocity[j]", "Velocity[k]"},
         std::array{"U-velocity", "V-velocity", "W-velocity"}, std::array{"u-vel", "v-vel", "w-vel"},
-        std::array{"velocity_u", "velocity_v", "velocity_w"}, std::array{"UMean", "VMean", "WMean"}}) {
+        std::array{"velocity_u", "velocity_v", "velocity_w"}, std::array{"UMean", "VMean", "WMean"},
+        std::array{"uo", "vo", "wo"}}) {
     const std::vector<ArrayInfo> arrays{points("pressure", 1), points(names[2], 1), points(names[0], 1),
                                         points(names[1], 1)};
     const VectorChoice choice = choose_vector(arrays, {}, "file");
