@@ -372,7 +372,7 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
     // The curve itself is known to some roundings of a double: the seed's and the time's.
     if (!(error <= p.error)) {
       ++verdict.understated;
-      verdict.worst_excess = std::max(verdict.worst_excess, error / p.error);
+      verdict.worst_excess = std::max(verdict.worst_excess, p.error > 0.0 ? error / p.error : HUGE_VAL);
     }
     verdict.worst_error = std::max(verdict.worst_error, error / diagonal);
     verdict.worst_stated = std::max(verdict.worst_stated, p.error / diagonal);

@@ -36,8 +36,8 @@ class ErrorEllipse {
   /// What `map`, linear, makes of every error.
   template <class Map>
   void carry(const Map& map) {
-    a_ = map(a_);
-    b_ = map(b_);
+    a_ = within(map(a_), a_);
+    b_ = within(map(b_), b_);
   }
 
   /// Adds a local error of length `size` in any direction across the flow. @param direction unit tangent.
@@ -72,6 +72,12 @@ class ErrorEllipse {
   }
 
  private:
+  /// `moved`, or TimeShift::kFar along what it was where it is farther or no number.
+  [[nodiscard]] static Vec3 within(const Vec3& moved, const Vec3& before) noexcept {
+    constexpr double kFar = TimeShift::kFar;
+    return glm::dot(moved, moved) < kFar * kFar ? moved : before * (kFar / glm::length(before));
+  }
+
   void circle(const Vec3& direction, double radius) noexcept {
     const Vec3 oblique{0.533, -0.717, 0.449};  // to every axis that a field may have
     const Vec3 u = oblique - glm::dot(oblique, direction) * direction;
