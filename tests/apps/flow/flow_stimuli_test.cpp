@@ -11,6 +11,7 @@
 
 #include "apps/flow/study/path_task.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 
 namespace palpate::test {
 namespace {
@@ -28,8 +29,12 @@ TEST_P(FlowStimuli, AreOfManyFieldsAndStartApart) {
     Progress progress;
     const PathChoice choice = choose_paths(GetParam(), seed, 30, progress);
     ASSERT_EQ(choice.stimuli.size(), 30U);
-    EXPECT_GE(choice.good, 60U) << "70 at least where places enough are left";
-    EXPECT_LE(choice.good, 90U);
+    // 70 as the reference selected, and fewer only where all places of the other fields were tried.
+    constexpr std::size_t kEnough = 70, kMost = kMostOfField * as_size(kFields), kPlaces = 10'000;
+    const std::size_t poor = (kMost - std::min(kMost, choice.good)) / kMostOfField;  // fields, at least
+    EXPECT_TRUE(choice.good >= kEnough || choice.tried >= kPlaces * poor) << "seed " << seed;
+    EXPECT_GE(choice.good, 60U) << "seed " << seed;
+    EXPECT_LE(choice.good, kMost);
     std::map<const VectorField*, std::vector<Vec3>> starts;
     for (const auto& stimulus : choice.stimuli) {
       EXPECT_NEAR(length_of(stimulus->path), GetParam().length, 1e-3);
