@@ -28,6 +28,7 @@ void settle(FrameBudget& budget, SceneRenderer& renderer, const SceneView& view,
   int still = 0;
   for (int i = 0; i < kMostFrames && still < kStill; ++i) {
     const FrameQuality quality = budget.quality();
+    renderer.set_line_detail(quality.detail);
     renderer.draw(with_quality(view, quality), width, height, quality.resolution);
     renderer.finish();
     if (!renderer.compiled()) budget.drawn(renderer.gpu_milliseconds());
@@ -54,6 +55,7 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
     result.expected_error = held.expected_error();
   }
   const SceneView drawn = with_quality(view, result.quality);
+  renderer.set_line_detail(result.quality.detail);
   for (int i = 0; i < repeat + (budget > 0.0 ? 1 : 0); ++i) {
     renderer.draw(drawn, width, height, result.quality.resolution);
     const double milliseconds = renderer.finish();

@@ -9,6 +9,7 @@
 
 #include <epoxy/gl.h>
 
+#include "common/base/check.h"
 #include "common/base/clock.h"
 #include "common/geometry/box_edges.h"
 #include "common/math/power_of_two.h"
@@ -90,10 +91,11 @@ struct SceneRenderer::State {
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
-  bool made_still = false;                  // by the last picture
-  std::size_t still_path = 0;               // the path is drawn there up to this point
-  std::function<bool()> stop_tracts, stop;  // of the call of draw()
-  double volume_ms = 0.0;                   // over tracts, the last time
+  bool made_still = false;                       // by the last picture
+  double line_detail = 1.0, still_detail = 1.0;  // of the lines, and of those that `still` shows
+  std::size_t still_path = 0;                    // the path is drawn there up to this point
+  std::function<bool()> stop_tracts, stop;       // of the call of draw()
+  double volume_ms = 0.0;                        // over tracts, the last time
 
   void update_geometry(const SceneView& view) {
     if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
@@ -176,7 +178,12 @@ struct SceneRenderer::State {
       if (!tensors) tensors = std::make_unique<TensorPass>();
       tensors->draw(view, frame, transform, unit);
     }
-    if (!is_transparent(view)) lines.draw(line_program, view, frame, base, unit);
+    if (!is_transparent(view)) {
+      LineDraw how = base;
+      how.detail = line_detail;
+      if (stop) how.stop = &stop;
+      lines.draw(line_program, view, frame, how, unit);
+    }
     if (view.volume && shows_planes(*view.volume)) {
       update_volume(view);
       volume->draw_planes(block);
@@ -287,7 +294,8 @@ struct SceneRenderer::State {
                             const ViewTransform& transform, double tract_milliseconds) {
     const bool other_path = view.probe && update_probe(view);
     const bool lacks = volume && draws_volume && !volume->bricks().complete();
-    const bool other = other_path || lacks || !still || !same_still_part(*still, view);
+    const bool other =
+        other_path || lacks || !still || !same_still_part(*still, view) || still_detail != line_detail;
     const bool has_tracts = other ? tracts.begin(view, frame, tract_milliseconds) : view.tracts.has_value();
     // What shines lies over the tracts, and transparent ones are shown when there are enough of them: these
     // grow unseen.
@@ -299,6 +307,7 @@ struct SceneRenderer::State {
     made_still = other;
     if (other) {
       still = view;
+      still_detail = line_detail;
       still_path = 0;
     }
     const bool grown = unseen && show_growing(other);
@@ -375,6 +384,8 @@ struct SceneRenderer::State {
     start.unit = static_cast<float>(scene_height) / 1000.0F;
     start.base.tolerance = line_tolerance(start.transform, perspective, pixel);
     start.base.back = Vec3f(view.camera.axes[2]);
+    start.base.clip_from_scene = start.transform.clip_from_scene;
+    start.base.pixel = static_cast<float>(pixel);
     return start;
   }
 
@@ -465,6 +476,11 @@ bool SceneRenderer::draw(const SceneView& view, int width, int height, double re
   }
   s.stereo->compose(view.stereo.first);
   return true;
+}
+
+void SceneRenderer::set_line_detail(double share) {
+  PALPATE_CHECK(share > 0.0 && share <= 1.0);
+  state_->line_detail = share;
 }
 
 bool SceneRenderer::complete() const noexcept { return state_->tracts.complete() && bricks().complete(); }

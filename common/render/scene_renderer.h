@@ -39,14 +39,17 @@ class SceneRenderer {
   /// @param tract_milliseconds that this picture may spend on tracts. Where they take longer it shows an even
   /// sample of them; the same view again adds more of them (tract_progress.h).
   /// @param stop_tracts where set, asked every few hundredths of a second whether to end that before.
-  /// @param stop where set, asked every few hundredths of a second while rays are cast through a volume for
-  /// one eye, whether to leave this picture.
+  /// @param stop where set, asked every few hundredths of a second while opaque lines are drawn, or rays cast through a
+  /// volume, for one eye, whether to leave this picture.
   /// @return false where it was left: the last one of that size stays, and complete() and what else is told of
   /// a picture mean nothing until the next.
   /// @throws Error (usage) for a size that cannot be drawn.
   bool draw(const SceneView& view, int width, int height, double resolution = 1.0,
             double tract_milliseconds = HUGE_VAL, const std::function<bool()>& stop_tracts = {},
             const std::function<bool()>& stop = {});
+  /// From now on lines are drawn with this share of the segments that they have in full quality, in (0, 1]; transparent
+  /// ones with all.
+  void set_line_detail(double share);
   /// Whether the last picture shows all tracts that there is room for, and all bricks of a volume.
   [[nodiscard]] bool complete() const noexcept;
   /// What the last picture shows of the tracts.

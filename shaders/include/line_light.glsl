@@ -4,9 +4,8 @@
 //   diffuse   L.N = sqrt(1 - (L.T)^2)                                                    (1)
 //   specular  V.R = sqrt(1 - (L.T)^2) sqrt(1 - (V.T)^2) - (L.T)(V.T)                     (2)
 // Returns (diffuse, specular), before any exponent.
-vec2 line_light(vec3 tangent, vec3 light, vec3 view) {
-  float lt = dot(light, tangent);
-  float vt = dot(view, tangent);
+// @param lt,vt L.T and V.T
+vec2 line_light(float lt, float vt) {
   float ln = sqrt(max(0.0, 1.0 - lt * lt));
   float vn = sqrt(max(0.0, 1.0 - vt * vt));
   return vec2(ln, max(0.0, ln * vn - lt * vt));

@@ -4,16 +4,25 @@
 // Unit vector to the light, in N.
 vec3 light_direction() { return normalize(frame.back.xyz + 0.55 * frame.up.xyz - 0.45 * frame.right.xyz); }
 
-// sRGB of a thing of colour `srgb` under `diffuse` and `specular` light in [0, 1]. Highlights keep some of
-// the thing's hue, or they would take its colour's meaning away.
-vec3 shade(vec3 srgb, float diffuse, float specular) {
+// Of a thing of colour `linear` under `diffuse` and `specular` light in [0, 1]; both linear light. Highlights keep some
+// of the thing's hue, or they would take its colour's meaning away.
+vec3 lit_color(vec3 linear, float diffuse, float specular) {
   const float kAmbient = 0.20, kDiffuse = 0.92;
-  vec3 linear = decode_srgb(srgb);
   vec3 gloss = mix(vec3(1.0), linear / max(max(linear.r, max(linear.g, linear.b)), 1e-3), 0.5);
-  return encode_srgb(linear * (kAmbient + kDiffuse * diffuse) + gloss * (frame.depth_cue.w * specular));
+  return linear * (kAmbient + kDiffuse * diffuse) + gloss * (frame.depth_cue.w * specular);
+}
+
+// The same from sRGB to sRGB.
+vec3 shade(vec3 srgb, float diffuse, float specular) {
+  return encode_srgb(lit_color(decode_srgb(srgb), diffuse, specular));
 }
 
 const float kShininess = 48.0;
+// x to the power of kShininess, for x of which there are many.
+float shininess(float x) {
+  float x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
+  return x16 * x16 * x16;
+}
 
 // Share of the background that a thing at `depth` along the view takes on (depth cue).
 float fading_at(float depth) {

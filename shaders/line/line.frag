@@ -1,6 +1,7 @@
 #version 450 core
 // Illuminated streamlines: the light of a line (line_light.glsl), rounded across its width. With LAYERS they are not drawn
-// but put into the list of each pixel (line/layers.glsl), as far as nothing opaque hides them.
+// but put into the list of each pixel (line/layers.glsl), as far as nothing opaque hides them. With LENS there is a ball in
+// which they have colours of their own.
 #include "include/frame.glsl"
 #include "include/color.glsl"
 #include "include/color_table.glsl"
@@ -13,27 +14,28 @@ layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color;
 #endif
 
-layout(location = 3) uniform bool has_values;
-layout(location = 4) uniform int coloring;       // 0 colour map, 1 direction, 2 one colour, 3 one colour without light
-layout(location = 5) uniform vec4 line_color;    // sRGB and opacity; rgb for colouring 2 and 3
-layout(location = 6) uniform float fading;       // share of the depth cue
+layout(location = 4) uniform int coloring;       // as in line.vert; 3: one colour without light
+layout(location = 5) uniform vec4 line_color;    // its opacity alone
 layout(location = 7) uniform vec4 halo_color;    // sRGB; a: 0 takes the background, 1 the colour
-layout(location = 8) uniform float dimming;      // share of the background at any depth
+layout(binding = 0) uniform sampler2D color_map; // one row, linear light
+#ifdef LENS
 layout(location = 10) uniform vec4 lens;         // a ball in N with colours of its own; no radius: none
-layout(location = 11) uniform float clearing;    // share of the opacity that goes with the place in the colour map
-layout(binding = 0) uniform sampler2D color_map; // one row, sRGB
 layout(binding = 1) uniform sampler2D lens_map;
+#endif
+layout(location = 11) uniform float clearing;    // share of the opacity that goes with the place in the colour map
 
 in Vertex {
-  vec3 tangent;
-  vec3 side;
-  vec3 view;
-  float across;
-  float outer;
+  vec3 linear;         // its colour, linear light, where it is not that of a map
+  float toward_light;  // of the unit tangent
+  float toward_eye;    // likewise
+  float far;           // share of the background
+  float across;        // -1 and 1 at the edges of the line, beyond in its halo
+  float outer;         // |across| at the outer edge of the halo
   float value;
+#ifdef LENS
   float lens_value;
-  vec3 place;
-  float depth;
+  vec3 place;          // of the middle of the line, in N
+#endif
 } vertex;
 noperspective in float halo_z;
 
@@ -50,32 +52,25 @@ void keep_layer(vec4 color) {
 }
 #endif
 
-vec3 base_color(vec3 t) {
-  if (coloring == 1) return abs(t);
-  if (coloring >= 2) return line_color.rgb;
-  if (distance(vertex.place, lens.xyz) < lens.w) return table_color(lens_map, vertex.lens_value);
-  return table_color(color_map, vertex.value);
-}
-
 void main() {
-  vec3 t = length(vertex.tangent) > 0.0 ? normalize(vertex.tangent) : vec3(0.0);
   vec3 background = background_at(gl_FragCoord.xy);
   float u = abs(vertex.across);
-  vec3 srgb = base_color(t);
+  vec3 linear = coloring == 0 ? table_entry(color_map, vertex.value) : vertex.linear;
+#ifdef LENS
+  if (coloring == 0 && distance(vertex.place, lens.xyz) < lens.w) linear = table_entry(lens_map, vertex.lens_value);
+#endif
 
-  if (coloring != 3) {
-    const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
-    vec2 shine = line_light(t, light_direction(), normalize(vertex.view));
-    // Towards its edges a round line turns away from the eye.
-    float facing = sqrt(max(0.0, 1.0 - u * u));
-    float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
-    srgb = shade(srgb, diffuse, pow(shine.y, kShininess) * facing);
-  }
+  vec2 shine = line_light(vertex.toward_light, vertex.toward_eye);
+  const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
+  // Towards its edges a round line turns away from the eye.
+  float facing = sqrt(max(0.0, 1.0 - u * u));
+  float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
+  vec3 lit = lit_color(linear, diffuse, shininess(shine.y) * facing);
+  vec3 srgb = encode_srgb(coloring == 3 ? linear : lit);
 
   // Depth cue: farther lines take on the background.
-  float far = mix(fading * fading_at(vertex.depth), 1.0, dimming);
-  srgb = mix(srgb, background, far);
-  vec3 rim = mix(background, mix(halo_color.rgb, background, far), halo_color.a);
+  srgb = mix(srgb, background, vertex.far);
+  vec3 rim = mix(background, mix(halo_color.rgb, background, vertex.far), halo_color.a);
 
   // Halo beyond the edge; the border between the two is smoothed over one pixel.
   float soft = 0.5 * fwidth(vertex.across);

@@ -1,7 +1,11 @@
 #version 450 core
 // Ribbons that face the viewer: each point of a line gives two vertices, one on either side.
 //   side = T x V / |T x V|,  T tangent, V to the eye
+// What changes little along a line is found here and not for each fragment, of which there are many more:
+// how T lies to light and eye (line_light.glsl), and the depth cue.
 #include "include/frame.glsl"
+#include "include/color.glsl"
+#include "include/shade.glsl"
 
 struct Point {
   vec4 position;  // xyz in N
@@ -15,19 +19,25 @@ layout(location = 0) uniform float width;       // at the focal point, pixels
 layout(location = 1) uniform float halo_width;  // beyond either edge, pixels
 layout(location = 2) uniform float min_width;   // pixels, wherever the point lies
 layout(location = 3) uniform bool has_values;
+layout(location = 4) uniform int coloring;      // 0 colour map, 1 direction, 2 one colour, 3 one colour without light
+layout(location = 5) uniform vec4 line_color;   // sRGB and opacity; rgb for colouring 2 and 3
+layout(location = 6) uniform float fading;      // share of the depth cue
+layout(location = 8) uniform float dimming;     // share of the background at any depth
 layout(location = 10) uniform vec4 lens;        // centre and radius in N of a ball; no radius: none
 layout(location = 9) uniform float lift;        // toward the eye, in depth alone, half widths
 
 out Vertex {
-  vec3 tangent;
-  vec3 side;
-  vec3 view;
+  vec3 linear;         // its colour, linear light, where it is not that of a map
+  float toward_light;  // of the unit tangent
+  float toward_eye;    // likewise
+  float far;           // share of the background
   float across;        // -1 and 1 at the edges of the line, beyond in its halo
   float outer;         // |across| at the outer edge of the halo
   float value;
+#ifdef LENS
   float lens_value;
   vec3 place;          // of the middle of the line, in N
-  float depth;         // along the view, in N
+#endif
 } result;
 noperspective out float halo_z;  // depth of the halo's outer edge in the depth buffer, [0, 1]
 
@@ -51,15 +61,18 @@ void main() {
   float outer = radius + halo_width * pixel;
   vec3 corner = p + side * (sign_of_side * outer);
 
-  result.tangent = t;
-  result.side = side;
-  result.view = view;
+  float value = has_values ? values[index] : 0.5;
+  result.linear = decode_srgb(coloring == 1 ? abs(t) : line_color.rgb);
+  result.toward_light = dot(t, light_direction());
+  result.toward_eye = dot(t, view);
+  result.far = mix(fading * fading_at(depth), 1.0, dimming);
   result.across = sign_of_side * outer / radius;
   result.outer = outer / radius;
-  result.value = has_values ? values[index] : 0.5;
+  result.value = value;
+#ifdef LENS
   result.lens_value = lens.w > 0.0 ? lens_values[index] : 0.5;
   result.place = p;
-  result.depth = depth;
+#endif
   gl_Position = frame.clip_from_scene * vec4(corner, 1.0);
   if (lift > 0.0) {
     vec4 lifted = frame.clip_from_scene * vec4(corner + view * (lift * radius), 1.0);

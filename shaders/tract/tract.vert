@@ -64,7 +64,7 @@ void main() {
   // Towards its edges a round line turns away from the eye: there it has less light, and no highlight.
   const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
   const float kEdge = 0.35;
-  vec2 shine = line_light(t, light_direction(), view);
+  vec2 shine = line_light(dot(t, light_direction()), dot(t, view));
   float diffuse = pow(shine.x, kDiffuseExponent);
   vec3 middle = shade(abs(t), diffuse, pow(shine.y, kShininess));
   vec3 edge = shade(abs(t), kEdge * diffuse, 0.0);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 namespace palpate {
 namespace {
@@ -22,12 +23,14 @@ void add_shares(std::vector<FrameQuality>& qualities, double FrameQuality::*what
 
 std::vector<FrameQuality> frame_qualities(bool volume, bool lenses) {
   std::vector<FrameQuality> qualities{{}};
+  if (!volume) add_shares(qualities, &FrameQuality::detail, kDetailShares);
   if (volume) add_shares(qualities, &FrameQuality::context, kContextShares);
   if (volume && lenses) {
     add_shares(qualities, &FrameQuality::viewport, kViewportShares);
     add_shares(qualities, &FrameQuality::focus, kFocusShares);
   }
   add_shares(qualities, &FrameQuality::resolution, kResolutionShares);
+  if (!volume) std::erase_if(qualities, [](const FrameQuality& q) { return q.resolution < kLeastOfLines; });
   return qualities;
 }
 

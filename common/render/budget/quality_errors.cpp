@@ -27,6 +27,7 @@ PartError QualityErrors::of(const FrameQuality& quality) const noexcept {
   add_squares(sum, kFocusShares, quality.focus, focus);
   add_squares(sum, kViewportShares, quality.viewport, viewport);
   add_squares(sum, kResolutionShares, quality.resolution, resolution);
+  add_squares(sum, kDetailShares, quality.detail, detail);
   return {std::sqrt(sum.focus), std::sqrt(sum.context)};
 }
 
@@ -48,6 +49,7 @@ const QualityErrors& usual_errors() noexcept {
       .viewport = {{{0.0, 0.0160}, {0.0, 0.0196}}},
       .resolution =
           {{{0.0054, 0.0121}, {0.0077, 0.0147}, {0.0127, 0.0187}, {0.0187, 0.0220}, {0.0196, 0.0247}}},
+      .detail = {{{0.0, 0.001}, {0.0, 0.002}, {0.0, 0.004}, {0.0, 0.008}, {0.0, 0.0115}}},
       .focus_share = 0.04};
   return kUsual;
 }

@@ -33,6 +33,7 @@ struct QualityErrors {
   std::array<PartError, kFocusShares.size()> focus{};
   std::array<PartError, kViewportShares.size()> viewport{};
   std::array<PartError, kResolutionShares.size()> resolution{};
+  std::array<PartError, kDetailShares.size()> detail{};
   double focus_share = 0.0;  ///< of the pixels, that show some of a lens
 
   /// (1). @pre the shares of `quality` are 1 or of the lists.
@@ -46,7 +47,7 @@ struct QualityErrors {
 
 /// As it commonly is, for as long as nothing was measured: medians of a tooth (CT), a head (MR) and ironProt,
 /// 512 x 512 pixels, shaded, 4 samples a voxel, a ball of an eighth of the diagonal as radius for a lens with
-/// a transfer function of its own.
+/// a transfer function of its own. Of lines: less than fewer pixels make, of which each breaks thin ones up.
 [[nodiscard]] const QualityErrors& usual_errors() noexcept;
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 #include "common/render/budget/quality_times.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace palpate {
 namespace {
@@ -11,21 +12,22 @@ constexpr double kTie = 0.002;
 constexpr double kLeast = 0.02;  // no part is nothing
 constexpr int kSweeps = 100;
 
-double dot(const std::array<double, 4>& a, const std::array<double, 4>& b) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+template <std::size_t N>
+double dot(const std::array<double, N>& a, const std::array<double, N>& b) noexcept {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
 }  // namespace
 
 QualityTimes::QualityTimes(bool volume, bool lenses) noexcept {
-  if (volume) usual_ = lenses ? Parts{0.05, 0.10, 0.40, 0.45} : Parts{0.05, 0.10, 0.85, 0.0};
+  if (volume) usual_ = lenses ? Parts{0.05, 0.10, 0.40, 0.45, 0.0} : Parts{0.05, 0.10, 0.85, 0.0, 0.0};
   p_ = usual_;
 }
 
 QualityTimes::Parts QualityTimes::parts_of(const FrameQuality& quality) noexcept {
   const double pixels = quality.resolution * quality.resolution;
-  return {1.0, pixels, pixels * quality.context * quality.viewport * quality.viewport,
-          pixels * quality.focus};
+  return {1.0, pixels, pixels * quality.context * quality.viewport * quality.viewport, pixels * quality.focus,
+          quality.detail};
 }
 
 double QualityTimes::of(const FrameQuality& quality) const noexcept { return dot(p_, parts_of(quality)); }
@@ -47,7 +49,7 @@ void QualityTimes::add(const FrameQuality& quality, double milliseconds) noexcep
 void QualityTimes::fit() noexcept {
   const Parts x = parts_of(last_.quality);
   const double usual = dot(usual_, x);
-  std::array<Parts, 4> h{};  // of the normal equations h u = g
+  std::array<Parts, std::tuple_size_v<Parts>> h{};  // of the normal equations h u = g
   Parts g{};
   const auto add_row = [&](double weight, const Parts& a, double b) {
     for (std::size_t j = 0; j < a.size(); ++j) {
@@ -73,7 +75,7 @@ void QualityTimes::fit() noexcept {
       row[j] = (to[j] / change.to.milliseconds - from[j] / change.from.milliseconds) / unit;
     add_row(weight, row, 0.0);
   }
-  Parts u{1.0, 1.0, 1.0, 1.0};
+  Parts u{1.0, 1.0, 1.0, 1.0, 1.0};
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t j = 0; j < u.size(); ++j) {
       double rest = g[j] + kTie;

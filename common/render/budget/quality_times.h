@@ -1,11 +1,11 @@
 /// What frames of each quality take: the time of the error-against-time model that a frame budget chooses by.
 /// Plain arithmetic, no clock.
 ///
-/// Symbols. c, f, v, r the shares of a FrameQuality: samples around lenses and inside, pixels around lenses
-/// and all; t time of a frame. Rays cost by their samples, the rest of a frame by its pixels, or nothing
-/// depends on either:
+/// Symbols. c, f, v, r, d the shares of a FrameQuality: samples around lenses and inside, pixels around lenses
+/// and all, segments of lines; t time of a frame. Rays cost by their samples, lines by their segments, the rest of a frame by its pixels, or
+/// nothing depends on any:
 ///
-///   t(q) = p_0 + r^2 (p_1 + p_2 c v^2 + p_3 f),   p_j >= 0                                         (1)
+///   t(q) = p_0 + r^2 (p_1 + p_2 c v^2 + p_3 f) + p_4 d,   p_j >= 0                                 (1)
 ///
 /// Scenes change, and t with them; how the times of two qualities that followed one another compare changes
 /// little. So p is fitted to the last kChanges changes from a quality a to b, later ones with more weight:
@@ -41,7 +41,7 @@ class QualityTimes {
   [[nodiscard]] double of(const FrameQuality& quality) const noexcept;
 
  private:
-  using Parts = std::array<double, 4>;
+  using Parts = std::array<double, 5>;
   /// Frames of one quality, one after the other.
   struct Frames {
     FrameQuality quality;
@@ -53,7 +53,7 @@ class QualityTimes {
   [[nodiscard]] static Parts parts_of(const FrameQuality& quality) noexcept;
   void fit() noexcept;
 
-  Parts usual_{0.2, 0.8, 0.0, 0.0};  ///< o
+  Parts usual_{0.05, 0.35, 0.0, 0.0, 0.6};  ///< o
   Parts p_ = usual_;
   Frames last_, before_;
   std::array<Change, kChanges> changes_{};  ///< a ring; the newest one holds last_

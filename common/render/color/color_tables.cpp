@@ -1,5 +1,8 @@
 #include "common/render/color/color_tables.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <epoxy/gl.h>
@@ -10,12 +13,20 @@
 namespace palpate {
 namespace {
 
-GlTexture make_table_texture(ColorMap map) {
+// IEC 61966-2-1, as shaders/include/color.glsl.
+float linear_of(float c) noexcept {
+  return c <= 0.04045F ? c / 12.92F : std::pow((c + 0.055F) / 1.055F, 2.4F);
+}
+
+GlTexture make_table_texture(ColorMap map, bool linear) {
   GLuint name = 0;
   glCreateTextures(GL_TEXTURE_2D, 1, &name);
   GlTexture texture(name);
   label_object(GpuObject::Kind::kTexture, name, "colour map");
-  const auto& table = color_table(map);
+  std::array<Rgb, kColorTableSize> table = color_table(map);
+  if (linear) {
+    for (Rgb& color : table) color = {linear_of(color.r), linear_of(color.g), linear_of(color.b)};
+  }
   glTextureStorage2D(name, 1, GL_RGB32F, kColorTableSize, 1);
   glTextureSubImage2D(name, 0, 0, 0, kColorTableSize, 1, GL_RGB, GL_FLOAT, table.data());
   const GLint filter = map == ColorMap::kCategorical ? GL_NEAREST : GL_LINEAR;
@@ -30,7 +41,13 @@ GlTexture make_table_texture(ColorMap map) {
 
 void ColorTables::bind(ColorMap map, std::uint32_t unit) {
   GlTexture& table = tables_[as_size(map)];
-  if (!table) table = make_table_texture(map);
+  if (!table) table = make_table_texture(map, false);
+  glBindTextureUnit(unit, table.name());
+}
+
+void ColorTables::bind_linear(ColorMap map, std::uint32_t unit) {
+  GlTexture& table = linear_tables_[as_size(map)];
+  if (!table) table = make_table_texture(map, true);
   glBindTextureUnit(unit, table.name());
 }
 

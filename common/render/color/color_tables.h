@@ -14,9 +14,11 @@ class ColorTables {
  public:
   /// One row of kColorTableSize colours, sRGB.
   void bind(ColorMap map, std::uint32_t unit);
+  /// The same in linear light.
+  void bind_linear(ColorMap map, std::uint32_t unit);
 
  private:
-  std::array<GlTexture, kColorMapCount> tables_;
+  std::array<GlTexture, kColorMapCount> tables_, linear_tables_;
 };
 
 }  // namespace palpate

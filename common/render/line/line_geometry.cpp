@@ -141,46 +141,74 @@ LineGeometry make_line_geometry(std::span<const std::span<const Vec3f>> polyline
   return geometry;
 }
 
-std::vector<LineSegment> simplify(const LineGeometry& geometry, std::span<const float> coordinates,
-                                  double tolerance) {
-  // Points that one new segment may span: bounds the work, which grows with the square of it.
-  constexpr std::uint32_t kMostJoined = 24;
-  // Differences that light and colour do not show: cosine of 8 degrees, and two steps of the table.
-  constexpr float kSameTangent = 0.99F, kSameColor = 2.0F / 256.0F;
-  const auto largest = static_cast<float>(tolerance * tolerance);
+std::vector<LineSegment> join_segments(std::span<const LineVertex> vertices,
+                                       std::span<const LineSegment> segments,
+                                       std::span<const float> coordinates, const LineTolerance& tolerance) {
+  // Segments that one new segment may span: bounds the work, which grows with the square of it.
+  constexpr std::size_t kMostJoined = 24;
+  const auto largest = static_cast<float>(tolerance.distance * tolerance.distance);
 
-  // Whether the points between `first` and `last` lie on the straight piece between these.
-  const auto straight = [&](std::uint32_t first, std::uint32_t last) {
-    const Vec3f start = geometry.vertices[first].position;
-    const Vec3f chord = geometry.vertices[last].position - start;
+  // Whether the ends of `part`, a run of segments, lie on the straight piece between the first and the last of them.
+  const auto straight = [&](std::span<const LineSegment> part) {
+    const std::uint32_t first = part.front().first, last = part.back().last;
+    const Vec3f start = vertices[first].position;
+    const Vec3f chord = vertices[last].position - start;
     const float square = glm::dot(chord, chord);
     if (!(square > 0.0F)) return false;
     const Vec3f along = chord / std::sqrt(square);
-    for (std::uint32_t i = first; i <= last; ++i) {
-      const LineVertex& vertex = geometry.vertices[i];
-      if (!(glm::dot(vertex.tangent, along) >= kSameTangent)) return false;
+    const auto fits = [&](std::uint32_t i) {
+      const LineVertex& vertex = vertices[i];
+      if (!(glm::dot(vertex.tangent, along) >= tolerance.cosine)) return false;
       const Vec3f offset = vertex.position - start;
-      const float part = glm::dot(offset, chord) / square;
-      const Vec3f beside = offset - part * chord;
+      const float place = glm::dot(offset, chord) / square;
+      const Vec3f beside = offset - place * chord;
       if (!(glm::dot(beside, beside) <= largest)) return false;
-      if (coordinates.empty()) continue;
-      const float between = coordinates[first] + part * (coordinates[last] - coordinates[first]);
-      if (!(std::abs(coordinates[i] - between) <= kSameColor)) return false;  // NaN too
-    }
-    return true;
+      if (coordinates.empty()) return true;
+      const float between = coordinates[first] + place * (coordinates[last] - coordinates[first]);
+      return std::abs(coordinates[i] - between) <= tolerance.coordinate;  // false for NaN
+    };
+    return fits(first) &&
+           std::all_of(part.begin(), part.end(), [&](const LineSegment& s) { return fits(s.last); });
   };
 
   std::vector<LineSegment> joined;
-  joined.reserve(geometry.segments.size());
-  for (const LineSegment& segment : geometry.segments) {
-    if (!joined.empty() && joined.back().last == segment.first &&
-        segment.last - joined.back().first <= kMostJoined && straight(joined.back().first, segment.last)) {
-      joined.back().last = segment.last;
+  joined.reserve(segments.size());
+  std::size_t begin = 0;  // of the segments that the last new one spans
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (!joined.empty() && joined.back().last == segments[i].first && i - begin < kMostJoined &&
+        straight(segments.subspan(begin, i - begin + 1))) {
+      joined.back().last = segments[i].last;
     } else {
-      joined.push_back(segment);
+      begin = i;
+      joined.push_back(segments[i]);
     }
   }
+  joined.shrink_to_fit();
   return joined;
+}
+
+std::vector<LineSegment> simplify(const LineGeometry& geometry, std::span<const float> coordinates,
+                                  double tolerance) {
+  // Runs over runs: together they move a line by no more than the tolerance.
+  std::vector<LineSegment> joined =
+      join_segments(geometry.vertices, geometry.segments, coordinates, {.distance = 0.75 * tolerance});
+  return join_segments(geometry.vertices, joined, coordinates, {.distance = 0.25 * tolerance});
+}
+
+std::vector<LineSegment> sample_lines(std::span<const LineSegment> segments, double share) {
+  // Multiples of the golden ratio lie evenly in [0, 1), whatever of them is taken.
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<LineSegment> taken;
+  double line = -1.0;
+  bool takes = false;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (i == 0 || segments[i].first != segments[i - 1].last) {
+      line += 1.0;
+      takes = line * kGolden - std::floor(line * kGolden) < share;
+    }
+    if (takes) taken.push_back(segments[i]);
+  }
+  return taken;
 }
 
 void sort_back_to_front(std::vector<LineSegment>& segments, std::span<const LineVertex> vertices,

@@ -40,13 +40,30 @@ struct LineGeometry {
 [[nodiscard]] LineGeometry make_line_geometry(std::span<const std::span<const Vec3f>> polylines,
                                               const SceneFrame& frame);
 
+/// What may change unseen where points of a line are left out.
+struct LineTolerance {
+  double distance = 0.0;  ///< of a point that is left out from the new segment (scene frame)
+  float cosine = 0.99F;   ///< least of the angle between a tangent there and the segment: 8 degrees
+  float coordinate =
+      2.0F / 256.0F;  ///< of the map coordinate there from the one between the ends: two steps of the table
+};
+
 /// Joins segments that follow each other where the picture does not change by it: the points between
-/// lie within `tolerance` (scene frame) of the new segment, and their tangents and map coordinates are
+/// lie within `tolerance` of the new segment, and their tangents and map coordinates are
 /// nearly those that are interpolated along it. Exact tracing gives a point a cell: far more than a
 /// picture of the whole shows.
 /// @param coordinates in the colour map, one a vertex, or empty.
 [[nodiscard]] std::vector<LineSegment> simplify(const LineGeometry& geometry,
                                                 std::span<const float> coordinates, double tolerance);
+/// The same of what is left of the segments already: tangents and coordinates are looked at where `segments` meet.
+[[nodiscard]] std::vector<LineSegment> join_segments(std::span<const LineVertex> vertices,
+                                                     std::span<const LineSegment> segments,
+                                                     std::span<const float> coordinates,
+                                                     const LineTolerance& tolerance);
+
+/// Of the lines that `segments` make an even sample with about `share` of them. Lines of a smaller share are among those
+/// of a larger one. @param share in (0, 1].
+[[nodiscard]] std::vector<LineSegment> sample_lines(std::span<const LineSegment> segments, double share);
 
 /// Orders segments from far to near along `back` (toward the viewer), by their middle; equal ones are
 /// ordered by number.

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <list>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,6 +40,13 @@ struct LineDraw {
   float lens_radius = 0.0F;      ///< 0: there is none
   double tolerance = 0.0;        ///< how far lines may be moved to save segments (scene frame)
   Vec3f back{0.0F, 0.0F, 1.0F};  ///< toward the viewer; transparent segments are sorted along it
+  /// Share of the segments that are left of `tolerance`, in (0, 1]: less moves lines farther, and where that is not
+  /// enough leaves out some of them.
+  double detail = 1.0;
+  std::optional<Mat4> clip_from_scene;  ///< what lies outside is not drawn; where absent all is
+  float pixel = 0.0F;                   ///< at the focal point (scene frame)
+  /// Asked every few hundredths of a second whether to leave this picture; none: it is drawn without waiting.
+  const std::function<bool()>* stop = nullptr;
 };
 
 namespace detail {
@@ -49,7 +58,7 @@ void end_lines();
 inline constexpr std::uint32_t kLinePoints = 0, kLineValues = 1, kLineLensValues = 2;
 }  // namespace detail
 
-/// The compiled program and its colour tables, shared by all sets of lines. Needs the frame's uniform
+/// The compiled programs and their colour tables, shared by all sets of lines. Needs the frame's uniform
 /// block bound to 0.
 class LineProgram {
  public:
@@ -61,7 +70,7 @@ class LineProgram {
 
  private:
   Into into_;
-  GlProgram program_;  ///< compiled at the first use
+  std::array<GlProgram, 2> programs_;  ///< without and with a lens, each compiled at its first use
   ColorTables tables_;
 };
 
@@ -73,27 +82,48 @@ class LineSet {
   void set_values(std::vector<float> coordinates);
   /// The same for what is inside the ball of LineDraw; none: it has no colours of its own.
   void set_lens_values(std::span<const float> coordinates);
-  /// @pre LineProgram::use().
+  /// @pre LineProgram::use(). @throws DrawingStopped (volume/tile_pass.h) where LineDraw::stop says so.
   void draw(const LineDraw& how);
 
  private:
-  // The segments that were uploaded depend on these.
-  struct Arrangement {
-    double tolerance = -1.0;
-    bool sorted = false;
-    Vec3f along{0.0F};
+  /// What segments are made by: as many as a tolerance leaves, joined so many times more, a share of the lines.
+  struct Detail {
+    double tolerance = 0.0;
+    int joined = 0;
+    double share = 1.0;
 
-    bool operator==(const Arrangement&) const = default;
+    bool operator==(const Detail&) const = default;
   };
-  void arrange(const Arrangement& wanted);
+  /// Segments that lie one after the other, and in a box.
+  struct Run {
+    std::size_t first = 0, last = 0;
+    Vec3f lower{0.0F}, upper{0.0F};
+  };
+  struct Level {
+    Detail detail;
+    std::vector<LineSegment> segments;
+    std::vector<Run> runs;
+    GlBuffer indices;
+  };
+  const Level& level(const LineDraw& how);
+  const Level& level(const Detail& wanted);
+  const Level& keep(const Detail& detail, std::vector<LineSegment> segments);
+  void draw_sorted(const Level& level, const Vec3f& along);
+  static void draw_seen(const Level& level, const LineDraw& how);
 
   LineGeometry geometry_;
   std::vector<float> coordinates_;
-  std::vector<LineSegment> simplified_;  // for arrangement_.tolerance
-  Arrangement arrangement_;
-  std::size_t corner_count_ = 0;
+  std::list<Level> levels_;  ///< the one that was asked for last first
+  struct Sorting {
+    Detail detail;
+    Vec3f along{0.0F};
+
+    bool operator==(const Sorting&) const = default;
+  };
+  std::optional<Sorting> sorting_;
   GlVertexArray vertex_array_;
-  GlBuffer points_, values_, lens_values_, indices_;
+  GlBuffer points_, values_, lens_values_;
+  GlBuffer sorted_;  ///< indices in the order of sorting_
   bool has_lens_values_ = false;
 };
 

@@ -31,6 +31,7 @@ struct ScreenWindow {
   int width = 0, height = 0;             // of the window [pixels]
   std::optional<SceneView> shown;
   double resolution = 1.0;  // at which that was drawn
+  double detail = 1.0;      // likewise
 
   /// A picture for two buffers holds both.
   [[nodiscard]] int picture_height() const {
@@ -134,11 +135,15 @@ void ScreenWindows::draw(const SceneView& view, const WorkbenchDisplay& workbenc
     seen.stereo = w.stereo;
     seen.stereo.first = pixel_on_monitor(w.window);
     workbench.show(w.screen.corners, seen);
-    if (w.shown && same_picture(*w.shown, seen) && w.resolution == quality.resolution) continue;
+    if (w.shown && same_picture(*w.shown, seen) && w.resolution == quality.resolution &&
+        w.detail == quality.detail)
+      continue;
+    state_->renderer.set_line_detail(quality.detail);
     state_->renderer.draw(seen, w.width, w.height, quality.resolution);
     state_->renderer.show(0, 0, w.framebuffer.name());
     w.shown = std::move(seen);
     w.resolution = quality.resolution;
+    w.detail = quality.detail;
     drawn.push_back(&w);
   }
   if (drawn.empty()) return;

@@ -65,6 +65,7 @@ std::string frame_text(const PanelState& state) {
     text += part.data();
   };
   give_up(quality.context, "samples");
+  give_up(quality.detail, "lines' detail");
   give_up(quality.viewport, "resolution around lenses");
   give_up(quality.resolution, "resolution");
   give_up(quality.focus, "samples in lenses");

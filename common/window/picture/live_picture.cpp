@@ -52,10 +52,11 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
   const bool wants_error = volume && !moving && !error_known_ && moment.interrupted;
   if (dirty_ || (wants_error && !estimating_) || width != width_ || height != height_ ||
       !same_picture(view, shown_) || quality.resolution != figures_.quality.resolution ||
-      !renderer_.complete()) {
+      quality.detail != figures_.quality.detail || !renderer_.complete()) {
     const bool patient = !moving && moment.interrupted;
     renderer_.keep_for_error(wants_error);
     estimating_ = wants_error;
+    renderer_.set_line_detail(quality.detail);
     const bool stays = !moving && width == width_ && height == height_;
     left_ = !renderer_.draw(view, width, height, quality.resolution,
                             (patient ? kPatientPictures : 1.0) * tract_time_.milliseconds(moving),

@@ -1,5 +1,6 @@
 #include "common/render/line/line_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -94,6 +95,47 @@ TEST(Simplify, KeepsCornersGapsAndChangesOfColour) {
   for (int i = 1; i < 9; ++i) corner.emplace_back(8.0, i, 0.0);
   const LineGeometry bent = make_line_geometry(std::vector<std::vector<Vec3>>{corner}, kUnit);
   for (const LineSegment& s : simplify(bent, {}, 1e-3)) EXPECT_TRUE(s.last <= 8 || s.first >= 8);
+}
+
+TEST(Simplify, SpansManyPointsOfASmoothLine) {
+  std::vector<Vec3> straight;
+  for (int i = 0; i <= 500; ++i) straight.emplace_back(i, 0.0, 0.0);
+  const LineGeometry g = make_line_geometry(std::vector<std::vector<Vec3>>{straight}, kUnit);
+  EXPECT_EQ(simplify(g, {}, 1e-3), (std::vector<LineSegment>{{0, 500}}));
+}
+
+// Less detail moves the line farther, and leaves fewer segments, between the same ends.
+TEST(JoinSegments, LeavesFewerWhereMoreMayChange) {
+  std::vector<Vec3> circle;
+  for (int i = 0; i < 1000; ++i) circle.emplace_back(std::cos(0.00628 * i), std::sin(0.00628 * i), 0.0);
+  const LineGeometry g = make_line_geometry(std::vector<std::vector<Vec3>>{circle}, kUnit);
+  std::vector<LineSegment> segments = simplify(g, {}, 1e-4);
+  for (const double distance : {4e-4, 1.6e-3}) {
+    const auto joined = join_segments(g.vertices, segments, {}, {.distance = distance, .cosine = 0.9F});
+    EXPECT_LT(joined.size(), 0.7 * static_cast<double>(segments.size()));
+    EXPECT_EQ(joined.front().first, 0U);
+    EXPECT_EQ(joined.back().last, 999U);
+    for (std::size_t k = 1; k < joined.size(); ++k) ASSERT_EQ(joined[k].first, joined[k - 1].last);
+    segments = joined;
+  }
+}
+
+TEST(SampleLines, TakesWholeLinesEvenlyAndMoreOfALargerShare) {
+  std::vector<LineSegment> segments;
+  for (std::uint32_t line = 0; line < 1000; ++line) {
+    segments.push_back({10 * line, 10 * line + 1});
+    segments.push_back({10 * line + 1, 10 * line + 2});
+  }
+  EXPECT_EQ(sample_lines(segments, 1.0), segments);
+  const auto quarter = sample_lines(segments, 0.25), tenth = sample_lines(segments, 0.1);
+  EXPECT_NEAR(static_cast<double>(quarter.size()), 500.0, 10.0);
+  int second = 0;  // of a pair of lines, such as both directions from a seed
+  for (std::size_t i = 0; i < quarter.size(); i += 2) {
+    EXPECT_EQ(quarter[i].last, quarter[i + 1].first);
+    second += quarter[i].first / 10 % 2 == 1 ? 1 : 0;
+  }
+  EXPECT_NEAR(second, 125, 10);
+  for (const LineSegment& s : tenth) EXPECT_NE(std::find(quarter.begin(), quarter.end(), s), quarter.end());
 }
 
 std::vector<Line> one_line(const std::vector<double>& speeds) {

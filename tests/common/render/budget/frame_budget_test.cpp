@@ -47,6 +47,7 @@ QualityErrors random_errors(std::mt19937& random) {
   for (PartError& e : errors.focus) e = error();
   for (PartError& e : errors.viewport) e = error();
   for (PartError& e : errors.resolution) e = error();
+  for (PartError& e : errors.detail) e = error();
   return errors;
 }
 

@@ -1,8 +1,10 @@
 // The error-against-time model of a frame budget.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +81,35 @@ TEST(QualityTimes, OfOneQualityScaleTheUsualOnes) {
     for (const FrameQuality& other : frame_qualities(true, true)) {
       EXPECT_NEAR(times.of(other), t * usual.of(other) / usual.of(quality), 1e-6 * times.of(other)) << t;
     }
+  }
+}
+
+// Of lines alone segments go before pixels, and no less than half of these.
+TEST(QualityErrors, OfLinesSegmentsGoBeforePixels) {
+  const QualityErrors& usual = usual_errors();
+  double least = 1.0;
+  for (const FrameQuality& q : frame_qualities(false, false)) {
+    EXPECT_GE(q.resolution, kLeastOfLines);
+    least = std::min(least, q.detail);
+    if (q.resolution == 1.0) continue;
+    EXPECT_GT(usual.rms(q), usual.rms({.detail = kDetailShares.back()}));
+  }
+  EXPECT_EQ(least, kDetailShares.back());
+  for (const FrameQuality& q : frame_qualities(true, true)) EXPECT_EQ(q.detail, 1.0);
+}
+
+TEST(QualityTimes, FindWhetherLinesTakeSegmentsOrPixels) {
+  const auto time = [](const FrameQuality& q, double pixels, double segments) {
+    return 5.0 + pixels * q.resolution * q.resolution + segments * q.detail;
+  };
+  for (const auto& [pixels, segments] : {std::pair(200.0, 10.0), std::pair(10.0, 200.0)}) {
+    QualityTimes times;
+    for (int k = 0; k < 16; ++k) {
+      const FrameQuality q{.resolution = k % 2 == 0 ? 1.0 : 0.5, .detail = k / 2 % 2 == 0 ? 1.0 : 0.25};
+      times.add(q, time(q, pixels, segments));
+    }
+    for (const FrameQuality& q : {FrameQuality{.resolution = 0.5}, FrameQuality{.detail = 0.25}})
+      EXPECT_NEAR(times.of(q), time(q, pixels, segments), 0.25 * time(q, pixels, segments));
   }
 }
 
