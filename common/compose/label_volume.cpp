@@ -15,7 +15,7 @@
 #include "common/base/text.h"
 #include "common/field/array_type.h"
 #include "common/field/transfer/label_table.h"
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 #include "common/math/lattice.h"
 
 namespace palpate {

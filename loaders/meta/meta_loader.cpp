@@ -16,7 +16,7 @@
 #include "common/field/array_type.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
-#include "common/load/length_unit.h"
+#include "common/load/image/length_unit.h"
 #include "common/load/volume_block.h"
 #include "common/load/voxel_bytes.h"
 #include "loaders/meta/meta_header.h"

@@ -13,7 +13,7 @@
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
-#include "common/load/mrtrix_header.h"
+#include "common/load/image/mrtrix_header.h"
 
 namespace palpate {
 namespace {

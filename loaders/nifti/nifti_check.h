@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/load/nifti_form.h"
+#include "common/load/image/nifti_form.h"
 
 namespace palpate {
 

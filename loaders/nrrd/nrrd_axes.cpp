@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/load/length_unit.h"
+#include "common/load/image/length_unit.h"
 
 namespace palpate {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/base/files/file_numbers.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
-#include "common/load/mrtrix_header.h"
+#include "common/load/image/mrtrix_header.h"
 #include "loaders/tract/tract_loader.h"
 
 namespace palpate {

@@ -14,7 +14,7 @@
 #include "common/load/trk_header.h"
 #include "tests/loaders/case_fixtures.h"
 #include "tests/loaders/nifti_fixture.h"
-#include "tests/loaders/tract_fixture.h"
+#include "tests/loaders/tracts/tract_fixture.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 

@@ -13,7 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/load/load.h"
-#include "tests/loaders/dicom_fixture.h"
+#include "tests/loaders/dicom/dicom_fixture.h"
 #include "tests/loaders/nifti_fixture.h"
 #include "tests/support/temp_folder.h"
 

@@ -15,7 +15,7 @@
 #include <zlib.h>
 
 #include "common/base/error.h"
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 #include "common/load/load.h"
 #include "tests/loaders/nifti_fixture.h"
 #include "tests/support/shared_data.h"

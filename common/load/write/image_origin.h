@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 #include "common/load/write/write_image.h"
 
 namespace palpate {

@@ -8,7 +8,7 @@
 #include "common/base/index.h"
 #include "common/field/array_type.h"
 #include "common/field/tensor/vector_frame.h"
-#include "common/load/nifti_form.h"
+#include "common/load/image/nifti_form.h"
 
 namespace palpate {
 namespace {

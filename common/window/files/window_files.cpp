@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 #include "common/scene/session_of.h"
 
 namespace palpate {

@@ -15,7 +15,7 @@
 
 #include "common/base/error.h"
 #include "common/field/tensor/tensor_measure.h"
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 #include "common/load/write/image_origin.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"

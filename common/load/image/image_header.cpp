@@ -1,4 +1,4 @@
-#include "common/load/image_header.h"
+#include "common/load/image/image_header.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "common/load/find_format.h"
 #include "common/load/gzip_head.h"
 #include "common/load/header_of_pair.h"
-#include "common/load/nifti_form.h"
+#include "common/load/image/nifti_form.h"
 
 namespace palpate {
 namespace {

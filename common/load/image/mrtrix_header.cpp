@@ -1,4 +1,4 @@
-#include "common/load/mrtrix_header.h"
+#include "common/load/image/mrtrix_header.h"
 
 #include <algorithm>
 

@@ -11,7 +11,7 @@
 #include "common/base/error.h"
 #include "common/load/find_format.h"
 #include "common/load/load.h"
-#include "tests/loaders/dicom_series.h"
+#include "tests/loaders/dicom/dicom_series.h"
 
 namespace palpate::test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/load/load.h"
-#include "tests/loaders/dicom_fixture.h"
+#include "tests/loaders/dicom/dicom_fixture.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

@@ -1,4 +1,4 @@
-#include "common/load/length_unit.h"
+#include "common/load/image/length_unit.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "common/load/nifti_form.h"
+#include "common/load/image/nifti_form.h"
 
 #include <algorithm>
 #include <cmath>

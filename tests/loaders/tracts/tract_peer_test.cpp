@@ -9,7 +9,7 @@
 
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_tractogram.h"
-#include "tests/loaders/tract_fixture.h"
+#include "tests/loaders/tracts/tract_fixture.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

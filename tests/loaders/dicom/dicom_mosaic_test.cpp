@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/loaders/dicom_series.h"
+#include "tests/loaders/dicom/dicom_series.h"
 
 namespace palpate::test {
 namespace {
