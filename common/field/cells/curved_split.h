@@ -38,7 +38,7 @@ struct CurvedSplit {
   MadePoints made;                      ///< in the order in which input_of has none; no `point` yet
   std::size_t cells = 0;                ///< that were curved
   int parts = 1;                        ///< n
-  std::size_t rational = 0;  ///< Bezier cells
+  std::size_t rational = 0;             ///< Bezier cells
 };
 
 /// Nothing where no cell is curved. Cells of which no polynomial is known stay as they are.

@@ -72,7 +72,8 @@ TEST(CurvedLines, ErrorsIncludeWhatLinearPartsAreOff) {
 
 TEST(CurvedLines, LinearFieldsAreAsExactAsInLinearCells) {
   const auto field = channel([](const Vec3& x) { return Vec3(1.0 + 0.1 * x.x, 0.2 * x.y, 0.0); });
-  for (const Line& line : trace_lines(*field, {{-0.9, 0.1, 0.4}, {0.2, -0.3, 0.7}}, {}).lines) {
+  const std::vector<Vec3> from{{-0.9, 0.1, 0.4}, {0.2, -0.3, 0.7}};
+  for (const Line& line : trace_lines(*field, from, {}).lines) {
     for (const LinePoint& point : line.points) EXPECT_LT(point.error, 1e-10);
   }
 }
