@@ -212,8 +212,8 @@ Touch Chain::run(std::span<const Point> path, std::span<const double> times, con
     std::vector<std::unique_ptr<Constraint>> links;
     for (const auto& link : data_->links) links.push_back(link->make(scale));
     HandStepper stepper(std::make_unique<ProxyChain>(std::move(links), data_->settings), data_->limits);
-    TouchData felt{.links = data_->links.size()};
-    felt.proxies.reserve(path.size() * felt.links);
+    TouchData data{.links = data_->links.size()};
+    data.proxies.reserve(path.size() * data.links);
     progress.begin("probing", path.size());
     for (std::size_t i = 0; i < path.size(); ++i) {
       if (i % kStepsBetweenChecks == 0) progress.check();
@@ -221,18 +221,18 @@ Touch Chain::run(std::span<const Point> path, std::span<const double> times, con
       HandInput hand{.time = time, .present = true};
       hand.sample = {time, scale * vec_of(path[i]), 0};
       const HandStep step = stepper.step(hand);
-      for (std::size_t l = 0; l < felt.links; ++l) {
+      for (std::size_t l = 0; l < data.links; ++l) {
         const Vec3 proxy = static_cast<int>(l) < step.chain.links ? step.chain.proxies[l] : step.probe;
         // Where nothing holds it the proxy is the probe, to the last bit.
         const bool free = proxy == step.probe && is_finite(vec_of(path[i]));
-        felt.proxies.push_back(free ? path[i] : point_of(proxy / scale));
+        data.proxies.push_back(free ? path[i] : point_of(proxy / scale));
       }
-      felt.force.push_back(point_of(step.force));
-      felt.residual.push_back(step.chain.residual / scale);
-      felt.state.push_back(static_cast<std::uint8_t>(step.state));
+      data.force.push_back(point_of(step.force));
+      data.residual.push_back(step.chain.residual / scale);
+      data.state.push_back(static_cast<std::uint8_t>(step.state));
       progress.advance();
     }
-    return TouchAccess::touch(std::move(felt));
+    return TouchAccess::touch(std::move(data));
   });
 }
 

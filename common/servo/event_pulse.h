@@ -17,11 +17,11 @@ namespace palpate {
 
 class EventPulse {
  public:
-  /// @param time [s] @param felt [N]
-  void start(double time, const Vec3& felt) noexcept {
-    const double size = glm::length(felt);
+  /// @param time [s] @param force [N]
+  void start(double time, const Vec3& force) noexcept {
+    const double size = glm::length(force);
     begun_ = time;
-    along_ = size > 0.0 ? felt / size : Vec3{0.0, 1.0, 0.0};
+    along_ = size > 0.0 ? force / size : Vec3{0.0, 1.0, 0.0};
   }
   void stop() noexcept { begun_ = -HUGE_VAL; }
   [[nodiscard]] Vec3 force(double time, const EventSettings& settings) const noexcept {

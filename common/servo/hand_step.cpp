@@ -72,9 +72,9 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
     } else {
       const ChainStep before = std::exchange(last_, now);
       request.force = controlled(now, input.sample.position, dt);
-      const Vec3 told = pulse(before, now, input.time, request.force);
-      request.force += told;
-      last_.active += told;
+      const Vec3 vibration = pulse(before, now, input.time, request.force);
+      request.force += vibration;
+      last_.active += vibration;
       if (now.state == HoldState::kFault) {
         request.cut = ForceCut::kChain;
       } else if (now.jumped) {
@@ -134,11 +134,11 @@ Vec3 HandStepper::controlled(const ChainStep& step, const Vec3& probe, double dt
 }
 
 Vec3 HandStepper::pulse(const ChainStep& before, const ChainStep& now, double time,
-                        const Vec3& felt) noexcept {
+                        const Vec3& force) noexcept {
   if (!chain_) return Vec3{0.0};
   const bool out = (before.state == HoldState::kOutside) != (now.state == HoldState::kOutside);
   const bool event = now.crossed || (now.at_end && !before.at_end) || (out && before.links > 0);
-  if (event) pulse_.start(time, felt);
+  if (event) pulse_.start(time, force);
   return pulse_.force(time, chain_->settings().events);
 }
 

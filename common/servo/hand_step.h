@@ -80,9 +80,9 @@ class HandStepper {
   [[nodiscard]] bool watches(int links) const noexcept;
   /// The force of the chain with the controller's damping, where that is in use. @param dt as in judge().
   [[nodiscard]] Vec3 controlled(const ChainStep& step, const Vec3& probe, double dt) noexcept;
-  /// The vibration of the last event, begun where this step is one. @param felt [N]
+  /// The vibration of the last event, begun where this step is one. @param force [N]
   [[nodiscard]] Vec3 pulse(const ChainStep& before, const ChainStep& now, double time,
-                           const Vec3& felt) noexcept;
+                           const Vec3& force) noexcept;
   void let_go() noexcept;
 
   std::unique_ptr<ProxyChain> chain_;

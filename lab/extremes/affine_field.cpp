@@ -386,7 +386,7 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
   }
   // Where it stagnates it is to stay, but for speeds that the values at the vertices cannot tell from zero: the last digit of
   // a point, times the fastest rate, is some units of the last digit of the fastest speed.
-  constexpr Long kTold = 16 * 0x1p-52L;
+  constexpr Long kAllowed = 16 * 0x1p-52L;
   if (line.end == End::kStagnation) {
     const Long ahead = line.direction == TraceDirection::kForward ? 1 : -1;
     const Long3 then = field.at(seed, last.time + 2 * ahead);
@@ -396,7 +396,7 @@ LineVerdict judge(const Line& line, const AffineField& field, const AffineMesh& 
     Long slowest = length(field.velocity(then));
     for (Long t = 0x1p-70L; t < 2; t *= 4)
       slowest = std::min(slowest, length(field.velocity(field.at(seed, last.time + ahead * t))));
-    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) && slowest > kTold * fastest) {
+    if (!(length(minus(then, as_long(last.position))) <= Long(16) * slack) && slowest > kAllowed * fastest) {
       verdict.wrong_end = "moves on from its rest";
     }
   }

@@ -262,10 +262,8 @@ class TensorFieldBuilder {
   }
 
  private:
-  /// Gives points without a direction, in most of whose cells at least two points have one, the mean of these: a hole in
-  /// the fibres is none in the wall. By volume, as cells are brought to points. At an apex, where they meet from all
-  /// sides, no direction of the mean stands out: its gap is zero there, and one at the points around. So the directions
-  /// between are those of the points around, and it is the point itself that has none, not all of its cells.
+  /// Gives points without a direction, in most of whose cells at least two points have one, the mean of these
+  /// where they agree on one: a hole in the fibres is none in the wall. By volume, as cells are brought to points.
   static void fill_points(TensorField& field) {
     const TetMesh& mesh = *field.grid_->tets;
     struct Around {
@@ -276,7 +274,7 @@ class TensorFieldBuilder {
     for (std::uint32_t p = 0; p < mesh.points().size(); ++p)
       if (!is_there(field.stored(p))) missing.try_emplace(p);
     if (missing.empty()) return;
-    std::size_t filled = 0, met = 0;
+    std::size_t filled = 0;
     for (const TetMesh::Tet& tet : mesh.cells()) {
       const Vec3 a = mesh.points()[tet[0]];
       const double volume = std::abs(glm::dot(
@@ -304,8 +302,9 @@ class TensorFieldBuilder {
       if (!(around.volume > around.unknown)) continue;
       Six mean = around.sum;
       for (double& d : mean) d /= around.volume;
+      // At an apex all directions meet: their mean is none.
       constexpr double kAgree = 0.5;
-      const bool agree = eigen_gaps(symmetric_eigenvalues(symmetric_matrix(mean))).major >= kAgree;
+      if (!(eigen_gaps(symmetric_eigenvalues(symmetric_matrix(mean))).major >= kAgree)) continue;
       const std::size_t at = std::size_t{6} * entry.first;
       std::visit(
           [&](auto& values) {
@@ -313,13 +312,8 @@ class TensorFieldBuilder {
             for (std::size_t i = 0; i < mean.size(); ++i) values[at + i] = static_cast<Number>(mean[i]);
           },
           field.values_);
-      ++(agree ? filled : met);
+      ++filled;
     }
-    if (met > 0)
-      field.notes_.lines.push_back(counted(met, "point") +
-                                   " without a direction, about which directions meet: " +
-                                   (met == 1 ? "not defined there" : "not defined at them") +
-                                   ", beside it those of the points around");
     if (filled > 0)
       field.notes_.lines.push_back(counted(filled, "point") + " without a direction " +
                                    (filled == 1 ? "has" : "have") + " the mean of the points around");

@@ -162,6 +162,7 @@ TEST_F(TouchTensor, AStrokeGoesOnFromAnEndThatIsSeenBehindTheSlice) {
 }
 
 TEST_F(TouchTensor, ThePanelStaysInPlaceHoweverManyTractsAreKept) {
+  grow_to(1000);
   press("##shown");
   EXPECT_TRUE(run().view.tensors->slices[0]) << "where the box is without tracts";
   options_.script.clear();

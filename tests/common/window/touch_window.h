@@ -131,6 +131,13 @@ class TouchWindowTest : public ::testing::Test {
     move(1, middle_x_, middle_y_);
   }
 
+  /// For a panel that is longer than most. @param height [px], which a screen need not have
+  void grow_to(int height) {
+    middle_y_ += 0.5 * (height - options_.height);
+    options_.height = height;
+    options_.hidden = true;
+  }
+
   // Frames, of 8 ms at least: those between two events give the servo time to answer.
   static constexpr int kPause = 12;
 

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/field/tensor/diffusion_measures.h"
-#include "common/field/tensor/eigenframe.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/math/symmetric3.h"
 
@@ -156,43 +154,6 @@ TEST(FibreAxes, AMissingDirectionIsTheMeanOfThoseAround) {
   EXPECT_EQ(
       std::count(lines.begin(), lines.end(), "1 point without a direction has the mean of the points around"),
       1);
-}
-
-// Fibres that run in circles about an axis, on which none is known: beside it, within its own cells, directions are still
-// those of the circles, and the gap says how near the place is to where there are none.
-TEST(FibreAxes, DirectionsThatMeetAtAPointAreDefinedBesideIt) {
-  constexpr int kSide = 5;
-  DataSet image;
-  image.topology = StructuredTopology{Index3{kSide}, {}};
-  std::vector<double> places, values;
-  for (int p = 0; p < kSide * kSide * kSide; ++p) {
-    const double x = p % kSide - 2, y = p / kSide % kSide - 2, z = p / (kSide * kSide);
-    const double r = std::hypot(x, y);
-    places.insert(places.end(), {x, y, z});
-    values.insert(values.end(), {r > 0.0 ? -y / r : 0.0, r > 0.0 ? x / r : 0.0, 0.0});
-  }
-  std::get<StructuredTopology>(image.topology).positions =
-      make_array("positions", Association::kPoint, 3, std::span<const double>(places));
-  image.arrays.push_back(make_array("fibre", Association::kPoint, 3, std::span<const double>(values)));
-  const auto field = field_of(image);
-  for (const double near : {0.05, 0.1, 0.5}) {
-    for (int n = 0; n < 8; ++n) {
-      const double angle = 0.3 + n * std::numbers::pi / 4;
-      CellHint hint;
-      const TensorSample sample = field->sample({near * std::cos(angle), near * std::sin(angle), 2.3}, hint);
-      ASSERT_EQ(sample.status, SampleStatus::kOk) << near << ", " << n;
-      const SymmetricEigen eigen = symmetric_eigen(sample.value);
-      EXPECT_GT(std::abs(glm::dot(eigen.vectors[0], Vec3(-std::sin(angle), std::cos(angle), 0.0))), 0.8)
-          << near << ", " << n;
-      EXPECT_LT(eigen_gaps(eigen.values).major, 3.0 * near + 0.3) << near << ", " << n;
-    }
-  }
-  CellHint hint;
-  EXPECT_LT(eigen_gaps(symmetric_eigenvalues(field->sample({0.0, 0.0, 2.3}, hint).value)).major, 0.3);
-  const auto& lines = field->notes().lines;
-  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
-    return line.starts_with("5 points without a direction, about which directions meet");
-  }));
 }
 
 TEST(FibreAxes, AHoleHasNoDirection) {

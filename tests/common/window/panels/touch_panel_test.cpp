@@ -197,8 +197,7 @@ TEST_F(TouchPanelTest, LinesAreKeptDeletedAndSavedUnderTheNameThatIsTyped) {
 
 TEST_F(TouchPanelTest, OtherLinesOfTheSameFieldLeaveTheProbeInTheHand) {
   options_.panels = flow_panels();
-  middle_y_ += 0.5 * (760 - options_.height);
-  options_.height = 760;
+  grow_to(1000);
   grab();
   press("tolerance", 0, kLeast);
   const WindowResult traced = run();
