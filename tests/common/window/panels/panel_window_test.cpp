@@ -18,6 +18,8 @@ class PanelWindow : public TouchWindowTest {
  protected:
   void SetUp() override {
     TouchWindowTest::SetUp();
+    if (IsSkipped()) return;
+    grow_to(1000);
     options_.panels = {[](PanelContext& on) {
       if (!section("LINES")) return;
       edit_setting("tract-opacity", opacity);
