@@ -312,6 +312,7 @@ TEST_F(PanelWalk, EveryControlOfFlowIsInTheSessionAndThePictureAgain) {
   for (const HapticMode& mode : modes_of(FieldKind::kVector))
     walk(flow, abc, {"--seeds", "random:4", "--mode", mode.name, "--volume", "speed", "--resample", "16"});
   walk(flow, abc, {"--seeds", "random:4", "--integrator", "rk4", "--range", "0,2"});
+  walk(flow, abc, {"--fixture", "plane:0,0,1,3", "--carry", "5", "--event-force", "0.2"});
   walk(flow, {moving_flow()}, {"--seeds", "point:0.5,0,0", "--lines", "pathlines"});
 }
 

@@ -44,7 +44,12 @@ void list_fixtures(std::vector<std::string>& fixtures) {
   if (removed) fixtures.erase(fixtures.begin() + static_cast<std::ptrdiff_t>(*removed));
 }
 
-}  // namespace
+bool in_use(const TouchChoice& choice) {
+  const ChainSettings& settings = choice.settings;
+  const ContactSettings& contact = settings.contact;
+  return !choice.fixtures.empty() || contact.sticking > 0.0 || contact.sliding > 0.0 || contact.grain > 0.0 ||
+         settings.viscosity > 0.0 || settings.events.force > 0.0;
+}
 
 void edit_fixtures(TouchChoice& choice, const ProbeSession& session, std::string& typed) {
   std::vector<std::string>& fixtures = choice.fixtures;
@@ -87,6 +92,17 @@ void edit_fixtures(TouchChoice& choice, const ProbeSession& session, std::string
   edit_setting("viscosity", settings.viscosity);
   edit_setting("event-force", settings.events.force);
   if (settings.events.force > 0.0) edit_setting("event-frequency", settings.events.frequency);
+}
+
+}  // namespace
+
+void draw_fixture_panel(ProbeSession& session, std::string& typed) {
+  TouchChoice choice = session.choice();
+  if (!section("FIXTURES", !in_use(choice),
+               {"fixture", "static-friction", "dynamic-friction", "grain", "viscosity", "event-force"}))
+    return;
+  edit_fixtures(choice, session, typed);
+  session.choose(choice);
 }
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-/// The part of the touch panel about fixtures: the list of them, how they hold, carry and rub, viscosity, and the
+/// The part of the panel about fixtures: the list of them, how they hold, carry and rub, viscosity, and the
 /// vibrations that tell of events.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace palpate {
 
-/// Edits choice.fixtures and what of choice.settings concerns them.
+/// Folded until something of it is in use: few hands need it.
 /// @param typed the fixture that is being typed, and is not in the list yet.
-void edit_fixtures(TouchChoice& choice, const ProbeSession& session, std::string& typed);
+void draw_fixture_panel(ProbeSession& session, std::string& typed);
 
 }  // namespace palpate

@@ -11,6 +11,7 @@
 
 #include <imgui.h>
 
+#include "common/window/panels/fixture_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/picture_panels.h"
 #include "common/window/panels/start_page.h"
@@ -141,11 +142,11 @@ void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& 
     draw_recent(state, actions);
     if (state.touch != nullptr && state.touch->available()) {
       if (section("TOUCH"))
-        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, state.fixture, view,
-                                         state.marking);
+        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
     }
     PanelContext on{state, *state.scene, view, actions, layout.picture};
     for (const PanelPart& part : parts) part(on);
+    if (state.touch != nullptr && state.touch->available()) draw_fixture_panel(*state.touch, state.fixture);
     draw_appearance(view, actions);
     for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
       for (const std::string& note : *notes) {

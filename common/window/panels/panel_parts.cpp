@@ -317,10 +317,14 @@ void center_next_window() {
   ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
 }
 
-bool section(const char* name) {
+bool section(const char* name, bool folded_at_first, std::initializer_list<const char*> settings) {
   Drawn& all = drawn();
   all.section = name;
-  bool& folded = all.folded[name];
+  const auto [entry, first] = all.folded.try_emplace(name, folded_at_first);
+  bool& folded = entry->second;
+  if (first) {
+    for (const char* setting : settings) all.section_of.try_emplace(setting, name);
+  }
   if (const auto target = all.section_of.find(all.target);
       target != all.section_of.end() && target->second == name)
     folded = false;

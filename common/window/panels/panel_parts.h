@@ -3,6 +3,7 @@
 
 #include <cstdarg>
 #include <cstddef>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -103,8 +104,10 @@ inline constexpr double kMillimetres = 1e3;
 void center_next_window();
 
 /// The heading of a part of the panel; a click folds and unfolds the part.
+/// @param folded at first @param settings of one that is folded at first, which a search finds before they are drawn
 /// @return whether its controls are to be drawn.
-[[nodiscard]] bool section(const char* name);
+[[nodiscard]] bool section(const char* name, bool folded = false,
+                           std::initializer_list<const char*> settings = {});
 /// A heading alone.
 void heading(const char* name);
 

@@ -15,7 +15,6 @@
 #include "common/base/text.h"
 #include "common/hand/servo_rows.h"
 #include "common/render/probe_view.h"
-#include "common/window/panels/fixture_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/plane_panel.h"
 #include "common/window/panels/tensor_readout.h"
@@ -127,8 +126,8 @@ void list_kept(ProbeSession& session) {
 
 }  // namespace
 
-TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, std::string& fixture,
-                              SceneView& view, bool marking) {
+TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, SceneView& view,
+                              bool marking) {
   TouchActions actions;
   if (!session.available()) return actions;
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -160,7 +159,6 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
                    session.data().has_flow());
   edit_texture(choice.settings.texture, session.modes()[choice.mode], session);
   edit_grid(choice, session.modes()[choice.mode].name, session, view.volume ? &view.volume->cuts : nullptr);
-  edit_fixtures(choice, session, fixture);
   if (tensors) choose_stroke(choice.stroke);
   const bool layers = session.modes()[choice.mode].name != kIsosurfaceMode;
   const char* const surfaces = layers ? "show haptic layers" : "show isosurface";

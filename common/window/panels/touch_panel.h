@@ -22,10 +22,10 @@ struct TouchActions {
 
 /// Changes the session's choice and its kept lines.
 /// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
-/// edited.  @param fixture that is being typed, edited.
+/// edited.
 /// @param view whose camera planes face, and whose cuts they are.  @param marking clicks mark places.
 [[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file,
-                                            std::string& fixture, SceneView& view, bool marking);
+                                            SceneView& view, bool marking);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
 /// @param histogram of the scalar that is felt, to tell the place of its value in it; may be null.
