@@ -97,6 +97,12 @@ class GridWindow : public ExplorerTest {
     at({.kind = InputKind::kRelease});
     next_ += 6;
   }
+  /// On a control of the panel, by its label.
+  void press(const std::string& label) {
+    for (const InputKind kind : {InputKind::kMove, InputKind::kPress, InputKind::kRelease})
+      script_.push_back({.frame = next_ += 2, .event = {.kind = kind}, .control = label});
+    next_ += 6;
+  }
   /// From the middle of the picture, and on by as much again.
   void drag(double dx, double dy) {
     constexpr int kSteps = 12;
@@ -133,11 +139,11 @@ TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
   click(middle_.x + 30.0, middle_.y + 80.0);
   click(60.0, 518.0);  // Stop marking
   scroll(-30.0);
-  click(37.0, 533.0);  // + lens
+  press("+ lens");
   move(middle_.x - 60.0, middle_.y + 40.0);
   click(middle_.x - 60.0, middle_.y + 50.0);
   scroll(-30.0);
-  click(73.0, 720.0);  // Save session
+  press("Save session");
   const WindowResult made = open({tooth}, "made");
   ASSERT_TRUE(made.view.volume);
   const VolumeView& volume = *made.view.volume;
