@@ -70,7 +70,7 @@ class Constraints(unittest.TestCase):
     def test_refusals(self):
         with self.assertRaisesRegex(palpate.UsageError, "isosurface.depth"):
             palpate.Chain([palpate.Drag()], settings={"stifness": 1.0})
-        with self.assertRaisesRegex(palpate.UsageError, "one to 4 links"):
+        with self.assertRaisesRegex(palpate.UsageError, r"one to \d+ links"):
             palpate.Chain([])
         with self.assertRaisesRegex(palpate.UsageError, "not zero"):
             palpate.Plane([0, 0, 0], [0, 0, 0])
