@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -27,6 +28,7 @@ class BoxTree {
     double value = 0.0;           ///< its distance, or the part of the way at which it is met
     int visits = 0;               ///< nodes and things that were looked at
     bool complete = true;         ///< false: the visits were spent before all was looked at
+    double unseen = HUGE_VAL;     ///< nothing that was not looked at has a smaller value
   };
 
   BoxTree() = default;
@@ -94,6 +96,8 @@ BoxTree::Found BoxTree::search(double best, int most_visits, const Bound& bound,
     if (next.least > found.value) continue;
     if (found.visits >= most_visits) {
       found.complete = false;
+      found.unseen = next.least;
+      for (std::size_t i = 0; i < depth; ++i) found.unseen = std::min(found.unseen, waiting[i].least);
       return found;
     }
     ++found.visits;

@@ -1,5 +1,6 @@
 #include "common/haptics/constraint/mesh_surface.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/haptics/frame_along.h"
@@ -69,8 +70,10 @@ bool MeshConstraint::meet(const Vec3& x, Work& work, LinkUpdate& link) noexcept 
   const BoxTree::Found found = mesh_->first_met(from_, x + (gap_ / length) * way, work.visits);
   work.visits -= found.visits;
   if (!found.complete) link.state = HoldState::kFellBack;
-  if (found.thing == BoxTree::kNone) {
-    from_ = x;
+  if (found.thing == BoxTree::kNone || found.value > found.unseen) {
+    // What could not be looked at is a matter of the next update: there may be a surface on it.
+    const double seen = std::max(0.0, found.unseen * (length + gap_) - gap_);
+    from_ = found.complete ? x : from_ + (seen / length) * way;
     return false;
   }
   place_ = mesh_->nearest_on(found.thing, from_ + found.value * (1.0 + gap_ / length) * way);

@@ -47,6 +47,30 @@ TEST(BoxTree, LooksAtFewAndNeverAtMoreThanItMay) {
   EXPECT_LE(cut.visits, 16 + 4);
 }
 
+// What a search with too few visits says of the rest, against looking at every thing.
+TEST(BoxTree, SaysBelowWhichValueItHasLookedAtAll) {
+  std::mt19937_64 random(3);
+  const std::vector<Box> boxes = points_as_boxes(5000, random);
+  const BoxTree tree(boxes);
+  std::normal_distribution<double> normal;
+  int certain = 0;
+  for (int n = 0; n < 300; ++n) {
+    const Vec3 x{normal(random), normal(random), normal(random)};
+    const auto distance = [&](std::uint32_t i) { return glm::distance(x, boxes[i].lower); };
+    double least = HUGE_VAL;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) least = std::min(least, distance(i));
+    EXPECT_EQ(tree.nearest(x, 10.0, 1 << 20, distance).unseen, HUGE_VAL);
+    const BoxTree::Found cut = tree.nearest(x, 10.0, 4 + n % 40, distance);
+    if (cut.complete) continue;
+    EXPECT_GE(least, std::min(cut.unseen, cut.value));
+    if (cut.value <= cut.unseen) {
+      EXPECT_EQ(cut.value, least);
+    }
+    certain += cut.unseen > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(certain, 100);
+}
+
 TEST(BoxTree, OfNothingFindsNothing) {
   const BoxTree tree;
   EXPECT_TRUE(tree.empty());

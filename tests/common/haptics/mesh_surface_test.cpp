@@ -71,6 +71,33 @@ TEST(MeshSurface, HoldsAtTheSurfaceOnWhicheverWayItIsComeFrom) {
   }
 }
 
+// Boxes of slanted slivers lie about the way, and cost an update its visits: what is behind them waits for the next
+// update, and is not passed.
+TEST(MeshSurface, IsNotPassedWhereOneUpdateCannotLookAtTheWholeWay) {
+  constexpr int kSlivers = 4000;
+  constexpr double kApart = 1e-5, kWall = kSlivers * kApart;
+  Triangles all = test::plate_triangles(0.1, 0.0);
+  for (Vec3& point : all.points) point = {kWall, point.x, point.y};
+  Triangles slivers;
+  for (int n = 0; n < kSlivers; ++n) {
+    const double x = kApart * n;
+    slivers.points.insert(slivers.points.end(),
+                          {{x, 0.01, -0.005}, {x, -0.005, 0.01}, {x + 5e-6, 0.01, -0.005}});
+    const auto first = static_cast<std::uint32_t>(3 * n);
+    slivers.triangles.push_back({first, first + 1, first + 2});
+  }
+  append(all, slivers);
+  MeshConstraint surface(mesh_of(all), metres());
+  (void)at(surface, {-0.001, 0.0, 0.0});
+  LinkUpdate link = at(surface, {kWall + 0.002, 0.0, 0.0});
+  EXPECT_EQ(link.state, HoldState::kFellBack);
+  int updates = 1;
+  for (; link.state != HoldState::kHeld && updates < 100; ++updates)
+    link = at(surface, {kWall + 0.002, 0.0, 0.0});
+  EXPECT_LT(updates, 100);
+  EXPECT_NEAR(link.proxy.x, kWall, 1e-12);
+}
+
 // The proxy is never farther from the hand than the surface by formula is, and what chords take off it.
 TEST(MeshSurface, OfAMillionTrianglesFollowsABallByFormula) {
   constexpr double kRadius = 0.1;
