@@ -1,9 +1,17 @@
 # One function a kind of target. A folder's CMakeLists.txt lists its sources and what it uses.
 
-# palpate_module(folder SOURCES a.cpp … USES palpate::math …)
+# palpate_plain(target): the sanitizers' build leaves out the optimiser, which takes longer there than it saves: for code
+# that has others compute.
+function(palpate_plain target)
+  if(PALPATE_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
+endfunction()
+
+# palpate_module(folder [PLAIN] SOURCES a.cpp … USES palpate::math …)
 # The library of common/<folder>. USES stays within the folder's row of the include table.
 function(palpate_module folder)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES;PRIVATE_USES" ${ARGN})
+  cmake_parse_arguments(arg "PLAIN" "" "SOURCES;USES;PRIVATE_USES" ${ARGN})
   string(REPLACE "/" "_" name ${folder})
   if(arg_SOURCES)
     add_library(palpate_${name} STATIC ${arg_SOURCES})
@@ -13,6 +21,9 @@ function(palpate_module folder)
     target_link_libraries(palpate_${name} INTERFACE palpate_options ${arg_USES})
   endif()
   add_library(palpate::${name} ALIAS palpate_${name})
+  if(arg_PLAIN)
+    palpate_plain(palpate_${name})
+  endif()
 endfunction()
 
 # palpate_join(target SOURCES a.cpp b.cpp … SOURCES c.cpp d.cpp …)
@@ -38,6 +49,7 @@ function(palpate_helper name)
   endif()
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE palpate_options ${arg_USES})
+  palpate_plain(${name})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/palpate)
   # Not LIBDIR: helpers are found at ../lib/palpate from bin, installed or not.
@@ -53,6 +65,7 @@ function(palpate_app name)
   list(REMOVE_ITEM arg_SOURCES main.cpp)
   add_library(palpate_parts_${name} STATIC ${arg_SOURCES})
   target_link_libraries(palpate_parts_${name} PUBLIC palpate_options ${arg_USES})
+  palpate_plain(palpate_parts_${name})
   add_executable(${name} main.cpp)
   target_link_libraries(${name} PRIVATE palpate_parts_${name})
   get_property(drivers GLOBAL PROPERTY PALPATE_DRIVERS)

@@ -4,8 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/load/helper/serve.h"
@@ -42,13 +41,11 @@ ReportAnswer Study::finish(const Report& report, const std::string& figures, std
   answer.text = report.title + " -> " + (folder / "index.html").string() + "\n" + figures +
                 cases_text(report.stability);
   const auto failed = std::ranges::count_if(report.stability, [](const auto& c) { return !c.row.holds; });
-  answer.json = nlohmann::ordered_json{
-      {"out", folder.string()},
-      {"work_precision_rows", rows},
-      {"stability_cases_failed", failed},
-      {"seconds", report.seconds},
-      {"version",
-       version()}}.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  answer.json = json_text({{"out", folder.string()},
+                           {"work_precision_rows", rows},
+                           {"stability_cases_failed", failed},
+                           {"seconds", report.seconds},
+                           {"version", version()}});
   return answer;
 }
 

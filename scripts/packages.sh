@@ -15,7 +15,7 @@ packages_workbench="libceres-dev"
 # The Python module.
 packages_python="pybind11-dev python3-dev python3-numpy"
 # The tests: framework, benchmarks, virtual display, its mouse and keyboard, style, the compiler of the sanitizers.
-packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang libclang-rt-dev
+packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang lld libclang-rt-dev
   libumockdev-dev umockdev mypy xdotool"
 
 apps="cardiac dtmri flow grid workbench"

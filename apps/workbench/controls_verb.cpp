@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/device/tracked_hands.h"
@@ -117,7 +116,7 @@ ExitCode run_controls(const Document& options, const VerbContext& context) {
     log.emplace(out, options.common.force);
     log->write("t,x,y,z,dx,dy,dz,button,pointed,event,id,value,ray_pick,aperture_pick\n");
   }
-  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  Json events = Json::array();
   std::string text;
   std::optional<Ray> ray;
   std::optional<std::size_t> picked;
@@ -155,8 +154,7 @@ ExitCode run_controls(const Document& options, const VerbContext& context) {
       log->write(line);
     }
     if (event.kind == SpaceEvent::Kind::kNone) continue;
-    nlohmann::ordered_json event_row{
-        {"t", row.time}, {"event", what}, {"id", event.id}, {"label", menu.pointed_label()}};
+    Json event_row{{"t", row.time}, {"event", what}, {"id", event.id}, {"label", menu.pointed_label()}};
     text += short_number(row.time) + " s: " + menu.pointed_label() + " " + what;
     if (event.kind == SpaceEvent::Kind::kSet) {
       event_row["value"] = event.value;
@@ -174,12 +172,12 @@ ExitCode run_controls(const Document& options, const VerbContext& context) {
     text += "-> " + picture.string() + "\n";
   }
   context.console.print(text.empty() ? "nothing was chosen or set\n" : text);
-  nlohmann::ordered_json json{{"steps", hands.size()},
-                              {"events", events},
-                              {"opacity", menu.value(2)},
-                              {"width", menu.value(3)},
-                              {"turn", menu.value(4)}};
-  context.console.print_json(json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  Json json{{"steps", hands.size()},
+            {"events", events},
+            {"opacity", menu.value(2)},
+            {"width", menu.value(3)},
+            {"turn", menu.value(4)}};
+  context.console.print_json(json_text(json));
   return ExitCode::kDone;
 }
 

@@ -4,12 +4,11 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/workbench/link_check.h"
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
@@ -18,12 +17,6 @@
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string dumped(const Json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-}
 
 /// A driver and whether it can start on this machine.
 struct DriverState {
@@ -199,7 +192,7 @@ std::vector<std::string> obstacles(const Survey& seen, Json& rules) {
 ExitCode run_devices(const Document& options, const VerbContext& context) {
   const Survey seen = survey(options.trial.device);
   context.console.print(devices_text(seen));
-  context.console.print_json(dumped(devices_json(seen)));
+  context.console.print_json(json_text(devices_json(seen)));
   return ExitCode::kDone;
 }
 
@@ -252,7 +245,7 @@ ExitCode run_doctor(const Document& document, const VerbContext& context) {
   json["udev_rules"] = rules;
   json["advice"] = advice;
   context.console.print(text);
-  context.console.print_json(dumped(json));
+  context.console.print_json(json_text(json));
   if (!usable) throw work_error("not all that was found can be used; the lines above say what to do");
   return ExitCode::kDone;
 }

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/workbench/feel_score.h"
 #include "apps/workbench/force_keys.h"
 #include "apps/workbench/workbench_device.h"
@@ -15,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/figures.h"
 #include "common/base/files/output_file.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/cli/probe_log.h"
 #include "common/cli/simulated_option.h"
@@ -25,8 +24,6 @@
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
 
@@ -293,8 +290,7 @@ ExitCode run_feel(const Document& document, const VerbContext& context) {
                         options.device + " away, or try --device simulated:falcon");
     const FeelScore score = feel_path(document, options, simulated, context);
     context.console.print(score_text(score, options, nullptr));
-    context.console.print_json(score_json(score, options, device_name(simulated), nullptr)
-                                   .dump(2, ' ', false, Json::error_handler_t::replace));
+    context.console.print_json(json_text(score_json(score, options, device_name(simulated), nullptr)));
     return verdict(score);
   }
   std::unique_ptr<WorkbenchDevice> workbench;
@@ -309,8 +305,7 @@ ExitCode run_feel(const Document& document, const VerbContext& context) {
   Timing timing;
   const FeelScore score = feel_live(*workbench, options, document.hand.rate, context, timing);
   context.console.print(score_text(score, options, &timing));
-  context.console.print_json(score_json(score, options, workbench->key(), &timing)
-                                 .dump(2, ' ', false, Json::error_handler_t::replace));
+  context.console.print_json(json_text(score_json(score, options, workbench->key(), &timing)));
   return verdict(score);
 }
 

@@ -6,11 +6,10 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
@@ -18,8 +17,6 @@
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string monitor_number(double value, int digits) {
   const double unit = std::pow(10.0, digits);
@@ -180,7 +177,7 @@ ExitCode run_monitor(const Document& document, const VerbContext& context) {
                       {"phase", name_of(link->status().phase)},
                       {"advice", link->advice()},
                       {"samples", samples}};
-  context.console.print_json(reported.dump(2, ' ', false, Json::error_handler_t::replace));
+  context.console.print_json(json_text(reported));
   return ExitCode::kDone;
 }
 

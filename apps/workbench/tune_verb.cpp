@@ -3,14 +3,13 @@
 #include <memory>
 #include <thread>
 
-#include <nlohmann/json.hpp>
-
 #include "apps/workbench/force_keys.h"
 #include "apps/workbench/workbench_device.h"
 #include "apps/workbench/workbench_verbs.h"
 #include "common/base/error.h"
 #include "common/base/figures.h"
 #include "common/base/files/output_file.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/cli/simulated_option.h"
 #include "common/kinematics/workbench_writer.h"
@@ -20,8 +19,6 @@
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 TuningPlan plan_of(const TrialOptions& o, double rate, const DeviceLimits& limits) {
   // Half of the cap, so that a knock is shown as it is asked for.
@@ -189,7 +186,7 @@ ExitCode run_tune(const Document& document, const VerbContext& context) {
     if (!out.empty()) text += "  -> [tuned." + key + "] of " + out.string() + "\n";
   }
   context.console.print(text);
-  context.console.print_json(json.dump(2, ' ', false, Json::error_handler_t::replace));
+  context.console.print_json(json_text(json));
   if (!found) throw work_error(key + ": no stiffness was found that it bears; the lines above say why");
   return ExitCode::kDone;
 }

@@ -11,10 +11,9 @@
 #include <string>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/json.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
@@ -31,7 +30,6 @@ namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 class StudyWork {
  public:

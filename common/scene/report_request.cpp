@@ -24,8 +24,8 @@ template <typename T>
 constexpr bool kIsList<std::vector<T>> = true;
 
 /// The value as text, one for each value of a list, whatever characters they have.
-json parts_of(const Setting& setting, const Document& document) {
-  json parts = json::array();
+Json parts_of(const Setting& setting, const Document& document) {
+  Json parts = Json::array();
   std::visit(
       [&](const auto& place) {
         auto& value = place(const_cast<Document&>(document));
@@ -57,13 +57,13 @@ void take_parts(const Setting& setting, const std::vector<std::string>& parts, D
 }  // namespace
 
 std::string encode(const ReportRequest& request) {
-  json values = json::array();
+  Json values = Json::array();
   const std::vector<Setting>& rows = settings();
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (!is_default(rows[row], request.document))
       values.push_back({{"row", row}, {"text", parts_of(rows[row], request.document)}});
   }
-  return json{{"subject", request.subject},
+  return Json{{"subject", request.subject},
               {"program", request.program},
               {"command_line", text_from_bytes(request.command_line)},
               {"kind", name_of(request.document.input.kind)},
@@ -73,14 +73,14 @@ std::string encode(const ReportRequest& request) {
 }
 
 ReportRequest decode_report_request(std::string_view text) {
-  const json message = parse(text);
+  const Json message = parse(text);
   ReportRequest request{.subject = string_at(message, "subject"),
                         .program = string_at(message, "program"),
                         .command_line = string_at(message, "command_line"),
                         .document = {}};
   request.document.input.kind = kind_from_name(string_at(message, "kind"));
   const std::vector<Setting>& rows = settings();
-  for (const json& value : array_at(message, "settings")) {
+  for (const Json& value : array_at(message, "settings")) {
     const std::uint64_t row = count_at(value, "row");
     if (row >= rows.size()) malformed("there is no such setting");
     take_parts(rows[row], strings_at(value, "text"), request.document);
@@ -90,7 +90,7 @@ ReportRequest decode_report_request(std::string_view text) {
 }
 
 std::string encode(const ReportAnswer& answer) {
-  json ledger = json::array();
+  Json ledger = Json::array();
   for (const LedgerEntry& entry : answer.ledger) {
     ledger.push_back({{"what", text_from_bytes(entry.what)},
                       {"why", text_from_bytes(entry.why)},
@@ -98,36 +98,36 @@ std::string encode(const ReportAnswer& answer) {
                       {"milliseconds", entry.milliseconds},
                       {"bytes", entry.bytes}});
   }
-  return json{{"text", text_from_bytes(answer.text)},
+  return Json{{"text", text_from_bytes(answer.text)},
               {"json", text_from_bytes(answer.json)},
               {"ledger", std::move(ledger)}}
       .dump();
 }
 
 ReportAnswer decode_report_answer(std::string_view text) {
-  const json message = parse(text);
+  const Json message = parse(text);
   throw_failure(message);
   ReportAnswer answer{.text = string_at(message, "text"), .json = string_at(message, "json"), .ledger = {}};
   try {
-    for (const json& row : message.at("ledger")) {
+    for (const Json& row : message.at("ledger")) {
       answer.ledger.push_back({.what = string_at(row, "what"),
                                .why = string_at(row, "why"),
                                .times = row.at("times"),
                                .milliseconds = row.at("milliseconds"),
                                .bytes = row.at("bytes")});
     }
-  } catch (const json::exception&) {
+  } catch (const Json::exception&) {
     malformed("no ledger");
   }
   return answer;
 }
 
 std::string encode(const ReportNews& news) {
-  return json{{"note", text_from_bytes(news.note)}, {"text", text_from_bytes(news.text)}}.dump();
+  return Json{{"note", text_from_bytes(news.note)}, {"text", text_from_bytes(news.text)}}.dump();
 }
 
 ReportNews decode_report_news(std::string_view text) {
-  const json message = parse(text);
+  const Json message = parse(text);
   return {.note = string_at(message, "note"), .text = string_at(message, "text")};
 }
 

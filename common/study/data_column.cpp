@@ -1,17 +1,16 @@
 #include "common/study/data_column.h"
 
-#include <nlohmann/json.hpp>
+#include "common/base/json.h"
 
 namespace palpate {
 
 std::string data_dictionary(const std::vector<DataColumn>& columns) {
-  using Json = nlohmann::ordered_json;
   Json json = Json::object();
   for (const DataColumn& column : columns) {
     json[column.name] = {{"Description", column.description}};
     if (!column.units.empty()) json[column.name]["Units"] = column.units;
   }
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string table_header(const std::vector<DataColumn>& columns, char separator) {

@@ -16,7 +16,6 @@ namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 bool all_written(const UniqueFd& fd, const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
@@ -50,7 +49,7 @@ std::string read_study_text(const fs::path& path) {
 }
 
 Json read_study_json(const fs::path& path) {
-  Json json = Json::parse(read_study_text(path), nullptr, false);
+  Json json = parse_json(read_study_text(path));
   if (!json.is_object())
     throw input_error({path.string(), "", "it holds no JSON object", "", "restore it from a copy"});
   return json;
@@ -72,10 +71,11 @@ std::int64_t whole_number(const fs::path& path, const Json& json, const char* ke
 bool is_second(const fs::path& path, const Json& json, const char* key, std::string_view first,
                std::string_view second) {
   const Json& value = json.at(key);
-  if (value != first && value != second)
+  const std::string word = value.is_string() ? value.get<std::string>() : std::string();
+  if (word != first && word != second)
     throw input_error({path.string(), key, value.dump(), std::string(first) + " or " + std::string(second),
                        "restore it from a copy"});
-  return value == second;
+  return word == second;
 }
 
 void write_safely(const fs::path& path, const std::string& text) {

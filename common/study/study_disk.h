@@ -6,30 +6,29 @@
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/error.h"
+#include "common/base/json.h"
 
 namespace palpate {
 
 /// @throws Error (bad input) where it cannot be read or is larger than 64 MiB.
 [[nodiscard]] std::string read_study_text(const std::filesystem::path& path);
 /// @throws Error (bad input) where it holds no object.
-[[nodiscard]] nlohmann::ordered_json read_study_json(const std::filesystem::path& path);
-/// An integer between two limits, both included. @throws nlohmann::json::exception; Error (bad input) that names
+[[nodiscard]] Json read_study_json(const std::filesystem::path& path);
+/// An integer between two limits, both included. @throws Json::exception; Error (bad input) that names
 /// `path`.
-[[nodiscard]] std::int64_t whole_number(const std::filesystem::path& path, const nlohmann::ordered_json& json,
-                                        const char* key, std::int64_t least, std::int64_t most);
+[[nodiscard]] std::int64_t whole_number(const std::filesystem::path& path, const Json& json, const char* key,
+                                        std::int64_t least, std::int64_t most);
 /// Whether it is the second of two words. @throws likewise.
-[[nodiscard]] bool is_second(const std::filesystem::path& path, const nlohmann::ordered_json& json,
-                             const char* key, std::string_view first, std::string_view second);
+[[nodiscard]] bool is_second(const std::filesystem::path& path, const Json& json, const char* key,
+                             std::string_view first, std::string_view second);
 
 /// `take` of the object in the file, with what it misses as an error of that file.
 template <typename Take>
 auto taken(const std::filesystem::path& path, const Take& take) {
   try {
     return take(read_study_json(path));
-  } catch (const nlohmann::json::exception& error) {
+  } catch (const Json::exception& error) {
     throw input_error({path.string(), "", error.what(), "", "restore it from a copy"});
   }
 }

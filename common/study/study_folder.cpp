@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/error.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
 #include "common/study/packed_text.h"
@@ -17,7 +16,6 @@ namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlanFile = "study.json";
 constexpr const char* kPeopleFile = "participants.tsv";

@@ -13,11 +13,7 @@
 
 namespace palpate {
 
-using Json = nlohmann::ordered_json;
-
-std::string pretty(const Json& json) {
-  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-}
+std::string pretty(const Json& json) { return json_text(json) + "\n"; }
 
 bool is_plain(const std::string& word) {
   return !word.empty() && word.size() <= 32 &&
@@ -108,7 +104,7 @@ constexpr std::size_t kEvery = 10;  // steps from one row to the next
 }  // namespace
 
 std::string motion_dictionary() {
-  Json json = Json::parse(data_dictionary(motion_columns()));
+  Json json = parse_json(data_dictionary(motion_columns()));
   Json columns = Json::array();
   for (const DataColumn& column : motion_columns()) columns.push_back(column.name);
   json["SamplingFrequency"] = 100;

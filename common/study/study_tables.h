@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "common/base/json.h"
 #include "common/study/design.h"
 #include "common/study/study_participant.h"
 #include "common/study/task.h"
@@ -13,7 +12,7 @@
 namespace palpate {
 
 /// As all JSON files of the folder are written.
-[[nodiscard]] std::string pretty(const nlohmann::ordered_json& json);
+[[nodiscard]] std::string pretty(const Json& json);
 /// Letters and digits alone, 32 at most: what becomes part of a file's name.
 [[nodiscard]] bool is_plain(const std::string& word);
 

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/study/study_damage.h"
 #include "lab/experiment/experiment_page.h"
@@ -56,7 +55,7 @@ ReportAnswer study_experiment(const Study& study) {
     ++rows;
   }
   ReportAnswer answer = study.finish(report, text, rows);
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(answer.json);
+  Json json = parse_json(answer.json);
   json["participants"] = found.participants;
   json["simulated"] = found.simulated ? found.participants : 0;
   json["set_aside"] = found.set_aside;
@@ -64,16 +63,14 @@ ReportAnswer study_experiment(const Study& study) {
   json["damaged_files"] = damaged.size();
   for (const TaskAnalysis& t : found.tasks) {
     const MeasureAnalysis& e = t.of(Measure::kError);
-    const auto number_or_null = [](double x) {
-      return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-    };
+    const auto number_or_null = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
     json["tasks"][t.info.name] = {{"t", number_or_null(e.of_means.t)},
                                   {"p", number_or_null(e.of_means.p)},
                                   {"difference_mm", number_or_null(e.of_means.mean)},
                                   {"left_out", t.flawed + t.too_far + t.too_slow},
                                   {"goal_not_met", t.unreached}};
   }
-  answer.json = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  answer.json = json_text(json);
   return answer;
 }
 

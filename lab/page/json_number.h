@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
+#include "common/base/json.h"
 
 namespace palpate {
 
 /// The number; null where it is none or has no end: it was not reached.
-[[nodiscard]] inline nlohmann::ordered_json number_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+[[nodiscard]] inline Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 }  // namespace palpate

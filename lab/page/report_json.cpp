@@ -2,15 +2,12 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "common/base/json.h"
 #include "lab/page/json_number.h"
 #include "lab/page/report.h"
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json comparison(const LineComparison& c) {
   return {{"median", number_or_null(c.median)},
@@ -83,7 +80,7 @@ std::string report_json(const Report& report) {
   root["measurements"] = measurements;
   root["stability"] = cases;
   root["seconds"] = report.seconds;
-  return root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(root) + "\n";
 }
 
 }  // namespace palpate

@@ -2,16 +2,13 @@
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/figures.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "lab/page/json_number.h"
 
 namespace palpate {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string padded(std::string text, std::size_t width) {
   if (text.size() < width) text.append(width - text.size(), ' ');
@@ -104,7 +101,7 @@ std::string fit_json(const FitReport& report, const std::string& out) {
   }
   json["work_precision"] = work;
   if (!out.empty()) json["out"] = out;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace palpate

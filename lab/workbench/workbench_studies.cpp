@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/figures.h"
 #include "common/base/files/output_file.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/kinematics/workbench_file.h"
 #include "common/kinematics/workbench_writer.h"
@@ -24,9 +23,6 @@ namespace palpate {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
 
 /// Writes index.html, report.json and pictures.
 void write_sections(const Study& study, const fs::path& folder, const std::string& title,
@@ -108,7 +104,7 @@ ReportAnswer study_made_table(const Study& study) {
   file.write(made_table(o, study.document().common.seed));
   file.finish();
   return {.text = "made measurements of kind " + o.kind + " -> " + out.string() + "\n",
-          .json = text_of({{"out", out.filename().string()}})};
+          .json = json_text({{"out", out.filename().string()}})};
 }
 
 ReportAnswer study_made_calibrations(const Study& study) {
@@ -139,7 +135,7 @@ ReportAnswer study_made_calibrations(const Study& study) {
   const auto failed = std::ranges::count_if(cases, [](const StabilityCase& c) { return !c.row.holds; });
   write_sections(study, folder, "made calibrations", std::move(sections), cases, watch.seconds());
   return {.text = std::move(text),
-          .json = text_of(
+          .json = json_text(
               {{"out", folder.string()}, {"stability_cases_failed", failed}, {"seconds", watch.seconds()}})};
 }
 
@@ -176,7 +172,7 @@ ReportAnswer study_head_errors(const Study& study) {
     text += "-> " + (folder / "index.html").string() + "\n";
     json["out"] = folder.string();
   }
-  return {.text = std::move(text), .json = text_of(json)};
+  return {.text = std::move(text), .json = json_text(json)};
 }
 
 ReportAnswer study_walls(const Study& study) {
@@ -208,11 +204,11 @@ ReportAnswer study_walls(const Study& study) {
                      {"holds", c.row.holds}});
   }
   return {.text = std::move(text),
-          .json = text_of({{"device", wall.swept.name},
-                           {"devices", devices},
-                           {"cases", cases},
-                           {"out", folder.string()},
-                           {"seconds", watch.seconds()}})};
+          .json = json_text({{"device", wall.swept.name},
+                             {"devices", devices},
+                             {"cases", cases},
+                             {"out", folder.string()},
+                             {"seconds", watch.seconds()}})};
 }
 
 }  // namespace palpate

@@ -10,20 +10,18 @@
 #include <system_error>
 #include <utility>
 
-#include <nlohmann/json.hpp>
 #include <zip.h>
 
 #include "common/base/error.h"
 #include "common/base/files/file_numbers.h"
 #include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/load/gzip_head.h"
 
 namespace palpate {
 namespace {
-
-using nlohmann::json;
 
 /// IEEE 754 half precision.
 double half(std::uint16_t bits) {
@@ -252,7 +250,7 @@ class TrxReader {
     const auto& names = members_.names();
     if (std::find(names.begin(), names.end(), "header.json") == names.end())
       refuse("", "has no header.json", "a TRX folder or zip file");
-    const json header = json::parse(members_.read("header.json"), nullptr, false);
+    const Json header = parse_json(members_.read("header.json"));
     if (!header.is_object()) refuse("header.json", "is no JSON object");
     const auto count = [&](const char* key) {
       const auto value = header.find(key);
@@ -270,7 +268,7 @@ class TrxReader {
   }
 
   /// The image, where the header describes it in full; lines need none.
-  void read_image(const json& header) {
+  void read_image(const Json& header) {
     const auto matrix = header.find("VOXEL_TO_RASMM"), size = header.find("DIMENSIONS");
     if (matrix == header.end() || size == header.end()) return;
     TractogramImage image;

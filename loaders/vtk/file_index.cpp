@@ -6,10 +6,9 @@
 #include <optional>
 #include <set>
 
-#include <nlohmann/json.hpp>
-
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/step_times.h"
@@ -100,7 +99,7 @@ std::vector<Entry> read_pvd(const std::filesystem::path& file, std::string_view 
 
 /// {"file-series-version": "1.0", "files": [{"name": "a.vtu", "time": 0.0}, …]}
 std::vector<Entry> read_series(const std::filesystem::path& file, std::string_view text) {
-  const auto index = nlohmann::json::parse(text, nullptr, false);
+  const auto index = parse_json(text);
   std::vector<Entry> entries;
   const bool shaped = index.is_object() && index.contains("files") && index["files"].is_array();
   if (!shaped)

@@ -4,13 +4,13 @@
 #include <bit>
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiBlockPLOT3DReader.h>
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/json.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "loaders/vtk/memory_text.h"
@@ -55,7 +55,7 @@ struct Pair {
 
 /// ParaView's list: {"filenames": [{"time": 0.0, "xyz": "a.xyz", "q": "a.q"}, …]}, names relative to its folder.
 std::vector<Pair> read_index(const std::string& file) {
-  const auto index = nlohmann::json::parse(MappedFile(file).text(), nullptr, false);
+  const auto index = parse_json(MappedFile(file).text());
   const auto wrong = [&file](const std::string& found) {
     return input_error({file, "", found,
                         R"({"filenames": [{"time": 0.0, "xyz": "GRID", "q": "SOLUTION"}, …]})",

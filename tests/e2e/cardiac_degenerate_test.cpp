@@ -106,7 +106,7 @@ class CardiacDegenerate : public ExplorerTest {
       EXPECT_GE(result.exit_code, 0) << verb;
       EXPECT_LE(result.exit_code, 3) << verb << ": " << result.err;
       if (result.exit_code == 0) {
-        EXPECT_TRUE(Json::parse(result.out, nullptr, false).is_object()) << verb << result.out;
+        EXPECT_TRUE(parse_json(result.out).is_object()) << verb << result.out;
       } else {
         EXPECT_FALSE(result.err.empty()) << verb;
       }

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "common/base/json.h"
 #include "tests/e2e/watched_program.h"
 #include "tests/support/temp_folder.h"
 
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct Seen : Watched {
   std::size_t shaders = 0;  ///< programs linked, those that are the same once
-  nlohmann::json explain;
+  Json explain;
 };
 
 /// Runs a command in `folder` with --explain, under watch.
@@ -37,7 +37,7 @@ Seen watch(const TempFolder& folder, std::vector<std::string> command, double wi
   if (window_seconds == 0.0) environment.insert(environment.end(), {"DISPLAY=", "WAYLAND_DISPLAY="});
   Seen seen{watched(std::move(command), folder.path(), environment, window_seconds)};
   if (seen.result.exit_code != (window_seconds > 0.0 ? 130 : 0)) return seen;
-  seen.explain = nlohmann::json::parse(seen.result.out).at("explain");
+  seen.explain = parse_json(seen.result.out).at("explain");
   // Contexts that draw the same link the same: those that differ count.
   std::set<std::string> linked;
   for (const auto& entry : fs::directory_iterator(shaders)) linked.insert(read_file(entry.path()));

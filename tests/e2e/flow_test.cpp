@@ -344,7 +344,7 @@ TEST_F(Flow, ReportsErrorAgainstTime) {
   const Json summary = json({"report", "--example", "saddle", "--quick", "--seeds", "grid:2,2,2",
                              "--max-length", "1", "--out", "r"});
   EXPECT_EQ(summary["stability_cases_failed"], 0);
-  const Json report = Json::parse(read_file(folder_.path("r/report.json")));
+  const Json report = parse_json(read_file(folder_.path("r/report.json")));
   EXPECT_TRUE(report.contains("machine"));
   EXPECT_GT(report["work_precision"].size(), 20U);
   for (const char* key : {"subject", "method", "parameter", "error", "error_kind", "seconds"}) {

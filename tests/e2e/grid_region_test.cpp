@@ -132,7 +132,7 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   const auto box_after = [&](std::vector<std::string> words) {
     const ProgramResult result = run(words);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return Json::parse(result.out).at("box").get<std::vector<double>>();
+    return parse_json(result.out).at("box").get<std::vector<double>>();
   };
   std::vector<std::string> with_detents = probe;
   with_detents.insert(with_detents.end(), {"--grid-detents", "1"});
@@ -150,7 +150,7 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   away.insert(away.end(), {"--focal", "0.1,0.2,0.3"});
   const ProgramResult moved = run(away);
   ASSERT_EQ(moved.exit_code, 0) << moved.err;
-  const auto focal = Json::parse(moved.out).at("focal").get<std::vector<double>>();
+  const auto focal = parse_json(moved.out).at("focal").get<std::vector<double>>();
   ASSERT_EQ(focal.size(), 3U);
   const double steps = (0.1 - focal[0]) / spacing;
   EXPECT_NEAR(steps, std::round(steps), 1e-9);
@@ -161,12 +161,12 @@ TEST_F(GridRegion, TheHandOnAGridLeavesTheFaceOnAVoxel) {
   // So it does where the path ends with the button down.
   folder_.write("pressed.csv", "t,x,y,z,b0\n0,0,0,0,1\n0.1,0,0,0.2,1\n0.2,0,0,0.4,1\n");
   away[4] = "pressed.csv";
-  const auto pressed = Json::parse(run(away).out).at("focal").get<std::vector<double>>();
+  const auto pressed = parse_json(run(away).out).at("focal").get<std::vector<double>>();
   EXPECT_LT(pressed[2], 0.0);
   EXPECT_EQ(pressed[0], 0.1);
   // At a face it does not.
   with_detents.insert(with_detents.end(), {"--focal", "0.1,0.2,0.3"});
-  EXPECT_EQ(Json::parse(run(with_detents).out).at("focal").get<std::vector<double>>(),
+  EXPECT_EQ(parse_json(run(with_detents).out).at("focal").get<std::vector<double>>(),
             std::vector<double>({0.1, 0.2, 0.3}));
   // Other modes know no box; what is none is refused.
   EXPECT_EQ(run({"probe", "--example", "shells", "--path", "hand.csv", "--box", "1,2", "--json"}).exit_code,

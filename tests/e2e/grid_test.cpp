@@ -268,8 +268,7 @@ TEST_F(Grid, EnlargesInALensAndRefusesWhereThereIsNoMiddle) {
 TEST_F(Grid, ReportsErrorsAgainstTheTimeOfAFrame) {
   const Json summary = json({"report", "--example", "shells", "--quick", "--out", "report"});
   EXPECT_GT(summary["work_precision_rows"].get<int>(), 10);
-  std::ifstream file(folder_.path() / "report" / "report.json");
-  const Json report = Json::parse(file, nullptr, false);
+  const Json report = parse_json(read_file(folder_.path("report/report.json")));
   EXPECT_EQ(report["work_precision"].size(), summary["work_precision_rows"].get<std::size_t>());
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "report" / "volume_error.svg"));
   EXPECT_EQ(run({"report", "--example", "shells", "--out", "report"}).exit_code, 2);  // is there already

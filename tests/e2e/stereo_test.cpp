@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
 #include <stb_image.h>
 
+#include "common/base/json.h"
 #include "tests/e2e/explorer_test.h"
 
 namespace palpate::test {
@@ -95,7 +95,7 @@ TEST_F(Stereo, MarksWhatIsPickedByARayOrThroughAnAperture) {
         run({"render", "--example", "shells", "--size", "64x48", "--lens", "sphere:0.5,0,0,0.1", "--clip",
              "0,0,1,0.3", "--pick", by, "--json", "--out", "p.png", "--force"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return nlohmann::json::parse(result.out).at("picked");
+    return parse_json(result.out).at("picked");
   };
   const auto lens = picks("ray:0.5,0,5,0,0,-1");
   EXPECT_EQ(lens.at("what"), "lens 1");

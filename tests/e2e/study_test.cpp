@@ -51,7 +51,7 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
        {"s/analysis/trials", "s/analysis/participants", "s/stimuli/task-advection2d_stimuli"}) {
     const bool tabs = std::filesystem::exists(folder_.path(std::string(table) + ".tsv"));
     std::istringstream first(read_file(folder_.path(std::string(table) + (tabs ? ".tsv" : ".csv"))));
-    const Json words = Json::parse(read_file(folder_.path(std::string(table) + ".json")));
+    const Json words = parse_json(read_file(folder_.path(std::string(table) + ".json")));
     std::string line, column;
     std::getline(first, line);
     std::size_t count = 0;
@@ -60,7 +60,7 @@ TEST_F(FlowStudy, GoesFromDesignToAnalysis) {
     EXPECT_EQ(count, words.size()) << table;
   }
   std::set<std::string> kept;
-  const Json report = Json::parse(read_file(folder_.path("s/analysis/report.json")));
+  const Json report = parse_json(read_file(folder_.path("s/analysis/report.json")));
   for (const Json& m : report["measurements"])
     kept.insert(m["subject"].get<std::string>() + ": " + m["quantity"].get<std::string>());
   for (const char* number :
@@ -109,8 +109,8 @@ TEST_F(FlowStudy, SaysWhatIsMissingOrTooFew) {
   std::filesystem::remove(folder_.path(beh + "2_beh.json"));
   const ProgramResult analysed = run({"study", "analyse", "s", "--json"});
   EXPECT_EQ(analysed.exit_code, 0);
-  EXPECT_EQ(Json::parse(analysed.out)["damaged_files"], 2);
-  EXPECT_EQ(Json::parse(analysed.out)["missing_trials"], 1);
+  EXPECT_EQ(parse_json(analysed.out)["damaged_files"], 2);
+  EXPECT_EQ(parse_json(analysed.out)["missing_trials"], 1);
   const std::string page = read_file(folder_.path("s/analysis/index.html"));
   for (const std::string words :
        {"1_recording.txt.gz: it is damaged or cut off", "1_motion.tsv.gz: it is not there"}) {
@@ -180,7 +180,7 @@ TEST_P(OtherStudy, RunsTheTaskOfItsProgram) {
     arguments.emplace_back("--json");
     const ProgramResult result = Program(arguments, folder.path()).finish();
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return Json::parse(result.out, nullptr, false);
+    return parse_json(result.out);
   };
   (void)run({"study", "make", "s", "--participants", "4", "--practice", "0", "--recorded", "4"});
   EXPECT_EQ(run({"study", "simulate", "s"})["trials"], 16);

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "apps/flow/study/path_task.h"
+#include "common/base/json.h"
 #include "common/cli/explorer.h"
 #include "common/experiment/study_verb.h"
 #include "tests/support/temp_folder.h"
@@ -21,8 +21,6 @@
 
 namespace palpate::test {
 namespace {
-
-using Json = nlohmann::json;
 
 /// A task of flow with the stimuli of another seed than the experiment's: they take most of the time, and many
 /// experiments share them.
@@ -87,7 +85,7 @@ std::vector<std::pair<Subject, double>> p_values(const StudyTasks& tasks, std::u
   const std::map<std::string, std::string> tests{{"means, ISO - ANISO", "t test"},
                                                  {"permutation, ANISO - ISO", "permutation"}};
   std::vector<std::pair<Subject, double>> out;
-  const Json report = Json::parse(read_file(temporary.path("s/analysis/report.json")));
+  const Json report = parse_json(read_file(temporary.path("s/analysis/report.json")));
   for (const Json& m : report["measurements"]) {
     const auto test = tests.find(m["parameter"].get<std::string>());
     if (test == tests.end() || m["quantity"] != "p" || !m["value"].is_number()) continue;

@@ -70,7 +70,7 @@ TEST_F(WorkbenchDevices, TheDoctorSaysWhatIsMissing) {
   const ProgramResult missing =
       run({"doctor", "--device", "falcon_emulated:missing=1", "--patience", "0.3", "--json"});
   EXPECT_EQ(missing.exit_code, 1);
-  const Json absent = Json::parse(missing.out);
+  const Json absent = parse_json(missing.out);
   EXPECT_EQ(absent["usable"], false);
   EXPECT_EQ(absent["checks"][0]["ready"], false);
   EXPECT_NE(absent["advice"][0].get<std::string>().find("power supply"), std::string::npos);

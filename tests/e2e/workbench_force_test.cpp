@@ -26,7 +26,7 @@ class WorkbenchForce : public ExplorerTest {
     arguments.insert(arguments.begin(), "feel");
     arguments.emplace_back("--json");
     const ProgramResult result = run(arguments);
-    Json object = Json::parse(result.out, nullptr, false);
+    Json object = parse_json(result.out);
     EXPECT_TRUE(object.is_object()) << result.out << result.err;
     bool holds = true;
     for (const Json& each : object["cases"]) holds = holds && each["holds"].get<bool>();
@@ -94,7 +94,7 @@ TEST_F(WorkbenchForce, TunesAnArmForTheExplorers) {
   const ProgramResult felt = run({"feel", "--path", "hand.csv", "--device", "simulated:ideal", "--stiffness",
                                   "5000", "--workbench", "workbench.toml", "--json"});
   EXPECT_LE(felt.exit_code, 1) << felt.err;
-  EXPECT_NEAR(Json::parse(felt.out)["stiffness_n_per_m"].get<double>(), found, 1e-9);
+  EXPECT_NEAR(parse_json(felt.out)["stiffness_n_per_m"].get<double>(), found, 1e-9);
   EXPECT_NE(felt.err.find("tuning found"), std::string::npos) << felt.err;
 }
 

@@ -14,6 +14,7 @@
 #include "common/base/text.h"
 #include "common/load/format.h"
 #include "tests/e2e/program.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/e2e/program.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {

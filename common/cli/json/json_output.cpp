@@ -24,7 +24,7 @@ Json value_json(const Setting& row, const Document& document) {
                      std::holds_alternative<ValueAt<std::filesystem::path>>(row.place) ||
                      std::holds_alternative<ValueAt<std::optional<std::filesystem::path>>>(row.place);
   if (words || text.empty()) return text;
-  return Json::parse(text);
+  return parse_json(text);
 }
 
 }  // namespace
@@ -43,8 +43,8 @@ std::string settings_json(const Document& document, Groups groups) {
 }
 
 std::string with_member(const std::string& object, const char* name, const std::string& value) {
-  Json json = Json::parse(object);
-  json[name] = Json::parse(value);
+  Json json = parse_json(object);
+  json[name] = parse_json(value);
   return json_text(json);
 }
 

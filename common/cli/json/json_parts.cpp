@@ -6,8 +6,6 @@
 
 namespace palpate {
 
-std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace); }
-
 Json vec_json(const Vec3& x) { return {x.x, x.y, x.z}; }
 Json box_json(const Box& box) { return {{"lower", vec_json(box.lower)}, {"upper", vec_json(box.upper)}}; }
 

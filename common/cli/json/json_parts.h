@@ -7,18 +7,13 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
+#include "common/base/json.h"
 #include "common/cli/summaries.h"
 #include "common/geometry/line.h"
 #include "common/math/vec.h"
 
 namespace palpate {
 
-using Json = nlohmann::ordered_json;
-
-/// Indented text, whatever bytes file names are made of: they need not be UTF-8, JSON does.
-[[nodiscard]] std::string json_text(const Json& json);
 [[nodiscard]] Json vec_json(const Vec3& x);
 [[nodiscard]] Json box_json(const Box& box);
 /// Numbers of lines and points, and how long the lines are.

@@ -30,8 +30,8 @@ std::uint64_t points_of(const Index3& index, const char* key) {
   return points;
 }
 
-json encode_array(const DataArray& array, MemoryFile& memory) {
-  json object =
+Json encode_array(const DataArray& array, MemoryFile& memory) {
+  Json object =
       encode_array_info({array.name, array.association, array.components, array.type, array.tuples});
   if (array.sparse) {
     object["tree_bytes"] = array.sparse->bytes().size();
@@ -65,7 +65,7 @@ struct Memory {
   }
 };
 
-std::shared_ptr<const SparseNumbers> decode_sparse(const json& object, const Memory& memory) {
+std::shared_ptr<const SparseNumbers> decode_sparse(const Json& object, const Memory& memory) {
   const auto bytes = memory.at(count_at(object, "offset"), count_at(object, "tree_bytes"), 1);
   try {
     return std::make_shared<const SparseNumbers>(bytes, memory.owner, index_at(object, "shift"),
@@ -75,7 +75,7 @@ std::shared_ptr<const SparseNumbers> decode_sparse(const json& object, const Mem
   }
 }
 
-DataArray decode_array(const json& object, const Memory& memory) {
+DataArray decode_array(const Json& object, const Memory& memory) {
   ArrayInfo info = decode_array_info(object);
   DataArray array;
   array.name = std::move(info.name);
@@ -96,7 +96,7 @@ DataArray decode_array(const json& object, const Memory& memory) {
   return array;
 }
 
-DataArray decode_positions(const json& object, const Memory& memory) {
+DataArray decode_positions(const Json& object, const Memory& memory) {
   DataArray positions = decode_array(member(object, "positions"), memory);
   if (positions.sparse) malformed("positions are sparse");
   const bool real = positions.type == ScalarType::kFloat32 || positions.type == ScalarType::kFloat64;
@@ -114,8 +114,8 @@ std::uint64_t append(const std::vector<T>& values, MemoryFile& memory) {
 struct TopologyEncoder {
   MemoryFile& memory;
 
-  json operator()(const UniformTopology& t) const {
-    json axes = json::array();
+  Json operator()(const UniformTopology& t) const {
+    Json axes = Json::array();
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) axes.push_back(t.axes[c][r]);
     }
@@ -124,7 +124,7 @@ struct TopologyEncoder {
             {"origin", vector_json(t.origin)},
             {"axes", axes}};
   }
-  json operator()(const RectilinearTopology& t) const {
+  Json operator()(const RectilinearTopology& t) const {
     const auto& [x, y, z] = t.coordinates;
     return {{"kind", "rectilinear"},
             {"counts", {x.size(), y.size(), z.size()}},
@@ -132,12 +132,12 @@ struct TopologyEncoder {
             {"y", append(y, memory)},
             {"z", append(z, memory)}};
   }
-  json operator()(const StructuredTopology& t) const {
+  Json operator()(const StructuredTopology& t) const {
     return {{"kind", "curvilinear"},
             {"points", counts_json(t.points)},
             {"positions", encode_array(t.positions, memory)}};
   }
-  json operator()(const UnstructuredTopology& t) const {
+  Json operator()(const UnstructuredTopology& t) const {
     return {{"kind", "unstructured"},
             {"positions", encode_array(t.positions, memory)},
             {"cells", t.types.size()},
@@ -148,12 +148,12 @@ struct TopologyEncoder {
   }
 };
 
-UniformTopology decode_uniform(const json& object) {
+UniformTopology decode_uniform(const Json& object) {
   UniformTopology t;
   t.points = index_at(object, "points");
   points_of(t.points, "points");
   t.origin = vector_at(object, "origin");
-  const json& axes = array_at(object, "axes", 9);
+  const Json& axes = array_at(object, "axes", 9);
   std::size_t next = 0;
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) t.axes[c][r] = number_of(axes[next++], "axes");
@@ -161,7 +161,7 @@ UniformTopology decode_uniform(const json& object) {
   return t;
 }
 
-RectilinearTopology decode_rectilinear(const json& object, const Memory& memory) {
+RectilinearTopology decode_rectilinear(const Json& object, const Memory& memory) {
   RectilinearTopology t;
   const Index3 counts = index_at(object, "counts");
   points_of(counts, "counts");
@@ -179,7 +179,7 @@ RectilinearTopology decode_rectilinear(const json& object, const Memory& memory)
   return t;
 }
 
-StructuredTopology decode_curvilinear(const json& object, const Memory& memory) {
+StructuredTopology decode_curvilinear(const Json& object, const Memory& memory) {
   StructuredTopology t;
   t.points = index_at(object, "points");
   t.positions = decode_positions(object, memory);
@@ -211,7 +211,7 @@ void check_faces(std::span<const std::int64_t> stream, std::int64_t points) {
   if (at != stream.size()) malformed("a polyhedron's faces are followed by something else");
 }
 
-UnstructuredTopology decode_unstructured(const json& object, const Memory& memory) {
+UnstructuredTopology decode_unstructured(const Json& object, const Memory& memory) {
   UnstructuredTopology t;
   t.positions = decode_positions(object, memory);
   const std::uint64_t cells = count_at(object, "cells");
@@ -267,7 +267,7 @@ struct TopologyCounts {
 
 }  // namespace
 
-ScalarType scalar_type_at(const json& object) {
+ScalarType scalar_type_at(const Json& object) {
   const std::string name = string_at(object, "type");
   for (const ScalarType type : kTypes) {
     if (name == name_of(type)) return type;
@@ -275,7 +275,7 @@ ScalarType scalar_type_at(const json& object) {
   malformed("unknown number type '" + name + "'");
 }
 
-json encode_array_info(const ArrayInfo& info) {
+Json encode_array_info(const ArrayInfo& info) {
   return {{"name", text_from_bytes(info.name)},
           {"on", info.association == Association::kPoint ? "point" : "cell"},
           {"components", info.components},
@@ -284,7 +284,7 @@ json encode_array_info(const ArrayInfo& info) {
           {"sparse_bytes", info.sparse_bytes}};
 }
 
-ArrayInfo decode_array_info(const json& object) {
+ArrayInfo decode_array_info(const Json& object) {
   ArrayInfo info;
   info.name = string_at(object, "name");
   const std::string on = string_at(object, "on");
@@ -300,10 +300,10 @@ ArrayInfo decode_array_info(const json& object) {
   return info;
 }
 
-json encode_block(const DataSet& block, MemoryFile& memory) {
-  json arrays = json::array();
+Json encode_block(const DataSet& block, MemoryFile& memory) {
+  Json arrays = Json::array();
   for (const DataArray& array : block.arrays) arrays.push_back(encode_array(array, memory));
-  json object{{"name", text_from_bytes(block.name)},
+  Json object{{"name", text_from_bytes(block.name)},
               {"topology", std::visit(TopologyEncoder{memory}, block.topology)},
               {"arrays", std::move(arrays)}};
   if (!block.visible.empty()) object["visible"] = append(block.visible, memory);
@@ -311,12 +311,12 @@ json encode_block(const DataSet& block, MemoryFile& memory) {
   return object;
 }
 
-DataSet decode_block(const json& object, std::span<const std::byte> bytes,
+DataSet decode_block(const Json& object, std::span<const std::byte> bytes,
                      const std::shared_ptr<const void>& owner) {
   const Memory memory{bytes, owner};
   DataSet block;
   block.name = string_at(object, "name");
-  const json& topology = member(object, "topology");
+  const Json& topology = member(object, "topology");
   const std::string kind = string_at(topology, "kind");
   if (kind == "uniform") {
     block.topology = decode_uniform(topology);
@@ -330,7 +330,7 @@ DataSet decode_block(const json& object, std::span<const std::byte> bytes,
     malformed("unknown topology '" + kind + "'");
   }
   const Counts counts = std::visit(TopologyCounts{}, block.topology);
-  for (const json& value : array_at(object, "arrays")) {
+  for (const Json& value : array_at(object, "arrays")) {
     DataArray array = decode_array(value, memory);
     if (array.tuples != (array.association == Association::kPoint ? counts.points : counts.cells)) {
       malformed("array '" + array.name + "' has " + std::to_string(array.tuples) + " tuples for " +

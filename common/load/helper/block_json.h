@@ -16,16 +16,16 @@
 namespace palpate::message {
 
 /// The number type that `object` names at "type".
-[[nodiscard]] ScalarType scalar_type_at(const json& object);
+[[nodiscard]] ScalarType scalar_type_at(const Json& object);
 
 /// An array's description, without the place of its numbers.
-[[nodiscard]] json encode_array_info(const ArrayInfo& info);
-[[nodiscard]] ArrayInfo decode_array_info(const json& object);
+[[nodiscard]] Json encode_array_info(const ArrayInfo& info);
+[[nodiscard]] ArrayInfo decode_array_info(const Json& object);
 
 /// Appends the block's numbers to `memory` and returns the JSON that describes them.
-[[nodiscard]] json encode_block(const DataSet& block, MemoryFile& memory);
+[[nodiscard]] Json encode_block(const DataSet& block, MemoryFile& memory);
 /// The block shares `memory`, which `owner` keeps alive.
-[[nodiscard]] DataSet decode_block(const json& object, std::span<const std::byte> memory,
+[[nodiscard]] DataSet decode_block(const Json& object, std::span<const std::byte> memory,
                                    const std::shared_ptr<const void>& owner);
 
 }  // namespace palpate::message

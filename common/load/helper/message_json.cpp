@@ -48,14 +48,14 @@ std::string text_from_bytes(std::string_view bytes) {
   return text;
 }
 
-json parse(std::string_view text) {
+Json parse(std::string_view text) {
   if (text.size() > kMaxJsonBytes) malformed("message of " + std::to_string(text.size()) + " bytes");
-  json value = json::parse(text, nullptr, false);
+  Json value = parse_json(text);
   if (!value.is_object()) malformed("message is not a JSON object");
   return value;
 }
 
-void throw_failure(const json& answer) {
+void throw_failure(const Json& answer) {
   const auto failed = answer.find("failed");
   if (failed == answer.end()) return;
   const std::uint64_t code = count_of(*failed, "failed");
@@ -63,69 +63,69 @@ void throw_failure(const json& answer) {
   throw Error(code == 1 || code == 2 ? static_cast<ExitCode>(code) : ExitCode::kBadInput, line);
 }
 
-const json& member(const json& object, const char* key) {
+const Json& member(const Json& object, const char* key) {
   if (!object.is_object()) malformed(std::string("no object around '") + key + "'");
   const auto found = object.find(key);
   if (found == object.end()) malformed(std::string("'") + key + "' is missing");
   return *found;
 }
 
-std::string string_at(const json& object, const char* key) {
-  const json& value = member(object, key);
+std::string string_at(const Json& object, const char* key) {
+  const Json& value = member(object, key);
   if (!value.is_string()) malformed(std::string("'") + key + "' is no string");
   return bytes_from_text(value.get_ref<const std::string&>());
 }
 
-std::uint64_t count_of(const json& value, const char* key) {
+std::uint64_t count_of(const Json& value, const char* key) {
   if (!value.is_number_unsigned()) malformed(std::string("'") + key + "' is no count");
   const auto count = value.get<std::uint64_t>();
   if (count > kMaxCount) malformed(std::string("'") + key + "' is too large");
   return count;
 }
 
-std::uint64_t count_at(const json& object, const char* key) { return count_of(member(object, key), key); }
+std::uint64_t count_at(const Json& object, const char* key) { return count_of(member(object, key), key); }
 
-double number_of(const json& value, const char* key) {
+double number_of(const Json& value, const char* key) {
   if (!value.is_number()) malformed(std::string("'") + key + "' is no number");
   const double number = value.get<double>();
   if (!std::isfinite(number)) malformed(std::string("'") + key + "' is not finite");
   return number;
 }
 
-bool bool_at(const json& object, const char* key) {
-  const json& value = member(object, key);
+bool bool_at(const Json& object, const char* key) {
+  const Json& value = member(object, key);
   if (!value.is_boolean()) malformed(std::string("'") + key + "' is neither true nor false");
   return value.get<bool>();
 }
 
-const json& array_at(const json& object, const char* key) {
-  const json& value = member(object, key);
+const Json& array_at(const Json& object, const char* key) {
+  const Json& value = member(object, key);
   if (!value.is_array()) malformed(std::string("'") + key + "' is no array");
   return value;
 }
 
-const json& array_at(const json& object, const char* key, std::size_t size) {
-  const json& value = array_at(object, key);
+const Json& array_at(const Json& object, const char* key, std::size_t size) {
+  const Json& value = array_at(object, key);
   if (value.size() != size) malformed(std::string("'") + key + "' has the wrong length");
   return value;
 }
 
-std::vector<std::string> strings_at(const json& object, const char* key) {
+std::vector<std::string> strings_at(const Json& object, const char* key) {
   std::vector<std::string> strings;
-  for (const json& value : array_at(object, key)) {
+  for (const Json& value : array_at(object, key)) {
     if (!value.is_string()) malformed(std::string("'") + key + "' holds something else than strings");
     strings.push_back(bytes_from_text(value.get_ref<const std::string&>()));
   }
   return strings;
 }
 
-Vec3 vector_at(const json& object, const char* key) {
-  const json& value = array_at(object, key, 3);
+Vec3 vector_at(const Json& object, const char* key) {
+  const Json& value = array_at(object, key, 3);
   return {number_of(value[0], key), number_of(value[1], key), number_of(value[2], key)};
 }
 
-Index3 index_at(const json& object, const char* key) {
-  const json& value = array_at(object, key, 3);
+Index3 index_at(const Json& object, const char* key) {
+  const Json& value = array_at(object, key, 3);
   Index3 index{0};
   for (int axis = 0; axis < 3; ++axis) {
     const std::uint64_t count = count_of(value[as_size(axis)], key);

@@ -13,15 +13,15 @@ using namespace message;
 /// Beyond it no element is sampled.
 constexpr std::uint64_t kMostRefine = 1000;
 
-json box_corner(const Vec3& corner) { return is_finite(corner) ? vector_json(corner) : json(nullptr); }
+Json box_corner(const Vec3& corner) { return is_finite(corner) ? vector_json(corner) : Json(nullptr); }
 
-json encode_raw(const RawLayout& raw) {
+Json encode_raw(const RawLayout& raw) {
   return {{"size", counts_json(raw.size)},     {"type", name_of(raw.type)},
           {"big_endian", raw.big_endian},      {"spacing", vector_json(raw.spacing)},
           {"origin", vector_json(raw.origin)}, {"skip", raw.skip}};
 }
 
-RawLayout decode_raw(const json& object) {
+RawLayout decode_raw(const Json& object) {
   RawLayout raw;
   raw.size = index_at(object, "size");
   raw.type = scalar_type_at(object);
@@ -32,12 +32,12 @@ RawLayout decode_raw(const json& object) {
   return raw;
 }
 
-json encode_diffusion(const DiffusionInfo& diffusion) {
-  json object{{"layout", static_cast<int>(diffusion.layout)},
+Json encode_diffusion(const DiffusionInfo& diffusion) {
+  Json object{{"layout", static_cast<int>(diffusion.layout)},
               {"gradient_frame", static_cast<int>(diffusion.gradient_frame)}};
   if (diffusion.frame) object["frame"] = static_cast<int>(*diffusion.frame);
   if (!diffusion.gradients) return object;
-  object["gradients"] = json::array();
+  object["gradients"] = Json::array();
   for (std::size_t i = 0; i < diffusion.gradients->weightings.size(); ++i) {
     const Vec3& g = diffusion.gradients->directions[i];
     object["gradients"].push_back({diffusion.gradients->weightings[i], g.x, g.y, g.z});
@@ -45,7 +45,7 @@ json encode_diffusion(const DiffusionInfo& diffusion) {
   return object;
 }
 
-DiffusionInfo decode_diffusion(const json& object) {
+DiffusionInfo decode_diffusion(const Json& object) {
   DiffusionInfo diffusion;
   const std::uint64_t layout = count_at(object, "layout");
   if (layout >= kTensorLayoutCount) malformed("unknown layout of tensors");
@@ -58,10 +58,10 @@ DiffusionInfo decode_diffusion(const json& object) {
   diffusion.gradient_frame = frame_at("gradient_frame");
   if (object.contains("frame")) diffusion.frame = frame_at("frame");
   if (!object.contains("gradients")) return diffusion;
-  const json& gradients = array_at(object, "gradients");
+  const Json& gradients = array_at(object, "gradients");
   if (gradients.size() > kMostGradients) malformed("too many gradients");
   GradientTable table;
-  for (const json& gradient : gradients) {
+  for (const Json& gradient : gradients) {
     if (!gradient.is_array() || gradient.size() != 4) malformed("a gradient has not four numbers");
     table.weightings.push_back(number_of(gradient[0], "gradients"));
     table.directions.emplace_back(number_of(gradient[1], "gradients"), number_of(gradient[2], "gradients"),
@@ -77,11 +77,11 @@ DiffusionInfo decode_diffusion(const json& object) {
 }  // namespace
 
 std::string encode(const RequestMessage& request) {
-  json message;
+  Json message;
   if (const auto* open = std::get_if<OpenMessage>(&request)) {
     message["request"] = "open";
     message["format"] = static_cast<int>(open->format);
-    message["files"] = json::array();
+    message["files"] = Json::array();
     for (const auto& file : open->request.files) message["files"].push_back(text_from_bytes(file.native()));
     if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
     if (open->request.allow_gaps) message["allow_gaps"] = true;
@@ -98,7 +98,7 @@ std::string encode(const RequestMessage& request) {
   } else {
     const auto& read = std::get<ReadMessage>(request);
     message["request"] = "read";
-    message["arrays"] = json::array();
+    message["arrays"] = Json::array();
     for (const std::string& name : read.arrays) message["arrays"].push_back(text_from_bytes(name));
     message["step"] = read.time_step;
   }
@@ -106,7 +106,7 @@ std::string encode(const RequestMessage& request) {
 }
 
 RequestMessage decode_request(std::string_view text) {
-  const json message = parse(text);
+  const Json message = parse(text);
   const std::string request = string_at(message, "request");
   if (request == "open") {
     OpenMessage open;
@@ -127,7 +127,7 @@ RequestMessage decode_request(std::string_view text) {
     }
     if (message.contains("raw")) open.request.raw = decode_raw(member(message, "raw"));
     if (message.contains("diffusion")) {
-      const json& diffusion = member(message, "diffusion");
+      const Json& diffusion = member(message, "diffusion");
       open.request.diffusion = DiffusionRequest{string_at(diffusion, "bval"), string_at(diffusion, "bvec")};
     }
     return open;
@@ -137,13 +137,13 @@ RequestMessage decode_request(std::string_view text) {
 }
 
 std::string encode_failure(ExitCode code, const std::string& line) {
-  return json{{"failed", static_cast<int>(code)}, {"line", text_from_bytes(line)}}.dump();
+  return Json{{"failed", static_cast<int>(code)}, {"line", text_from_bytes(line)}}.dump();
 }
 
 std::string encode_info(const FileInfo& info) {
-  json blocks = json::array();
+  Json blocks = Json::array();
   for (const BlockInfo& block : info.blocks) {
-    json arrays = json::array();
+    Json arrays = Json::array();
     for (const ArrayInfo& array : block.arrays) arrays.push_back(encode_array_info(array));
     blocks.push_back({{"name", text_from_bytes(block.name)},
                       {"grid", block.grid},
@@ -155,13 +155,13 @@ std::string encode_info(const FileInfo& info) {
                       {"arrays", std::move(arrays)},
                       {"not_volume", text_from_bytes(block.not_volume)}});
   }
-  json notes = json::array();
+  Json notes = Json::array();
   for (const std::string& note : info.notes) notes.push_back(text_from_bytes(note));
-  return json{{"format", text_from_bytes(info.format)},
+  return Json{{"format", text_from_bytes(info.format)},
               {"loader", text_from_bytes(info.loader)},
               {"exact_volume", info.exact_volume},
-              {"long_axis", info.long_axis ? vector_json(*info.long_axis) : json(nullptr)},
-              {"window", info.window ? json::array({(*info.window)[0], (*info.window)[1]}) : json(nullptr)},
+              {"long_axis", info.long_axis ? vector_json(*info.long_axis) : Json(nullptr)},
+              {"window", info.window ? Json::array({(*info.window)[0], (*info.window)[1]}) : Json(nullptr)},
               {"times", info.times},
               {"units", text_from_bytes(info.units)},
               {"anatomical", info.anatomical},
@@ -172,13 +172,13 @@ std::string encode_info(const FileInfo& info) {
 }
 
 std::string encode_blocks(const std::vector<DataSet>& blocks, MemoryFile& memory) {
-  json list = json::array();
+  Json list = Json::array();
   for (const DataSet& block : blocks) list.push_back(encode_block(block, memory));
-  return json{{"blocks", std::move(list)}}.dump();
+  return Json{{"blocks", std::move(list)}}.dump();
 }
 
 FileInfo decode_info(std::string_view text) {
-  const json answer = parse(text);
+  const Json answer = parse(text);
   throw_failure(answer);
   FileInfo info;
   info.format = string_at(answer, "format");
@@ -190,12 +190,12 @@ FileInfo decode_info(std::string_view text) {
   info.exact_volume = number_of(member(answer, "exact_volume"), "exact_volume");
   if (!member(answer, "long_axis").is_null()) info.long_axis = vector_at(answer, "long_axis");
   if (!member(answer, "window").is_null()) {
-    const json& window = array_at(answer, "window");
+    const Json& window = array_at(answer, "window");
     if (window.size() != 2) malformed("'window' has not two numbers");
     info.window = {number_of(window[0], "window"), number_of(window[1], "window")};
   }
-  for (const json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
-  for (const json& object : array_at(answer, "blocks")) {
+  for (const Json& time : array_at(answer, "times")) info.times.push_back(number_of(time, "times"));
+  for (const Json& object : array_at(answer, "blocks")) {
     BlockInfo block;
     block.name = string_at(object, "name");
     block.grid = string_at(object, "grid");
@@ -206,7 +206,7 @@ FileInfo decode_info(std::string_view text) {
       block.bounds.lower = vector_at(object, "lower");
       block.bounds.upper = vector_at(object, "upper");
     }
-    for (const json& array : array_at(object, "arrays")) block.arrays.push_back(decode_array_info(array));
+    for (const Json& array : array_at(object, "arrays")) block.arrays.push_back(decode_array_info(array));
     block.not_volume = string_at(object, "not_volume");
     info.blocks.push_back(std::move(block));
   }
@@ -215,10 +215,10 @@ FileInfo decode_info(std::string_view text) {
 
 std::vector<DataSet> decode_blocks(std::string_view text, std::span<const std::byte> bytes,
                                    const std::shared_ptr<const void>& owner) {
-  const json answer = parse(text);
+  const Json answer = parse(text);
   throw_failure(answer);
   std::vector<DataSet> blocks;
-  for (const json& object : array_at(answer, "blocks")) blocks.push_back(decode_block(object, bytes, owner));
+  for (const Json& object : array_at(answer, "blocks")) blocks.push_back(decode_block(object, bytes, owner));
   return blocks;
 }
 

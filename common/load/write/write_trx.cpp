@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
 #include <zlib.h>
 
 #include "common/base/error.h"
+#include "common/base/json.h"
 
 namespace palpate {
 namespace {
@@ -101,14 +101,14 @@ class StoredZip {
 
 std::string header_of(const Tractogram& lines) {
   const TractogramImage image = lines.image.value_or(TractogramImage{.voxels = Index3(1)});
-  nlohmann::json matrix = nlohmann::json::array();
+  Json matrix = Json::array();
   for (int row = 0; row < 3; ++row)
     matrix.push_back({image.axes[0][row], image.axes[1][row], image.axes[2][row], image.origin[row]});
   matrix.push_back({0.0, 0.0, 0.0, 1.0});
-  return nlohmann::json{{"VOXEL_TO_RASMM", matrix},
-                        {"DIMENSIONS", {image.voxels.x, image.voxels.y, image.voxels.z}},
-                        {"NB_VERTICES", lines.points.size()},
-                        {"NB_STREAMLINES", lines.line_count()}}
+  return Json{{"VOXEL_TO_RASMM", matrix},
+              {"DIMENSIONS", {image.voxels.x, image.voxels.y, image.voxels.z}},
+              {"NB_VERTICES", lines.points.size()},
+              {"NB_STREAMLINES", lines.line_count()}}
       .dump();
 }
 

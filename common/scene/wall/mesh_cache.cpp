@@ -46,11 +46,11 @@ std::vector<Row> take_rows(std::string_view& rest, std::uint64_t count) {
 
 std::string encode(const WallMesh& mesh) {
   const FinishedMesh& counts = mesh.counts;
-  json columns = json::array(), notes = json::array();
+  Json columns = Json::array(), notes = Json::array();
   for (const MeshColumn& column : mesh.columns)
     columns.push_back({{"name", text_from_bytes(column.name)}, {"components", column.components}});
   for (const std::string& note : mesh.notes) notes.push_back(text_from_bytes(note));
-  std::string text = json{{"points", mesh.points.size()},
+  std::string text = Json{{"points", mesh.points.size()},
                           {"tets", mesh.tets.size()},
                           {"point_of_file", mesh.point_of_file.size()},
                           {"columns", std::move(columns)},
@@ -74,12 +74,12 @@ std::string encode(const WallMesh& mesh) {
 WallMesh decode(std::string_view rest, std::size_t points) {
   const auto line = take_line(rest);
   if (!line) malformed("no description");
-  const json object = parse(*line);
+  const Json object = parse(*line);
   WallMesh mesh;
   mesh.points = take_rows<Vec3>(rest, count_at(object, "points"));
   mesh.tets = take_rows<TetMesh::Tet>(rest, count_at(object, "tets"));
   mesh.point_of_file = take_rows<std::uint32_t>(rest, count_at(object, "point_of_file"));
-  for (const json& of : array_at(object, "columns")) {
+  for (const Json& of : array_at(object, "columns")) {
     MeshColumn column{
         .name = string_at(of, "name"), .values = {}, .components = as_size(count_at(of, "components"))};
     column.values = take_rows<double>(rest, column.components * mesh.points.size());

@@ -14,13 +14,13 @@ using namespace message;
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(TetMesh::Tet) == 4 * sizeof(std::uint32_t));
 
 template <typename Row>
-json append(const std::vector<Row>& rows, MemoryFile& memory) {
+Json append(const std::vector<Row>& rows, MemoryFile& memory) {
   return {{"offset", memory.append(std::as_bytes(std::span(rows)))}, {"count", rows.size()}};
 }
 
 template <typename Row>
-std::vector<Row> rows_at(const json& object, const char* key, std::span<const std::byte> memory) {
-  const json& array = member(object, key);
+std::vector<Row> rows_at(const Json& object, const char* key, std::span<const std::byte> memory) {
+  const Json& array = member(object, key);
   const std::uint64_t offset = count_at(array, "offset"), count = count_at(array, "count");
   if (offset > memory.size() || count > (memory.size() - offset) / sizeof(Row))
     malformed(std::string("array '") + key + "' lies outside the message");
@@ -43,7 +43,7 @@ void check_tets(const std::vector<TetMesh::Tet>& tets, std::size_t points) {
 }  // namespace
 
 std::string encode(const MeshJob& job, MemoryFile& memory) {
-  return json{{"mesher", job.mesher == Mesher::kTetgen ? "tetgen" : "delaunay"},
+  return Json{{"mesher", job.mesher == Mesher::kTetgen ? "tetgen" : "delaunay"},
               {"largest_volume", job.largest_volume},
               {"points", append(job.wall.points, memory)},
               {"tets", append(job.wall.tets, memory)},
@@ -52,7 +52,7 @@ std::string encode(const MeshJob& job, MemoryFile& memory) {
 }
 
 std::string encode(const FinishedMesh& mesh, MemoryFile& memory) {
-  return json{{"points", append(mesh.points, memory)},
+  return Json{{"points", append(mesh.points, memory)},
               {"tets", append(mesh.tets, memory)},
               {"outside", mesh.outside},
               {"flat", mesh.flat},
@@ -64,7 +64,7 @@ std::string encode(const FinishedMesh& mesh, MemoryFile& memory) {
 }
 
 MeshJob decode_mesh_job(std::string_view text, std::span<const std::byte> memory) {
-  const json object = parse(text);
+  const Json object = parse(text);
   const std::string mesher = string_at(object, "mesher");
   if (mesher != "delaunay" && mesher != "tetgen") malformed("unknown mesher");
   MeshJob job;
@@ -81,7 +81,7 @@ MeshJob decode_mesh_job(std::string_view text, std::span<const std::byte> memory
 
 FinishedMesh decode_finished_mesh(std::string_view text, std::span<const std::byte> memory,
                                   std::size_t wall_points) {
-  const json object = parse(text);
+  const Json object = parse(text);
   throw_failure(object);
   FinishedMesh mesh;
   mesh.points = rows_at<Vec3>(object, "points", memory);

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "common/base/json.h"
 #include "common/device/driver/dhd/dhd_link.h"
 #include "common/device/driver/inverse3/inverse3_link.h"
 #include "tests/common/device/driver/fake_dhd.h"
@@ -18,6 +18,7 @@
 #include "tests/common/device/driver/transport/web_server.h"
 #include "tests/common/device/driver/vrpn/vrpn_server.h"
 #include "tests/e2e/hand/hand_in_flow.h"
+#include "tests/support/project_folders.h"
 
 namespace palpate::test {
 namespace {

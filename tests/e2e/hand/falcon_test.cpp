@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "common/base/json.h"
 #include "common/device/driver/falcon/falcon_link.h"
 #include "common/servo/recording.h"
 #include "tests/common/device/driver/falcon/falcon_emulator.h"
@@ -99,7 +99,7 @@ TEST_F(FalconWindow, IsMovedByTheDeviceAndRepeatsToTheBit) {
   EXPECT_LE(recording.header.limits.force_cap, 8.0);
   EXPECT_TRUE(recording.header.limits.latch_faults);
   const ProgramResult again = run({"probe", "--example", "tornado", "--replay", "run.txt", "--json"});
-  const auto summary = nlohmann::json::parse(again.out, nullptr, false);
+  const auto summary = parse_json(again.out);
   ASSERT_TRUE(summary.is_object()) << again.err;
   EXPECT_EQ(summary["replay_differs"], false) << summary["replay"];
 }

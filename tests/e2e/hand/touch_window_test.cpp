@@ -90,7 +90,7 @@ TEST_F(TouchWindow, AnotherHandIsToldFromIt) {
   folder_.write("other.txt", text);
   std::vector<std::string> arguments{"probe", "--example", "tornado", "--replay", "other.txt", "--json"};
   const ProgramResult result = run(arguments);
-  const Json summary = Json::parse(result.out, nullptr, false);
+  const Json summary = parse_json(result.out);
   ASSERT_TRUE(summary.is_object()) << result.err;
   EXPECT_EQ(summary["replay_differs"], true);
   EXPECT_NE(result.exit_code, 0);
@@ -179,7 +179,7 @@ TEST_F(TouchWindow, AHandOnAVolumeIsRecordedAndRepeated) {
       Program({bin("grid").string(), "probe", "--example", "blob", "--replay", "run.txt", "--json"},
               folder_.path())
           .finish();
-  const Json summary = Json::parse(again.out, nullptr, false);
+  const Json summary = parse_json(again.out);
   ASSERT_TRUE(summary.is_object()) << again.err;
   EXPECT_EQ(summary["replay_differs"], false) << summary["replay"];
   EXPECT_EQ(summary["mode"], "isosurface");

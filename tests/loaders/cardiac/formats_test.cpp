@@ -218,12 +218,12 @@ TEST_F(CardiacFormats, LongAxesOfVtkFilesAreTakenIfTheyAreDirections) {
     (void)folder_.write("heart.vtu", text);
     const ProgramResult result = run({"map", "heart.vtu", "--json"});
     EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 2) << numbers << ": " << result.err;
-    return result.exit_code == 0 ? Json::parse(result.out)["axis"].dump() : "";
+    return result.exit_code == 0 ? parse_json(result.out)["axis"].dump() : "";
   };
   EXPECT_EQ(axis_of("0 0 4", 3), "[0.0,0.0,1.0]");
   (void)folder_.write("heart.vtu", plain);
   const ProgramResult without = run({"map", "heart.vtu", "--json"});
-  const std::string own = without.exit_code == 0 ? Json::parse(without.out)["axis"].dump() : "";
+  const std::string own = without.exit_code == 0 ? parse_json(without.out)["axis"].dump() : "";
   for (const auto& [numbers, components] : std::vector<std::pair<std::string, int>>{
            {"0 0 0", 3}, {"nan 0 0", 3}, {"inf 1 0", 3}, {"1 2", 2}, {"1", 1}})
     EXPECT_EQ(axis_of(numbers, components), own) << numbers;

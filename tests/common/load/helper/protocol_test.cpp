@@ -5,14 +5,12 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/json.h"
 
 namespace palpate {
 namespace {
-
-using nlohmann::json;
 
 TEST(Protocol, RequestsComeBackWithAnyBytesInTheirNames) {
   OpenMessage open;
@@ -158,59 +156,59 @@ TEST(Protocol, BlocksOfEveryKindComeBackAsTheyWere) {
 
 TEST(Protocol, EveryLieInTheJsonIsRefused) {
   const Encoded good = encoded();
-  const json message = json::parse(good.text);
-  const auto refused = [&](const char* what, const std::function<void(json&)>& lie) {
+  const Json message = parse_json(good.text);
+  const auto refused = [&](const char* what, const std::function<void(Json&)>& lie) {
     Encoded bad = good;
-    json changed = message;
+    Json changed = message;
     lie(changed["blocks"]);
     bad.text = changed.dump();
     EXPECT_THROW((void)decode(bad), ProtocolError) << what;
   };
   const std::uint64_t huge = std::uint64_t{1} << 40;
-  refused("offset past the end", [&](json& b) { b[0]["arrays"][0]["offset"] = huge; });
+  refused("offset past the end", [&](Json& b) { b[0]["arrays"][0]["offset"] = huge; });
   refused("offset at the end",
-          [&](json& b) { b[0]["arrays"][0]["offset"] = (good.memory.size() + 63) / 64 * 64; });
-  refused("offset not aligned", [&](json& b) { b[0]["arrays"][0]["offset"] = 1; });
-  refused("offset below zero", [&](json& b) { b[0]["arrays"][0]["offset"] = -64; });
-  refused("offset that wraps", [&](json& b) { b[0]["arrays"][0]["offset"] = ~std::uint64_t{63}; });
-  refused("too many tuples", [&](json& b) { b[0]["arrays"][0]["tuples"] = huge; });
-  refused("tuples that are no number", [&](json& b) { b[0]["arrays"][0]["tuples"] = 8.5; });
-  refused("too few tuples", [&](json& b) { b[0]["arrays"][0]["tuples"] = 7; });
-  refused("no components", [&](json& b) { b[0]["arrays"][0]["components"] = 0; });
-  refused("components without end", [&](json& b) { b[0]["arrays"][0]["components"] = huge; });
-  refused("an unknown type", [&](json& b) { b[0]["arrays"][0]["type"] = "float128"; });
-  refused("a wider type", [&](json& b) { b[3]["topology"]["positions"]["tuples"] = 1 << 20; });
-  refused("an unknown association", [&](json& b) { b[0]["arrays"][0]["on"] = "edge"; });
-  refused("a missing name", [&](json& b) { b[0]["arrays"][0].erase("name"); });
-  refused("dimensions whose product overflows", [&](json& b) {
+          [&](Json& b) { b[0]["arrays"][0]["offset"] = (good.memory.size() + 63) / 64 * 64; });
+  refused("offset not aligned", [&](Json& b) { b[0]["arrays"][0]["offset"] = 1; });
+  refused("offset below zero", [&](Json& b) { b[0]["arrays"][0]["offset"] = -64; });
+  refused("offset that wraps", [&](Json& b) { b[0]["arrays"][0]["offset"] = ~std::uint64_t{63}; });
+  refused("too many tuples", [&](Json& b) { b[0]["arrays"][0]["tuples"] = huge; });
+  refused("tuples that are no number", [&](Json& b) { b[0]["arrays"][0]["tuples"] = 8.5; });
+  refused("too few tuples", [&](Json& b) { b[0]["arrays"][0]["tuples"] = 7; });
+  refused("no components", [&](Json& b) { b[0]["arrays"][0]["components"] = 0; });
+  refused("components without end", [&](Json& b) { b[0]["arrays"][0]["components"] = huge; });
+  refused("an unknown type", [&](Json& b) { b[0]["arrays"][0]["type"] = "float128"; });
+  refused("a wider type", [&](Json& b) { b[3]["topology"]["positions"]["tuples"] = 1 << 20; });
+  refused("an unknown association", [&](Json& b) { b[0]["arrays"][0]["on"] = "edge"; });
+  refused("a missing name", [&](Json& b) { b[0]["arrays"][0].erase("name"); });
+  refused("dimensions whose product overflows", [&](Json& b) {
     b[0]["topology"]["points"] = {2147483647, 2147483647, 2147483647};
   });
-  refused("a dimension of 0", [&](json& b) { b[0]["topology"]["points"] = {0, 2, 2}; });
-  refused("an origin that is no number", [&](json& b) { b[0]["topology"]["origin"][1] = nullptr; });
-  refused("eight axes", [&](json& b) { b[0]["topology"]["axes"].erase(0); });
-  refused("a visibility list outside", [&](json& b) { b[0]["visible"] = huge; });
-  refused("coordinates that do not increase", [&](json& b) {
+  refused("a dimension of 0", [&](Json& b) { b[0]["topology"]["points"] = {0, 2, 2}; });
+  refused("an origin that is no number", [&](Json& b) { b[0]["topology"]["origin"][1] = nullptr; });
+  refused("eight axes", [&](Json& b) { b[0]["topology"]["axes"].erase(0); });
+  refused("a visibility list outside", [&](Json& b) { b[0]["visible"] = huge; });
+  refused("coordinates that do not increase", [&](Json& b) {
     b[1]["topology"]["z"] = b[1]["topology"]["x"];
     b[1]["topology"]["counts"] = {2, 2, 3};
   });
-  refused("positions for another block", [&](json& b) { b[2]["topology"]["points"] = {2, 2, 3}; });
-  refused("positions of two components", [&](json& b) { b[2]["topology"]["positions"]["components"] = 2; });
-  refused("whole numbers as positions", [&](json& b) { b[2]["topology"]["positions"]["type"] = "int64"; });
-  refused("more cells", [&](json& b) { b[3]["topology"]["cells"] = 3; });
-  refused("2^46 cells", [&](json& b) { b[3]["topology"]["cells"] = std::uint64_t{1} << 46; });
-  refused("a shorter connectivity", [&](json& b) { b[3]["topology"]["connectivity_count"] = 20; });
+  refused("positions for another block", [&](Json& b) { b[2]["topology"]["points"] = {2, 2, 3}; });
+  refused("positions of two components", [&](Json& b) { b[2]["topology"]["positions"]["components"] = 2; });
+  refused("whole numbers as positions", [&](Json& b) { b[2]["topology"]["positions"]["type"] = "int64"; });
+  refused("more cells", [&](Json& b) { b[3]["topology"]["cells"] = 3; });
+  refused("2^46 cells", [&](Json& b) { b[3]["topology"]["cells"] = std::uint64_t{1} << 46; });
+  refused("a shorter connectivity", [&](Json& b) { b[3]["topology"]["connectivity_count"] = 20; });
   refused("another list as offsets",
-          [&](json& b) { b[3]["topology"]["offsets"] = b[3]["topology"]["connectivity"]; });
+          [&](Json& b) { b[3]["topology"]["offsets"] = b[3]["topology"]["connectivity"]; });
   refused("other numbers as connectivity",
-          [&](json& b) { b[3]["topology"]["connectivity"] = b[3]["topology"]["positions"]["offset"]; });
-  refused("an unknown topology", [&](json& b) { b[0]["topology"]["kind"] = "spherical"; });
-  refused("a number instead of a block", [&](json& b) { b[0] = 5; });
-  refused("an object instead of the list", [&](json& b) { b = json::object(); });
+          [&](Json& b) { b[3]["topology"]["connectivity"] = b[3]["topology"]["positions"]["offset"]; });
+  refused("an unknown topology", [&](Json& b) { b[0]["topology"]["kind"] = "spherical"; });
+  refused("a number instead of a block", [&](Json& b) { b[0] = 5; });
+  refused("an object instead of the list", [&](Json& b) { b = Json::object(); });
 }
 
 TEST(Protocol, CellsThatNameMissingPointsAreRefused) {
   const Encoded good = encoded();
-  const json message = json::parse(good.text);
+  const Json message = parse_json(good.text);
   const auto at = message["blocks"][3]["topology"]["connectivity"].get<std::size_t>();
   const auto with = [&](std::size_t index, std::int64_t value) {
     Encoded bad = good;

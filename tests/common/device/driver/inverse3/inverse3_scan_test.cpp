@@ -4,8 +4,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
+#include "common/base/json.h"
 #include "common/device/driver/inverse3/inverse3_message.h"
 #include "tests/common/device/driver/inverse3/haply_emulator.h"
 #include "tests/support/allocation_guard.h"
@@ -21,7 +21,7 @@ bool scanned(const std::string& message) {
 TEST(HaplyScan, TakesWhatIsJsonAndNothingElse) {
   for (const char* message : {R"({"a":[1,-0.5e+3,0,2E-2,true,false,null,"x\n\u00e9\ud83d\ude00é"],"b":{}})",
                               "{ }", " {\"\":[ ]}\n", R"({"tiny":1e-999,"none":0.0000e5})"}) {
-    EXPECT_TRUE(nlohmann::json::accept(message)) << message;
+    EXPECT_TRUE(Json::accept(message)) << message;
     EXPECT_TRUE(scanned(message)) << message;
   }
   for (const char* message : {"{,}",
@@ -53,7 +53,7 @@ TEST(HaplyScan, TakesWhatIsJsonAndNothingElse) {
                               "{'a':1}",
                               "{\"a\":1e999}",
                               "{\"a\":nan}"}) {
-    EXPECT_FALSE(nlohmann::json::accept(message) && message != std::string("{\"a\":1e999}")) << message;
+    EXPECT_FALSE(Json::accept(message) && message != std::string("{\"a\":1e999}")) << message;
     EXPECT_FALSE(scanned(message)) << message;
   }
 }
@@ -82,8 +82,7 @@ TEST(HaplyScan, AgreesOnMessagesThatAreDamagedAnywhere) {
           message.erase(at, 1 + random() % 4);
       }
     }
-    const bool json =
-        nlohmann::json::accept(message) && message.find_first_not_of(" \t\r\n") == message.find('{');
+    const bool json = Json::accept(message) && message.find_first_not_of(" \t\r\n") == message.find('{');
     ASSERT_EQ(scanned(message), json) << message;
     taken += json ? 1 : 0;
   }

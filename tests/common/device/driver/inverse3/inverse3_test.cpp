@@ -6,9 +6,9 @@
 #include <random>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/json.h"
 #include "common/device/driver/inverse3/inverse3_link.h"
 #include "tests/common/device/driver/inverse3/haply_emulator.h"
 #include "tests/common/device/driver/round_with.h"
@@ -98,7 +98,7 @@ TEST(HaplyMessage, WritesCommandsInBothSpellings) {
   for (const auto& [spelling, key] :
        {std::pair{HaplySpelling::kValues, "values"}, std::pair{HaplySpelling::kVector, "vector"}}) {
     write_haply_force(text, id, {0.123456, -2.5, 1e-9}, spelling);
-    const auto json = nlohmann::json::parse(text);
+    const auto json = parse_json(text);
     ASSERT_EQ(json["inverse3"].size(), 1U);
     EXPECT_EQ(json["inverse3"][0]["device_id"], "049D");
     const auto& force = json["inverse3"][0]["commands"]["set_cursor_force"][key];
