@@ -168,7 +168,12 @@ function(palpate_test path)
     add_dependencies(fast_tests ${program})
   endif()
   add_test(NAME ${path} COMMAND ${program} --file=tests/${path}.cpp)
-  set_tests_properties(${path} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  # Long tests begin first, or the last of them would run alone.
+  set(cost 1)
+  if("slow" IN_LIST arg_LABELS)
+    set(cost ${arg_TIMEOUT})
+  endif()
+  set_tests_properties(${path} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT} COST ${cost})
 endfunction()
 
 # palpate_join_tests(program SOURCES a_test.cpp b_test.cpp … SOURCES …): in a unity build, the test files of each list are
