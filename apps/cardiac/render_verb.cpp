@@ -95,9 +95,10 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
       context.console.note(note);
     if (options.hand.path.empty()) return drawn;
     const std::vector<HapticMode> modes = modes_of(FieldKind::kFibre);
-    drawn.view.probe = probe_after(read_probe_path(options.hand.path.string()),
-                                   make_chain(find_mode(modes, options.touch.mode), scene), scene,
-                                   options.touch, drawn.view.style);
+    show_hand(std::make_shared<PathHand>(read_probe_path(options.hand.path.string()),
+                                         make_chain(find_mode(modes, options.touch.mode), scene), scene,
+                                         options.touch, drawn.view.style),
+              options, drawn);
   }
   return drawn;
 }

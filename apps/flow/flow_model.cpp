@@ -68,10 +68,13 @@ SceneState trace(Input& input, const FlowContent& content, const Document& docum
   state.ends = result.ends;
   state.seeds = seeds.size();
   state.outside_seeds = result.outside_seeds.size();
+  state.seeds_left_out = result.seeds_left_out;
+  state.memory_note = traced.memory_note;
   state.line_errors = std::move(result.errors);
   state.seconds_trace = result.seconds_prepare + result.seconds_trace;
   if (traced.kind == LineKind::kStreamlines) state.document.tracing.integrator = name_of(result.integrator);
   state.document.tracing.max_length = trace.max_length;
+  if (!traced.memory_note.empty()) state.notes.push_back(traced.memory_note);
   state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
   state.notes.insert(state.notes.end(), field.notes().lines.begin(), field.notes().lines.end());
   return state;

@@ -7,6 +7,7 @@
 
 #include "apps/flow/flow_model.h"
 #include "common/base/text.h"
+#include "common/compose/trace_options.h"
 #include "common/trace/unsteady/trace_unsteady.h"
 #include "common/window/panels/color_panel.h"
 #include "common/window/panels/panel_parts.h"
@@ -51,6 +52,9 @@ void draw_lines(PanelState& state, const SceneState& scene) {
     }
     explain("max-length");
   }
+  constexpr double kMega = 1024.0 * 1024.0;
+  double memory = std::round(static_cast<double>(line_memory(settings)) / kMega);
+  if (edit_setting("memory", memory)) settings.memory = memory;
 }
 
 /// Of the volume of a flow, in whose place its hand may feel something else.

@@ -23,18 +23,20 @@ namespace palpate {
 namespace {
 
 /// Adds the fixtures, and what a hand on that path has felt.
-void show_probe(SceneView& view, const std::vector<PathRow>& path, const HapticMode& mode,
-                const Document& options, const std::shared_ptr<const ScalarField>& scalar,
+void show_probe(DrawnScene& drawn, const HapticMode& mode, const Document& options,
+                const std::shared_ptr<const ScalarField>& scalar,
                 const std::shared_ptr<const VectorField>& field, const VerbContext& context) {
   const Workspace workspace = touch_workspace(options.touch, field->diagonal(), field->frame());
   HapticScene scene{field, workspace, touch_settings(options.touch, field.get(), workspace),
                     options.common.threads, scalar};
   for (const std::string& note :
-       take_fixtures(options.touch, field->bounds(), scene, view, &context.progress))
+       take_fixtures(options.touch, field->bounds(), scene, drawn.view, &context.progress))
     context.console.note(note);
   if (options.hand.path.empty()) return;
-  view.probe = probe_after(path, make_chain(mode, scene), scene, options.touch, view.style);
-  view.probe->reference_speed = reference_speed(view);
+  show_hand(std::make_shared<PathHand>(read_probe_path(options.hand.path.string()), make_chain(mode, scene),
+                                       scene, options.touch, drawn.view.style),
+            options, drawn);
+  drawn.view.probe->reference_speed = reference_speed(drawn.view);
 }
 
 SeedSpec view_seeds(const Document& options) {
@@ -73,6 +75,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   const auto seeds = make_seeds(view_seeds(options), *field, options.common.seed);
   LinesOfFlow of_flow = trace_flow(input, *field, seeds, options, view_trace_options(options, *field), false,
                                    &context.progress);
+  if (!of_flow.memory_note.empty()) context.console.note(of_flow.memory_note);
   for (const std::string& note : of_flow.notes) context.console.note(note);
   TraceResult& traced = of_flow.result;
   DrawnScene drawn;
@@ -80,6 +83,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.seconds_trace = traced.seconds_prepare + traced.seconds_trace;
   drawn.lines = traced.lines.size();
   drawn.points = traced.points;
+  drawn.seeds_left_out = traced.seeds_left_out;
   drawn.what = counted(drawn.lines, "line");
   if (traced.lines.empty())
     context.console.note("no seed lies in the data: the picture shows the domain alone");
@@ -100,9 +104,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
     if (!note.empty()) context.console.note(note);
   }
   if (!options.hand.path.empty() || !options.touch.fixtures.list.empty()) {
-    const std::vector<PathRow> path =
-        options.hand.path.empty() ? std::vector<PathRow>() : read_probe_path(options.hand.path.string());
-    show_probe(drawn.view, path, mode, options, scalar, field, context);
+    show_probe(drawn, mode, options, scalar, field, context);
   }
   const bool haptic = surfaces || !options.hand.path.empty() || !options.touch.drawn_lines.empty();
   if (options.touch.fade_lines && haptic) fade_lines(drawn.view);

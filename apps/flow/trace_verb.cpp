@@ -141,6 +141,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.kind = traced.kind;
   summary.in_time = traced.in_time;
   summary.advice = advice_for(summary);
+  if (!traced.memory_note.empty()) summary.advice.push_back(traced.memory_note);
   summary.advice.insert(summary.advice.end(), traced.notes.begin(), traced.notes.end());
   summary.failure = failure_of(summary, *field);
   if (!summary.result.outside_seeds.empty()) console.note(outside_text(summary, field->bounds()));

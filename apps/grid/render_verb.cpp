@@ -23,8 +23,9 @@ void check_input(const Document& options, const Input& input) {
 }
 
 /// Adds the surfaces that are felt, and what a hand on the path has felt, where they are asked for.
-void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const TangibleVolume& volume,
+void show_touch(DrawnScene& drawn, const std::vector<HapticMode>& modes, const TangibleVolume& volume,
                 const Document& options, const VerbContext& context) {
+  SceneView& view = drawn.view;
   const HapticMode& mode = find_mode(modes, options.touch.mode);
   if (wants_surfaces(options, mode.name)) {
     const std::string note = show_haptic_surfaces(view, *volume.field, options.touch, &context.progress);
@@ -37,8 +38,9 @@ void show_touch(SceneView& view, const std::vector<HapticMode>& modes, const Tan
        take_fixtures(options.touch, volume.field->bounds(), scene, view, &context.progress))
     context.console.note(note);
   if (options.hand.path.empty()) return;
-  view.probe = probe_after(read_probe_path(options.hand.path.string()), make_chain(mode, scene), scene,
-                           options.touch, view.style);
+  show_hand(std::make_shared<PathHand>(read_probe_path(options.hand.path.string()), make_chain(mode, scene),
+                                       scene, options.touch, view.style),
+            options, drawn);
 }
 
 DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const Document& options,
@@ -59,7 +61,7 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   drawn.view = make_volume_scene(input, volume, options, aspect);
   if (has_regions(*drawn.view.volume)) context.console.note(kRegionsNote);
   if (const std::string note = color_note(*image); !note.empty()) context.console.note(note);
-  if (touched) show_touch(drawn.view, modes, volume, options, context);
+  if (touched) show_touch(drawn, modes, volume, options, context);
   return drawn;
 }
 

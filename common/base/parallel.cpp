@@ -12,6 +12,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "common/base/index.h"
+#include "common/base/job.h"
 #include "common/base/sanitizers.h"
 
 namespace palpate {
@@ -63,6 +64,23 @@ void run_pieces(std::size_t count, int threads, const std::function<void(std::si
 }
 #endif
 
+/// The same in pieces of a job that may be cancelled: it is looked at between them, on whichever thread they are.
+std::function<void(std::size_t, std::size_t)> in_pieces(
+    std::size_t count, int threads, const Progress& job,
+    const std::function<void(std::size_t, std::size_t)>& body) {
+  constexpr std::size_t kPieces = 64;  // a thread
+  const std::size_t piece = std::max<std::size_t>(1, count / (kPieces * as_size(threads)));
+  return [piece, &job, &body](std::size_t first, std::size_t last) {
+    const JobScope scope(&job);
+    while (first < last) {
+      job.check();
+      const std::size_t end = last - first > piece ? first + piece : last;
+      body(first, end);
+      first = end;
+    }
+  };
+}
+
 }  // namespace
 
 int resolve_threads(int threads) {
@@ -72,6 +90,15 @@ int resolve_threads(int threads) {
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& body) {
   if (count == 0) return;
   const int used = resolve_threads(threads);
+  if (const Progress* const job = current_job()) {
+    const auto pieces = in_pieces(count, used, *job, body);
+    if (used == 1) {
+      pieces(0, count);
+    } else {
+      run_pieces(count, used, pieces);
+    }
+    return;
+  }
   if (used == 1) {
     body(0, count);
     return;

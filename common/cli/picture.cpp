@@ -8,6 +8,7 @@
 #include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/base/version.h"
+#include "common/cli/film.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/verbs.h"
 #include "common/compose/appearance.h"
@@ -135,6 +136,11 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
 
 }  // namespace
 
+void show_hand(std::shared_ptr<PathHand> hand, const Document& options, DrawnScene& drawn) {
+  drawn.view.probe = hand->at(options.output.path_frames > 0 ? 0.0 : 1.0);
+  drawn.hand = [hand = std::move(hand)](double part) { return hand->at(part); };
+}
+
 void check_hand(std::span<const HapticMode> modes, const Document& given) {
   if (!given.hand.path.empty()) (void)read_probe_path(given.hand.path.string());
   (void)find_mode(modes, given.touch.mode);
@@ -164,11 +170,22 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     for (const Pane& pane : panes_of(panes, width, height))
       if (!pane.plane) aspect = static_cast<double>(pane.width) / pane.height;
   }
-  if (options.output.file.extension() != ".png" && options.output.file.extension() != ".PNG") {
-    throw usage_error(options.output.file.string() + ": pictures are written as .png");
+  const std::filesystem::path extension = options.output.file.extension();
+  const bool film = asks_for_film(options), encoded = extension == ".mp4" || extension == ".webm";
+  if (encoded && !film) {
+    throw usage_error(options.output.file.string() +
+                      ": a film takes --turntable N, or --path FILE.csv with --path-frames N");
   }
-  for (const ScreenPicture& picture : pictures)
-    check_output(output_of(options.output.file, picture, pictures.size() > 1), options.common.force);
+  if (!encoded && extension != ".png" && extension != ".PNG") {
+    throw usage_error(options.output.file.string() + ": pictures are written as .png" +
+                      (film ? ", films as numbered .png, .mp4 or .webm" : ""));
+  }
+  if (film) {
+    check_film(options, pictures.size(), panes.layout);
+  } else {
+    for (const ScreenPicture& picture : pictures)
+      check_output(output_of(options.output.file, picture, pictures.size() > 1), options.common.force);
+  }
   maker.check(options);
 
   Input input = open_input(options, context);
@@ -187,6 +204,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
   summary.field = drawn.field;
   summary.lines = drawn.lines;
   summary.points = drawn.points;
+  summary.seeds_left_out = drawn.seeds_left_out;
   summary.voxels = drawn.voxels;
   summary.volumes = drawn.volumes;
   summary.seconds_trace = drawn.seconds_trace;
@@ -197,6 +215,12 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     summary.picked = pick(scene_of(drawn.view, {}, planes), beam_of_option(options.view, drawn.view));
     if (summary.picked) drawn.view.notes.push_back(note_of(*summary.picked));
     console.print("picked: " + (summary.picked ? name_of(*summary.picked) : std::string("nothing")) + "\n");
+  }
+  if (film) {
+    take_head(pictures.front(), drawn.view);
+    draw_film(drawn, options, context, width, height, summary);
+    console.print_json(render_json(summary));
+    return ExitCode::kDone;
   }
   for (const ScreenPicture& picture : pictures) {
     const auto [across, up] = picture.size;

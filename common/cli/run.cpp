@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/kept_files.h"
+#include "common/base/job.h"
 #include "common/base/ledger.h"
 #include "common/cli/command_line.h"
 #include "common/cli/explorer.h"
@@ -91,6 +92,7 @@ ExitCode run_verb(const Verb& verb, const Document& options, const VerbContext& 
   try {
     check_outputs(options);
     keep_inputs(options.input);
+    const JobScope scope(&context.progress);
     const ExitCode code = verb.run(options, context);
     context.console.finish();
     return code;

@@ -299,10 +299,13 @@ struct RenderSummary {
   int height = 0;
   std::size_t lines = 0;
   std::size_t points = 0;
-  std::size_t voxels = 0;  ///< of a volume
+  std::size_t seeds_left_out = 0;  ///< TraceResult::seeds_left_out
+  std::size_t voxels = 0;          ///< of a volume
   double first_frame_ms = 0.0;
   double frame_ms = 0.0;
   int frames_timed = 0;
+  int frames = 1;                        ///< that were written: of a film more than one
+  double frame_rate = 0.0;               ///< of a film [1/s]
   FrameQuality quality;                  ///< that --frame-budget left
   std::optional<double> expected_error;  ///< RenderedImage::expected_error
   bool timer_query = false;              ///< it was held by timer queries, not by the clock

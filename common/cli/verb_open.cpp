@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/job.h"
 #include "common/base/parallel.h"
 #include "common/cli/draw_example.h"
 #include "common/cli/verbs.h"
@@ -67,6 +68,7 @@ ExitCode run_open(const WindowVerb& verb, const Document& given, const VerbConte
   const auto model = verb.model(options, context.explorer.name);
   request.view.stereo = stereo;
   if (!options.hand.record.empty()) context.interrupt.keep(options.hand.record);
+  const JobScope none(nullptr);  // the window is asked to close, and has jobs of its own
   const WindowOutcome outcome = verb.window.open(*model, options, std::move(request));
   if (haptic) tell_of_touch(outcome, context);
   return InterruptGuard::interrupted() ? ExitCode::kInterrupted : ExitCode::kDone;

@@ -80,6 +80,9 @@ void apply_appearance(const Document& document, SceneView& view) {
   view.show_outline = options.outline;
   view.show_axes = options.axes;
   view.show_color_bar = options.color_bar;
+  view.color_bar_left = options.color_bar_side == "left";
+  view.show_scale_bar = options.scale_bar;
+  view.caption = options.caption;
   view.camera.projection = projection_of(document.volume);
   apply_colors(options, view.style);
   view.style.width = options.line_width.value_or(usual.width);

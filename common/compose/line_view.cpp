@@ -13,10 +13,18 @@
 #include "common/trace/unsteady/trace_unsteady.h"
 
 namespace palpate {
+namespace {
+
+// What lines take that are drawn, of what they take alone: corners, segments and colours, here and on the graphics
+// card. Measured: 390 bytes a point (200 and 1000 seeds in the carotid), of which 56 are the line's.
+constexpr std::uint64_t kDrawnShare = 7;
+
+}  // namespace
 
 TraceOptions view_trace_options(const Document& options, const VectorField& field) {
   TraceOptions trace = trace_options(options, "both");
   if (trace.max_length == 0.0) trace.max_length = kViewDiagonals * field.diagonal();
+  trace.memory = std::max<std::uint64_t>(1, trace.memory / kDrawnShare);
   // Particles go one way in time.
   if (options.tracing.lines != name_of(LineKind::kStreamlines) && trace.forward) trace.backward = false;
   return trace;

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/trace_options.h"
 #include "common/scene/flow_series.h"
 
 namespace palpate {
@@ -43,6 +44,15 @@ void note(const InTime& reported, LineKind kind, double diagonal, std::vector<st
   }
 }
 
+/// How many of how many, and what helps.
+std::string memory_text(const TraceResult& result, std::size_t seeds, const TracingOptions& tracing) {
+  constexpr unsigned kMega = 20;
+  return "lines begin at " + std::to_string(seeds - result.seeds_left_out) + " of " + counted(seeds, "seed") +
+         ", which are spread over all of them: more would take more than the " +
+         std::to_string(line_memory(tracing) >> kMega) +
+         " MB of --memory; raise it, or give fewer --seeds or a shorter --max-length";
+}
+
 }  // namespace
 
 void check_lines(const TracingOptions& tracing, const SeedSpec& seeds) {
@@ -61,6 +71,7 @@ LinesOfFlow trace_flow(Input& input, const VectorField& field, std::span<const V
   lines.kind = line_kind_from_name(tracing.lines);
   if (lines.kind == LineKind::kStreamlines) {
     lines.result = trace_lines(field, seeds, trace, progress);
+    if (lines.result.seeds_left_out > 0) lines.memory_note = memory_text(lines.result, seeds.size(), tracing);
     return lines;
   }
   FlowSeries series(input, trace.threads);

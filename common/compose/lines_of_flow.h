@@ -20,6 +20,7 @@ struct LinesOfFlow {
   LineKind kind = LineKind::kStreamlines;
   InTime in_time;                  ///< of all kinds but streamlines
   std::vector<std::string> notes;  ///< what is to be known of lines in time
+  std::string memory_note;         ///< how many seeds began no line for want of memory; empty: none
 };
 
 /// Refuses what can be refused before any work is done.

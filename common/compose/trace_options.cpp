@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/error.h"
+#include "common/base/memory.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -23,6 +24,14 @@ StopRule stop_plane(const std::string& text) {
 
 }  // namespace
 
+std::uint64_t line_memory(const TracingOptions& tracing) {
+  constexpr double kMega = 1024.0 * 1024.0;
+  constexpr std::uint64_t kShare = 4;
+  if (tracing.memory > 0.0)
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(kMega * tracing.memory));
+  return machine_memory() / kShare;
+}
+
 TraceOptions trace_options(const Document& options, const std::string& default_direction) {
   const TracingOptions& tracing = options.tracing;
   TraceOptions trace;
@@ -35,6 +44,7 @@ TraceOptions trace_options(const Document& options, const std::string& default_d
   trace.max_length = tracing.max_length;
   trace.max_time = tracing.max_time;
   trace.max_steps = tracing.max_steps;
+  trace.memory = line_memory(tracing);
   for (const std::string& plane : tracing.stop_planes) trace.stop_rules.push_back(stop_plane(plane));
   trace.threads = options.common.threads;
   return trace;

@@ -1,7 +1,7 @@
 /// What the options of tracing mean to the tracer.
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "common/scene/document/document.h"
@@ -9,6 +9,9 @@
 #include "common/trace/trace.h"
 
 namespace palpate {
+
+/// `--memory` in bytes: what lines may take, of a machine that is not told a quarter of its memory.
+[[nodiscard]] std::uint64_t line_memory(const TracingOptions& tracing);
 
 /// Reads `--direction`, `--integrator` and the limits.
 /// @param default_direction where `--direction` is not given.

@@ -38,6 +38,9 @@ void keep_appearance(const SceneView& view, Document& document) {
   kept.outline = view.show_outline;
   kept.axes = view.show_axes;
   kept.color_bar = view.show_color_bar;
+  kept.color_bar_side = view.color_bar_left ? "left" : "right";
+  kept.scale_bar = view.show_scale_bar;
+  kept.caption = view.caption;
   kept.color_map = style.color_map ? name_of(*style.color_map) : std::string_view();
   if (range_of(kept) != style.range) {
     kept.range = style.range ? exact_number(style.range->lower) + "," + exact_number(style.range->upper)

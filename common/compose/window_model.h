@@ -96,6 +96,8 @@ struct SceneState {
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too
   std::size_t outside_seeds = 0;
+  std::size_t seeds_left_out = 0;  ///< that began no line, for want of memory
+  std::string memory_note;         ///< which of `notes` says so; empty: none left out
   LineErrors line_errors;
   bool joined = false;  ///< of open(): the files came beside what was open, in place of nothing
   double seconds_load = 0.0;

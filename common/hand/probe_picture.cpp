@@ -1,6 +1,9 @@
 #include "common/hand/probe_picture.h"
 
+#include <cmath>
+#include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "common/base/index.h"
@@ -35,38 +38,68 @@ std::vector<std::string> take_fixtures(const TouchOptions& options, const Box& b
   return notes;
 }
 
-ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                      const TouchOptions& options, const LineStyle& style) {
-  const DeviceLimits limits = touch_limits(options);
-  const Workspace& workspace = scene.workspace;
-  constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
-  ProbeView view;
-  view.force_cap = limits.force_cap;
-  const auto taken = std::make_shared<ProbePath>();
-  HandStepper stepper(std::move(made.chain), limits);
+struct PathHand::State {
+  std::vector<PathRow> path;
+  HapticScene scene;
+  TouchOptions options;
+  LineStyle style;
+  HandStepper stepper;
+  std::optional<FollowedCurve> followed;
+  std::size_t next = 0;  ///< row
   HandStep step;
-  for (const PathRow& row : path) {
+  ProbeView view;
+  std::shared_ptr<ProbePath> taken = std::make_shared<ProbePath>();
+
+  void go_on() {
+    constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
+    const Workspace& workspace = scene.workspace;
+    const PathRow& row = path[next++];
     HandInput hand{.time = row.time, .present = true};
     hand.sample = {row.time, workspace.workspace_from_data(row.position), row.buttons};
     step = stepper.step(hand);
     if (step.chain.jumped || step.state == HoldState::kFault) taken->append(Vec3{kNotThere}, 0.0);
-    if (step.chain.links == 0) continue;
+    if (step.chain.links == 0) return;
     view.probe = workspace.data_from_workspace(step.probe);
     view.proxy = workspace.data_from_workspace(step.chain.proxies[0]);
     view.force = glm::length(step.force);
     taken->append(view.proxy, view.force);
   }
-  view.links = link_proxies(step.chain, workspace);
-  if (options.show_path) view.path = PathView{taken, taken->size(), std::nullopt};
-  if (scene.field) {
+};
+
+PathHand::PathHand(std::vector<PathRow> path, HapticChain made, const HapticScene& scene,
+                   const TouchOptions& options, const LineStyle& style)
+    : state_(new State{.path = std::move(path),
+                       .scene = scene,
+                       .options = options,
+                       .style = style,
+                       .stepper = HandStepper(std::move(made.chain), touch_limits(options)),
+                       .followed = {},
+                       .step = {},
+                       .view = {}}) {
+  if (made.followed) state_->followed.emplace(made.followed);
+  state_->view.force_cap = touch_limits(options).force_cap;
+}
+
+PathHand::~PathHand() = default;
+
+ProbeView PathHand::at(double part) {
+  State& s = *state_;
+  if (!s.path.empty()) {
+    const double until = std::lerp(s.path.front().time, s.path.back().time, part);
+    while (s.next < s.path.size() && (part >= 1.0 || s.next == 0 || s.path[s.next].time <= until)) s.go_on();
+  }
+  const Workspace& workspace = s.scene.workspace;
+  ProbeView view = s.view;
+  view.links = link_proxies(s.step.chain, workspace);
+  if (s.options.show_path) view.path = PathView{s.taken, s.taken->size(), std::nullopt};
+  if (s.scene.field) {
     CellHint hint;
-    const VectorSample sample = scene.field->sample(view.proxy, hint);
+    const VectorSample sample = s.scene.field->sample(view.proxy, hint);
     if (sample.status == SampleStatus::kOk) view.velocity = sample.value;
   }
-  if (made.followed) {
-    FollowedCurve curve(made.followed);
-    curve.update(options.stream_balls ? ball_interval(*scene.field, workspace) : 0.0, style);
-    view.followed = curve.drawn();
+  if (s.followed) {
+    s.followed->update(s.options.stream_balls ? ball_interval(*s.scene.field, workspace) : 0.0, s.style);
+    view.followed = s.followed->drawn();
   }
   return view;
 }

@@ -1,7 +1,7 @@
 /// What the picture shows of a hand that has followed a recorded path: the headless twin of the window.
 #pragma once
 
-#include <span>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,11 +25,25 @@ namespace palpate {
 [[nodiscard]] std::vector<std::string> take_fixtures(const TouchOptions& options, const Box& bounds,
                                                      HapticScene& scene, SceneView& view, Progress* progress);
 
-/// Runs `made` along the path, a step a row, and describes the hand at its end: probe and proxies, the
-/// line that is followed then, and where the first proxy has been.
-/// @param options say what the hand can bear, and what of it is shown. @param style of the scene's lines.
-[[nodiscard]] ProbeView probe_after(std::span<const PathRow> path, HapticChain made, const HapticScene& scene,
-                                    const TouchOptions& options, const LineStyle& style);
+/// A hand that follows a recorded path through a chain, a step a row, as far as it is asked to.
+class PathHand {
+ public:
+  /// @param options say what the hand can bear, and what of it is shown. @param style of the scene's lines.
+  PathHand(std::vector<PathRow> path, HapticChain made, const HapticScene& scene, const TouchOptions& options,
+           const LineStyle& style);
+  ~PathHand();
+  PathHand(const PathHand&) = delete;
+  PathHand& operator=(const PathHand&) = delete;
+
+  /// Goes on to where `part` of the path's time is over, and describes the hand there: probe and proxies, the line that
+  /// is followed then, and where the first proxy has been. A hand does not go back.
+  /// @param part in [0, 1]; 1 is the last row, whatever its time.
+  [[nodiscard]] ProbeView at(double part);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// The speed for which a velocity's arrow has its full length: that of the fastest lines, without outliers.
 [[nodiscard]] double reference_speed(const SceneView& view);

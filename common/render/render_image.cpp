@@ -78,4 +78,23 @@ RenderedImage render_image(const SceneView& view, int width, int height, int rep
   return result;
 }
 
+struct ImageSequence::State {
+  OffscreenContext context;
+  SceneRenderer renderer;
+  std::string description = gl_description();
+  double milliseconds = 0.0;
+};
+
+ImageSequence::ImageSequence() : state_(std::make_unique<State>()) {}
+ImageSequence::~ImageSequence() = default;
+
+Image ImageSequence::draw(const SceneView& view, int width, int height) {
+  state_->renderer.draw(view, width, height);
+  state_->milliseconds = state_->renderer.finish();
+  return state_->renderer.read();
+}
+
+double ImageSequence::milliseconds() const noexcept { return state_->milliseconds; }
+const std::string& ImageSequence::renderer() const noexcept { return state_->description; }
+
 }  // namespace palpate

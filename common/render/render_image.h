@@ -1,6 +1,7 @@
 /// Pictures without a display.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,5 +37,26 @@ struct RenderedImage {
 /// @throws Error (usage) for a size that cannot be drawn, (work failed) where OpenGL is not available.
 [[nodiscard]] RenderedImage render_image(const SceneView& view, int width, int height, int repeat = 0,
                                          double budget = 0.0, bool error = false);
+
+/// Draws one picture after another off-screen; what stays the same from one to the next stays on the graphics card. Used
+/// by one thread, on which its context is current while it lives.
+class ImageSequence {
+ public:
+  /// @throws Error (work failed) where OpenGL is not available.
+  ImageSequence();
+  ~ImageSequence();
+  ImageSequence(const ImageSequence&) = delete;
+  ImageSequence& operator=(const ImageSequence&) = delete;
+
+  /// @throws Error (usage) for a size that cannot be drawn.
+  [[nodiscard]] Image draw(const SceneView& view, int width, int height);
+  /// That the last one took [ms].
+  [[nodiscard]] double milliseconds() const noexcept;
+  [[nodiscard]] const std::string& renderer() const noexcept;  ///< the OpenGL driver
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace palpate

@@ -13,8 +13,9 @@ bool same_picture(const SceneView& a, const SceneView& b) {
   return a.lines == b.lines && a.style == b.style && a.camera == b.camera && a.stereo == b.stereo &&
          a.bounds.lower == b.bounds.lower && a.bounds.upper == b.bounds.upper && a.units == b.units &&
          a.background == b.background && a.show_outline == b.show_outline && a.show_axes == b.show_axes &&
-         a.show_color_bar == b.show_color_bar && a.title == b.title && a.subtitle == b.subtitle &&
-         a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
+         a.show_color_bar == b.show_color_bar && a.color_bar_left == b.color_bar_left &&
+         a.show_scale_bar == b.show_scale_bar && a.caption == b.caption && a.title == b.title &&
+         a.subtitle == b.subtitle && a.outline == b.outline && a.probe.has_value() == b.probe.has_value() &&
          (!a.probe || same_picture(*a.probe, *b.probe)) && a.volume.has_value() == b.volume.has_value() &&
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
          a.slice == b.slice && a.regions == b.regions && a.notes == b.notes && a.labels == b.labels &&

@@ -74,8 +74,11 @@ struct SceneView {
   bool show_outline = true;
   bool show_axes = true;
   bool show_color_bar = true;
-  std::string title;     ///< top left; empty: none
-  std::string subtitle;  ///< smaller, below it
+  bool color_bar_left = false;  ///< colour bars and legends are at the left border
+  bool show_scale_bar = false;  ///< of a round length, of what lies in the plane of the focal point
+  std::string caption;          ///< words at the lower border, in the middle; empty: none
+  std::string title;            ///< top left; empty: none
+  std::string subtitle;         ///< smaller, below it
   Camera camera;
   double aspect =
       1.5;  ///< width / height of the window's picture, for one eye, for which a kept zoom is stated

@@ -5,7 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
@@ -53,6 +55,49 @@ void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
     }
     if (progress != nullptr && n % kStepsBetweenChecks == 0) progress->check();
   }
+}
+
+/// Seeds in the order in which they are begun, a batch at a time: any beginning of it is spread over all of them.
+class SeedOrder {
+ public:
+  explicit SeedOrder(std::size_t count) : count_(count) {
+    constexpr double kGolden = 0.6180339887498949;
+    stride_ = std::max<std::size_t>(1, static_cast<std::size_t>(kGolden * static_cast<double>(count)));
+    while (std::gcd(stride_, std::max<std::size_t>(1, count)) != 1) ++stride_;
+  }
+
+  [[nodiscard]] std::size_t begun() const noexcept { return begun_; }
+  [[nodiscard]] std::size_t left() const noexcept { return count_ - begun_; }
+
+  /// The next `size` ones by number: neighbours are traced one after the other. @pre size <= left().
+  [[nodiscard]] std::vector<std::size_t> take(std::size_t size) {
+    std::vector<std::size_t> batch(size);
+    for (std::size_t& seed : batch) {
+      seed = next_;
+      next_ = (next_ + stride_) % count_;
+    }
+    std::sort(batch.begin(), batch.end());
+    begun_ += size;
+    return batch;
+  }
+
+ private:
+  std::size_t count_, stride_ = 1, next_ = 0, begun_ = 0;
+};
+
+std::uint64_t bytes_of(const Line& line) { return sizeof(Line) + sizeof(LinePoint) * line.points.size(); }
+
+/// Of how many seeds the next batch is, where those before it took `bytes` of `memory` (0: no limit).
+std::size_t batch_size(const SeedOrder& order, std::uint64_t bytes, std::uint64_t memory) {
+  constexpr std::size_t kLeast = 64;
+  constexpr double kSure = 0.8, kCareful = 0.5;  // of the room, since lines differ in length
+  if (memory == 0) return order.left();
+  if (order.begun() == 0) return std::min(kLeast, order.left());
+  const double mean = static_cast<double>(bytes) / static_cast<double>(order.begun());
+  const double room = static_cast<double>(memory - bytes), left = static_cast<double>(order.left());
+  if (mean * left <= kSure * room) return order.left();
+  return std::clamp(static_cast<std::size_t>(kCareful * room / mean), std::min(kLeast, order.left()),
+                    order.left());
 }
 
 void check_options(const VectorField& field, const TraceOptions& options, Integrator integrator) {
@@ -123,15 +168,17 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   if (progress != nullptr) progress->begin("tracing", seeds.size());
   const std::size_t per_seed = (options.forward ? 1u : 0u) + (options.backward ? 1u : 0u);
   std::vector<Line> lines(seeds.size() * per_seed);
-  std::vector<std::uint8_t> inside(seeds.size(), 0);
+  std::vector<std::uint8_t> inside(seeds.size(), 0), begun(seeds.size(), 0);
   std::atomic<std::int64_t> steps{0}, stiff_steps{0};
-  parallel_for(seeds.size(), options.threads, [&](std::size_t first, std::size_t last) {
+  std::vector<std::size_t> batch;
+  const auto trace_batch = [&](std::size_t first, std::size_t last) {
     struct Tracer {
       std::unique_ptr<LineWalk> walk;
       LineBuilder builder;
     };
     std::array<std::optional<Tracer>, 2> tracers;
-    for (std::size_t seed = first; seed < last; ++seed) {
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t seed = batch[i];
       if (progress != nullptr) progress->check();
       const Vec3 x = frame.local_from_data(seeds[seed]);
       std::size_t slot = seed * per_seed;
@@ -151,9 +198,23 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
       }
       if (progress != nullptr) progress->advance();
     }
-  });
+  };
+  std::uint64_t bytes = 0;
+  for (SeedOrder order(seeds.size()); order.left() > 0;) {
+    if (options.memory > 0 && bytes >= options.memory) {
+      result.seeds_left_out = order.left();
+      break;
+    }
+    batch = order.take(batch_size(order, bytes, options.memory));
+    for (const std::size_t seed : batch) begun[seed] = 1;
+    parallel_for(batch.size(), options.threads, trace_batch);
+    for (const std::size_t seed : batch) {
+      for (std::size_t i = 0; i < per_seed; ++i) bytes += bytes_of(lines[seed * per_seed + i]);
+    }
+  }
 
   for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+    if (begun[seed] == 0) continue;
     if (inside[seed] == 0) {
       result.outside_seeds.push_back(static_cast<std::uint32_t>(seed));
       continue;

@@ -44,6 +44,9 @@ struct TraceOptions {
   double max_length = 0.0;  ///< data units; 0: 10 diagonals
   double max_time = 0.0;    ///< data units; 0: no limit
   std::int64_t max_steps = 1'000'000;
+  /// That the lines may take [bytes]; 0: no limit. Once they take more, the seeds that are left begin no line. Those are
+  /// spread over all seeds, and the same ones for any number of threads.
+  std::uint64_t memory = 0;
   std::vector<StopRule> stop_rules;
   int threads = 0;  ///< 0: all cores; the lines do not depend on it
 };
@@ -51,6 +54,7 @@ struct TraceOptions {
 struct TraceResult {
   std::vector<Line> lines;                   ///< by seed; forward before backward
   std::vector<std::uint32_t> outside_seeds;  ///< seeds in no cell: they give no line
+  std::size_t seeds_left_out = 0;            ///< that were not begun, for TraceOptions::memory
   std::array<std::size_t, kEndCount> ends{};
   std::size_t points = 0;
   LineErrors errors;

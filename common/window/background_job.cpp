@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "common/base/check.h"
+#include "common/base/job.h"
 
 namespace palpate {
 namespace {
@@ -25,6 +26,7 @@ void BackgroundJob::start(Work work) {
   ended_.store(false);
   started_ = now();
   thread_ = std::thread([this, work = std::move(work), progress = progress_, outcome = outcome_] {
+    const JobScope scope(progress.get());
     try {
       outcome->scene = work(*progress);
     } catch (...) {

@@ -51,6 +51,7 @@ void ExplorerWindow::adopt(SceneState scene) {
     // What is so of the input at all waits behind a button; what comes up later is a banner.
     state_.closed_notes = {scene_->notes.begin(), scene_->notes.end()};
     state_.closed_notes.insert(scene_->volume_notes.begin(), scene_->volume_notes.end());
+    state_.closed_notes.erase(scene_->memory_note);  // lines are missing
     for (const auto* notes : {&scene_->notes, &scene_->volume_notes}) {
       for (const std::string& note : *notes) state_.log.add(note, false);
     }

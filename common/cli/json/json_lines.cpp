@@ -49,6 +49,7 @@ std::string trace_json(const TraceSummary& summary) {
             {"field", summary.field},
             {"out", summary.output.empty() ? Json(nullptr) : Json(summary.output)},
             {"seeds", summary.seeds},
+            {"seeds_left_out", result.seeds_left_out},
             {"seeds_outside", result.outside_seeds.size()},
             {"first_outside", positions_json(result.outside_seeds, summary.seed_points)},
             {"lines", result.lines.size()},

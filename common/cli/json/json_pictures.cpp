@@ -16,6 +16,7 @@ std::string render_json(const RenderSummary& summary) {
             {"height", summary.height},
             {"lines", summary.lines},
             {"points", summary.points},
+            {"seeds_left_out", summary.seeds_left_out},
             {"voxels", summary.voxels},
             {"first_frame_ms", summary.first_frame_ms},
             {"frame_ms", summary.frame_ms},
@@ -33,6 +34,12 @@ std::string render_json(const RenderSummary& summary) {
             {"seconds_trace", summary.seconds_trace},
             {"renderer", summary.renderer},
             {"version", version()}};
+  if (summary.frames > 1) {
+    json["frames"] = summary.frames;
+    json["frame_rate"] = summary.frame_rate;
+    json.erase("image_error");  // is told of pictures
+    json.erase("image_error_kind");
+  }
   if (summary.expected_error) json["quality"]["expected_error"] = *summary.expected_error;
   if (const BrickShare& bricks = summary.bricks; bricks.all > 0)
     json["bricks"] = {{"held", bricks.held},       {"wanted", bricks.wanted}, {"all", bricks.all},

@@ -13,6 +13,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/job.h"
 #include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
@@ -31,12 +32,22 @@ constexpr double kTolerance = 1e-8;
 constexpr int kMostIterations = 20'000;
 
 using Matrix = Eigen::SparseMatrix<double>;
+/// The factor, which is asked once in each iteration: a job that is cancelled meanwhile ends there.
+class CheckedFactor : public Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>> {
+ public:
+  using IncompleteCholesky::IncompleteCholesky;
+
+  template <typename Right>
+  [[nodiscard]] auto solve(const Eigen::MatrixBase<Right>& right) const {
+    check_job();
+    return IncompleteCholesky::solve(right);
+  }
+};
+
 /// Conjugate gradients with an incomplete Cholesky factor, which Eigen scales by the columns and shifts until it
 /// exists. In the order of the points: one that saves fill in a full factor spoils an incomplete one (four times
 /// the iterations on a million tetrahedra).
-class Solver : public Eigen::ConjugateGradient<
-                   Matrix, Eigen::Lower | Eigen::Upper,
-                   Eigen::IncompleteCholesky<double, Eigen::Lower, Eigen::NaturalOrdering<int>>> {
+class Solver : public Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper, CheckedFactor> {
  public:
   explicit Solver(const Matrix& matrix) {
     setTolerance(kTolerance);

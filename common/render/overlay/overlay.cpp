@@ -14,6 +14,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/render/font.h"
 #include "common/render/overlay/overlay_colors.h"
 #include "common/render/overlay/overlay_pen.h"
@@ -93,6 +94,60 @@ void draw_axes(const OverlayPen& pen, const SceneView& view, int height) {
     const float reach = arm + 0.62F * em;
     pen.text(origin.x + reach * dx, origin.y + reach * dy - 0.55F * em, axis.name, axis.color, 0.5F);
   }
+}
+
+// The lower border of what lies over the picture: above a patient's letter there.
+float foot_of(const OverlayPen& pen, const SceneView& view, int height) {
+  constexpr float kRoom = 1.2F, kLetter = 1.8F;  // heights of the text
+  return static_cast<float>(height) - (kRoom + (view.anatomical ? kLetter : 0.0F)) * pen.text_height();
+}
+
+// Lines of words that are no wider than `widest`, unless a word is.
+std::vector<std::string> wrapped(const std::string& words, float widest) {
+  std::vector<std::string> lines;
+  for (const std::string_view word : split(words, ' ')) {
+    const std::string longer = lines.empty() ? std::string(word) : lines.back() + " " + std::string(word);
+    if (lines.empty() || OverlayPen::size_of(longer).x > widest) {
+      lines.emplace_back(word);
+    } else {
+      lines.back() = longer;
+    }
+  }
+  return lines;
+}
+
+// Between the axes and the scale.
+void draw_caption(const OverlayPen& pen, const SceneView& view, int width, int height) {
+  constexpr float kShare = 0.5F, kLine = 1.3F;  // of the width; heights of the text
+  const std::vector<std::string> lines = wrapped(view.caption, kShare * static_cast<float>(width));
+  float y = foot_of(pen, view, height) - kLine * pen.text_height() * static_cast<float>(lines.size());
+  for (const std::string& line : lines) {
+    pen.text(0.5F * static_cast<float>(width), y, line, pen.ink(), 0.5F);
+    y += kLine * pen.text_height();
+  }
+}
+
+// A round length in the lower right corner, as long as things are in the plane of the focal point.
+void draw_scale_bar(const OverlayPen& pen, const SceneView& view, int width, int height) {
+  constexpr double kLongest = 0.2;  // of the width
+  const double pixel = view.camera.view_height / height;
+  const double longest = kLongest * width * pixel;
+  if (!(longest > 0.0) || !std::isfinite(longest)) return;
+  double length = std::pow(10.0, std::floor(std::log10(longest)));
+  for (const double step : {5.0, 2.0}) {
+    if (step * length <= longest) {
+      length *= step;
+      break;
+    }
+  }
+  const float em = pen.text_height(), right = static_cast<float>(width) - 1.2F * em;
+  const float y = foot_of(pen, view, height), left = right - static_cast<float>(length / pixel);
+  const float thickness = std::max(1.5F, 0.13F * em), end = 0.35F * em;
+  pen.list().AddLine({left, y}, {right, y}, pen.ink(), thickness);
+  for (const float x : {left, right}) pen.list().AddLine({x, y - end}, {x, y + end}, pen.ink(), thickness);
+  const std::string unit = length_unit(view);
+  pen.text(0.5F * (left + right), y - 1.5F * em, short_number(length) + (unit.empty() ? "" : " " + unit),
+           pen.ink(), 0.5F);
 }
 
 // A place in the picture where words may stand: [pixels]; none behind the eye or far outside.
@@ -275,6 +330,8 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   if (view.anatomical) draw_sides(pen, view, width, height);
   draw_notes(pen, view, width, height);
   if (view.probe) draw_probe_text(pen, view, width, height);
+  if (!view.caption.empty()) draw_caption(pen, view, width, height);
+  if (view.show_scale_bar) draw_scale_bar(pen, view, width, height);
   if (view.show_color_bar) draw_colors(pen, view, legend, width, height);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

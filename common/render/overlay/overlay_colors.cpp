@@ -241,10 +241,16 @@ ColumnPlace column_place(std::size_t count, std::size_t which) {
   return count == 3 ? kThree[which] : ColumnPlace{0.5F, 0.46F};
 }
 
-}  // namespace
+// From the right border to the left one: all that was drawn since there were `first` corners.
+void move_to_left(const OverlayPen& pen, int first, float left) {
+  ImVector<ImDrawVert>& corners = pen.list().VtxBuffer;
+  float least = HUGE_VALF;
+  for (int i = first; i < corners.Size; ++i) least = std::min(least, corners[i].pos.x);
+  for (int i = first; i < corners.Size; ++i) corners[i].pos.x += left - least;
+}
 
-void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend& legend, int width,
-                 int height) {
+void draw_at_right(const OverlayPen& pen, const SceneView& view, const ColorLegend& legend, int width,
+                   int height) {
   const float em = pen.text_height(), h = static_cast<float>(height);
   // Room for the letter of the right border.
   const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
@@ -296,6 +302,17 @@ void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend
     const ColumnPlace place = column_place(columns.size(), i);
     columns[i](place.middle * h, place.length * h);
   }
+}
+
+}  // namespace
+
+void draw_colors(const OverlayPen& pen, const SceneView& view, const ColorLegend& legend, int width,
+                 int height) {
+  const int first = pen.list().VtxBuffer.Size;
+  draw_at_right(pen, view, legend, width, height);
+  // Right of the letter of the left border.
+  if (view.color_bar_left)
+    move_to_left(pen, first, std::round((view.anatomical ? 3.6F : 1.2F) * pen.text_height()));
 }
 
 }  // namespace palpate

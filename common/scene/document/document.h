@@ -44,6 +44,7 @@ struct TracingOptions {
   std::optional<double> release_from;    ///< UnsteadyOptions::from; absent: the time of the input
   double release_every = 0.0;            ///< UnsteadyOptions::every
   std::optional<double> until;           ///< UnsteadyOptions::until
+  double memory = 0.0;                   ///< that lines may take [2^20 bytes]; 0: a quarter of the machine's
 
   bool operator==(const TracingOptions&) const = default;
 };
@@ -73,25 +74,28 @@ struct TractTracingOptions {
 struct ViewOptions {
   std::string camera;  ///< azimuth,elevation,roll,zoom in degrees; empty: the default view
   std::string focal;   ///< x,y,z in the middle of the picture; empty: the middle of what is shown
-  std::string background = "dark";   ///< grammar of parse_background()
-  bool outline = true;               ///< edges of the domain
-  bool axes = true;                  ///< with the scale
-  bool color_bar = true;             ///< and other legends
-  std::string color;                 ///< array that colours the lines; empty: speed
-  std::string color_map;             ///< name_of(ColorMap); empty: default_color_map()
-  std::string range;                 ///< lower,upper: what colours spread over; empty: found
-  std::optional<bool> log_colors;    ///< LineStyle::logarithmic
-  std::optional<double> line_width;  ///< LineStyle::width; absent: as the kind of data has it
-  double line_opacity = 1.0;         ///< LineStyle::opacity
-  std::optional<bool> halos;         ///< LineStyle::halo; absent: as the kind of data has it
-  bool depth_cue = true;             ///< LineStyle::depth_cue
-  double frame_budget = 0.0;         ///< [ms] that a picture may take while something moves; 0: the default
-  bool converged = false;            ///< a picture of a volume as a window refines it at rest
-  double play_rate = 5.0;            ///< time steps a second
-  std::string stereo = "none";       ///< kStereoModeNames
-  double eye_separation = 63.0;      ///< [mm]
-  double eye_distance = 600.0;       ///< between eyes and screen [mm]
-  double disparity_limit = 1.0;      ///< [degrees]
+  std::string background = "dark";       ///< grammar of parse_background()
+  bool outline = true;                   ///< edges of the domain
+  bool axes = true;                      ///< their directions
+  bool color_bar = true;                 ///< and other legends
+  std::string color_bar_side = "right";  ///< right, left
+  bool scale_bar = false;                ///< SceneView::show_scale_bar
+  std::string caption;                   ///< SceneView::caption
+  std::string color;                     ///< array that colours the lines; empty: speed
+  std::string color_map;                 ///< name_of(ColorMap); empty: default_color_map()
+  std::string range;                     ///< lower,upper: what colours spread over; empty: found
+  std::optional<bool> log_colors;        ///< LineStyle::logarithmic
+  std::optional<double> line_width;      ///< LineStyle::width; absent: as the kind of data has it
+  double line_opacity = 1.0;             ///< LineStyle::opacity
+  std::optional<bool> halos;             ///< LineStyle::halo; absent: as the kind of data has it
+  bool depth_cue = true;                 ///< LineStyle::depth_cue
+  double frame_budget = 0.0;     ///< [ms] that a picture may take while something moves; 0: the default
+  bool converged = false;        ///< a picture of a volume as a window refines it at rest
+  double play_rate = 5.0;        ///< time steps a second
+  std::string stereo = "none";   ///< kStereoModeNames
+  double eye_separation = 63.0;  ///< [mm]
+  double eye_distance = 600.0;   ///< between eyes and screen [mm]
+  double disparity_limit = 1.0;  ///< [degrees]
   bool swap_eyes = false;
   /// Where the head is before a screen: x,y,z[,qw,qx,qy,qz] of a tracker [m], replay:FILE.csv, and in windows
   /// hands, or a tracker by its driver; empty: none, or in windows as the workbench says.
@@ -276,6 +280,9 @@ struct OutputOptions {
   std::filesystem::path density;      ///< tracts: where lines a voxel are written; empty: nowhere
   std::string size;                   ///< WxH; empty: 1280x960, or that of the screen
   int repeat = 0;                     ///< render: frames to be timed after the first one
+  int turntable = 0;                  ///< render: frames of a turn of the camera; 0: no film
+  int path_frames = 0;                ///< render: frames along the path of the hand; 0: no film
+  double frame_rate = 25.0;           ///< render: of a film [1/s]
   std::string effort = "normal";      ///< effort_from_name()
   std::string convention = "mrtrix";  ///< fit, measure: mrtrix, fsl
   std::string measure = "fa";         ///< measure: name_of(TensorMeasure)

@@ -132,6 +132,21 @@ const Setting kTracingRows[] = {
      .unit = "data units",
      .otherwise = "the last time, of streaklines and timelines that of --time, in windows of the slider"},
 
+    {.name = "memory",
+     .place = kLineAt<&TracingOptions::memory>,
+     .help =
+         "memory that lines may take, with what drawing them takes: once they take more, the seeds that are left begin "
+         "no line, which is said; those that have begun are spread over all of them",
+     .value = "MB",
+     .heading = "Lines",
+     .groups = {Group::kLines},
+     .kinds = kFlows,
+     .unit = "MB",
+     .range = {.lower = 1.0, .upper = 1e9},
+     .slider = {.lower = 64.0, .upper = 262144.0},
+     .log_slider = true,
+     .otherwise = "a quarter of the machine's",
+     .title = "Memory of lines"},
     {.name = "seeds",
      .place = kTractAt<&TractTracingOptions::seeds>,
      .help =

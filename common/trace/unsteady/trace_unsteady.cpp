@@ -198,6 +198,23 @@ void carry_all(std::vector<CarriedParticle>& particles, Steps& steps, const Run&
   }
 }
 
+/// All particles advance together: none of them can be left out once they have begun.
+/// @throws Error (work failed) where they take more than `memory` (0: no limit).
+void check_memory(const std::vector<CarriedParticle>& particles, bool keep_points, std::uint64_t memory) {
+  if (memory == 0) return;
+  std::uint64_t bytes = sizeof(CarriedParticle) * particles.size();
+  if (keep_points) {
+    // Nearly every step is a point.
+    for (const CarriedParticle& particle : particles)
+      bytes += sizeof(LinePoint) * static_cast<std::uint64_t>(particle.steps());
+  }
+  if (bytes <= memory) return;
+  constexpr unsigned kMega = 20;
+  throw work_error(counted(particles.size(), "particle") + " take more than " +
+                   std::to_string(memory >> kMega) +
+                   " MB: give fewer --seeds or releases, or raise --memory");
+}
+
 /// How far a particle went another way where every second step was left out, by its age.
 struct Distances {
   std::vector<double> age, distance;
@@ -317,7 +334,8 @@ UnsteadyResult trace_unsteady(std::span<const double> times, const StepReader& r
     return made;
   };
   std::vector<CarriedParticle> particles = make_particles();
-  carry_all(particles, steps, run, trace.threads, {}, reported, progress, [](double) {});
+  carry_all(particles, steps, run, trace.threads, {}, reported, progress,
+            [&](double) { check_memory(particles, pathlines, trace.memory); });
   for (CarriedParticle& particle : particles) {
     if (particle.alive()) particle.finish();
   }

@@ -90,6 +90,13 @@ void draw_appearance(SceneView& view, PanelActions& actions) {
     view.camera.projection = perspective ? Projection::kPerspective : Projection::kOrthographic;
   }
   hint("else lines that are parallel stay parallel");
+  if (view.show_color_bar) {
+    std::string side = view.color_bar_left ? "left" : "right";
+    if (edit_setting("color-bar-side", side)) view.color_bar_left = side == "left";
+  }
+  edit_setting("scale-bar", view.show_scale_bar);
+  input_text("caption", &view.caption);
+  explain("caption");
   choose_background(view.background);
   ImGui::Spacing();
   const float gap = ImGui::GetStyle().ItemSpacing.x;

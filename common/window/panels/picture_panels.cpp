@@ -40,7 +40,10 @@ std::string status_text(const SceneState& scene) {
     return text;
   }
   if (scene.seeds == 0) return scene.lines->empty() ? "" : counted(scene.lines->size(), "line");
-  std::string text = counted(scene.lines->size(), "line") + " from " + counted(scene.seeds, "seed");
+  std::string text = counted(scene.lines->size(), "line") + " from ";
+  if (scene.seeds_left_out > 0) text += std::to_string(scene.seeds - scene.seeds_left_out) + " of ";
+  text += counted(scene.seeds, "seed");
+  if (scene.seeds_left_out > 0) text += ", as --memory allows";
   if (scene.outside_seeds > 0) text += " (" + std::to_string(scene.outside_seeds) + " outside)";
   const char* separator = ": ";
   for (int k = 0; k < kEndCount; ++k) {
@@ -231,7 +234,9 @@ void draw_help(PanelState& state, const WindowLayout& layout) {
 /// Read-outs over the picture, below its title: the colour bars are on the other side.
 void draw_readouts(const PanelState& state, const WindowLayout& layout) {
   const float em = ImGui::GetFontSize();
-  const float left = static_cast<float>(layout.picture.left) + em;
+  constexpr float kBars = 9.0F;  // heights of the text
+  const bool beside_bars = state.document.view.color_bar && state.document.view.color_bar_side == "left";
+  const float left = static_cast<float>(layout.picture.left) + (beside_bars ? kBars : 1.0F) * em;
   constexpr float kTitle = 6.0F;  // heights of the text
   float top = static_cast<float>(layout.picture.top) + kTitle * em;
   if (state.touch != nullptr) {

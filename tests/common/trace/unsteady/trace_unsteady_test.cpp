@@ -34,6 +34,21 @@ double worst_error(const UnsteadyResult& result, const std::vector<Vec3>& seeds,
   return worst;
 }
 
+TEST(Pathlines, ThatTakeMoreMemoryThanTheyMayAreRefused) {
+  const std::vector<double> times = test::steps_until(2.0, 24);
+  UnsteadyOptions options{.order = TimeOrder::kLinear, .trace = {}};
+  options.trace.memory = 4096;
+  const StepReader read = test::swinging(test::kGrids[0], times);
+  try {
+    (void)trace_unsteady(times, read, kSeeds, options);
+    ADD_FAILURE() << "nothing was said";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("--memory"), std::string::npos) << error.what();
+  }
+  options.trace.memory = std::uint64_t{1} << 30;
+  EXPECT_EQ(trace_unsteady(times, read, kSeeds, options).trace.lines.size(), kSeeds.size());
+}
+
 TEST(Pathlines, FollowAClosedFormOnEveryGridWithinTheirError) {
   const std::vector<double> times = test::steps_until(2.0, 24);
   for (const Grid grid : test::kGrids) {
