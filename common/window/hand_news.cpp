@@ -12,7 +12,12 @@ void HandNews::follow(const ProbeSession& touch, PanelState& state) {
   }
   if (hand.fault != fault_) {
     fault_ = hand.fault;
-    state.fail(fault_);
+    // Why a file was not opened stays to be read.
+    if (state.error_of_job && !state.error.empty()) {
+      state.say(fault_);
+    } else {
+      state.fail(fault_);
+    }
   }
   if (const std::uint64_t stalls = hand.servo.statistics.stalls; stalls != stalls_) {
     if (stalls > stalls_) state.say("the machine was busy: the servo stood still for a moment");
