@@ -153,16 +153,19 @@ void add_field_rows(std::vector<Extreme>& rows) {
                     return glm::distance(turn.lines.at(0).points.back().position, seeds[0]) /
                            (options.tolerance * kTurn);
                   }});
-  for (const double speed : {1e30, 1e-30}) {
+  // Doubles hold numbers of 1e30, and their squares: what is larger shows whether units are chosen by the data.
+  for (const double speed : {1e200, 1e-200}) {
     rows.push_back({ExtremeKind::kField, "speeds of " + short_number(speed),
                     "eigenvalues 1, -0.7, 0.4 times " + short_number(speed),
                     "distance of exact lines from the closed form", kPromise, kOfDiagonal, [even, speed] {
                       return oblique_error({1.0, -0.7, 0.4}, even, 1.0, speed);
                     }});
-    rows.push_back({ExtremeKind::kField, "lengths of " + short_number(speed),
-                    "eigenvalues 1, -0.7, 0.4, coordinates times " + short_number(speed),
-                    "distance of exact lines from the closed form", kPromise, kOfDiagonal, [even, speed] {
-                      return oblique_error({1.0, -0.7, 0.4}, even, speed, speed);
+  }
+  for (const double length : {1e100, 1e-100}) {
+    rows.push_back({ExtremeKind::kField, "lengths of " + short_number(length),
+                    "eigenvalues 1, -0.7, 0.4, coordinates times " + short_number(length),
+                    "distance of exact lines from the closed form", kPromise, kOfDiagonal, [even, length] {
+                      return oblique_error({1.0, -0.7, 0.4}, even, length, length);
                     }});
   }
   rows.push_back(

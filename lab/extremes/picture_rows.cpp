@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/field/data_set.h"
@@ -77,17 +78,23 @@ double middle_opacity(const FloatImage& image) {
   return image.at(PictureStage::kPixels / 2, PictureStage::kPixels / 2)[3];
 }
 
+/// From the focal point to where the middle of a pixel is seen on the focal plane.
+Vec3 place_of(const Camera& camera, int i, int j) {
+  const auto part = [](int pixel) { return (pixel + 0.5) / PictureStage::kPixels - 0.5; };
+  return camera.view_height * (part(i) * camera.axes[0] + part(j) * camera.axes[1]);
+}
+
+/// Of a way through the matter.
+double opacity_of(double way, double length) { return 1.0 - std::pow(1.0 - kOpacity, way / length); }
+
 using Stage = std::shared_ptr<PictureStage>;
 
-/// A block seen along z, against the closed form; the view may be altered, the picture may not.
-double depth_error(PictureStage& stage, const Block& block,
-                   const std::function<void(VolumeView&)>& alter = {}) {
+/// A block seen along z, against the closed form.
+double depth_error(PictureStage& stage, const Block& block) {
   const double depth = image_of(block)->bounds().size().z, length = 0.5 * depth;
-  VolumeView view = view_of(block, length);
+  const VolumeView view = view_of(block, length);
   const Camera camera = along_z(view);
-  if (alter) alter(view);
-  const double expected = 1.0 - std::pow(1.0 - kOpacity, depth / length);
-  return std::abs(middle_opacity(stage.draw(view, camera)) - expected);
+  return std::abs(middle_opacity(stage.draw(view, camera)) - opacity_of(depth, length));
 }
 
 void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
@@ -139,48 +146,97 @@ void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
   });
 }
 
-void add_lenses(std::vector<Extreme>& rows, const Stage& stage) {
-  // A lens that shows what is shown without it leaves the picture as it is, wherever it lies.
-  const auto lens = [&](const std::string& name, const ConvexShape& shape) {
-    rows.push_back({ExtremeKind::kLens, name, "shows what is shown without it, over 16^3 points of one value",
-                    "opacity against the closed form", kStep, kUnit, [stage, shape] {
-                      return depth_error(*stage, {}, [&](VolumeView& view) {
-                        view.lenses.push_back({.shape = shape});
-                        view.lenses.back().samples_per_voxel = view.samples_per_voxel;
-                        view.lenses.back().shading = view.shading;
-                      });
-                    }});
+/// z between which the line along z through (x, y) lies in a shape; none where the first is not the smaller one.
+using Chord = std::function<std::pair<double, double>(double x, double y)>;
+
+Chord in_ball(const Vec3& center, double radius) {
+  return [=](double x, double y) {
+    const double square = radius * radius - (x - center.x) * (x - center.x) - (y - center.y) * (y - center.y);
+    const double half = square > 0.0 ? std::sqrt(square) : 0.0;
+    return std::pair{center.z - half, center.z + half};
   };
-  lens("on a corner", make_sphere(Vec3(0.0), 0.6));
-  lens("on an edge", make_sphere({0.5, 0.0, 0.0}, 0.6));
-  lens("on the face before", make_sphere({0.5, 0.5, 1.0}, 0.5));
-  lens("that touches the face", make_sphere({0.5, 0.5, 1.5}, 0.5));
-  lens("beside the volume", make_sphere({5.0, 5.0, 5.0}, 1.0));
-  lens("around all of it", make_sphere(Vec3(0.5), 100.0));
-  lens("of no size", make_sphere(Vec3(0.5), 0.0));
-  lens("a millionth wide", make_sphere(Vec3(0.5), 1e-6));
-  lens("a box on its faces", make_box(Vec3(0.5), Mat3(0.5)));
-  lens("a plate a millionth thick",
-       make_box(Vec3(0.5), Mat3(Vec3(0.5, 0, 0), Vec3(0, 0.5, 0), Vec3(0, 0, 1e-6))));
-  // One that cuts all away leaves nothing.
-  rows.push_back({ExtremeKind::kLens, "that cuts all away", "a ball around 16^3 points of one value",
-                  "the brightest number: nothing is to be seen", 0.0, kUnit, [stage] {
-                    VolumeView view = view_of({}, 0.5);
-                    view.lenses.push_back({.shape = make_sphere(Vec3(0.5), 100.0), .cut = true});
-                    return brightest(stage->draw(view, along_z(view)));
-                  }});
+}
+
+Chord in_box(const Vec3& center, const Vec3& half) {
+  return [=](double x, double y) {
+    const bool beside = std::abs(x - center.x) > half.x || std::abs(y - center.y) > half.y;
+    return beside ? std::pair{0.0, 0.0} : std::pair{center.z - half.z, center.z + half.z};
+  };
+}
+
+/// A block of one value in the unit cube, of which a lens cuts away what it holds: each pixel against the closed form.
+double cut_error(PictureStage& stage, const ConvexShape& shape, const Chord& chord) {
+  constexpr double kLength = 0.5;
+  VolumeView view = view_of({}, kLength);
+  view.lenses.push_back({.shape = shape, .cut = true});
+  const Camera camera = along_z(view);
+  const FloatImage image = stage.draw(view, camera);
+  double worst = 0.0;
+  for (int j = 0; j < PictureStage::kPixels; ++j) {
+    for (int i = 0; i < PictureStage::kPixels; ++i) {
+      const Vec3 x = camera.focal_point + place_of(camera, i, j);
+      if (std::min({x.x, x.y, 1.0 - x.x, 1.0 - x.y}) < 0.0) continue;  // beside the cube
+      const auto [from, to] = chord(x.x, x.y);
+      const double way = 1.0 - std::max(0.0, std::min(to, 1.0) - std::max(from, 0.0));
+      worst = std::max(worst, std::abs(image.at(i, j)[3] - opacity_of(way, kLength)));
+    }
+  }
+  return worst;
+}
+
+void add_lenses(std::vector<Extreme>& rows, const Stage& stage) {
+  const auto lens = [&](const std::string& name, const ConvexShape& shape, const Chord& chord) {
+    rows.push_back({ExtremeKind::kLens, name, "cuts away what it holds of 16^3 points of one value",
+                    "opacity of each pixel against the closed form", kStep, kUnit,
+                    [stage, shape, chord] { return cut_error(*stage, shape, chord); }});
+  };
+  const auto ball = [&](const std::string& name, const Vec3& center, double radius) {
+    lens(name, make_sphere(center, radius), in_ball(center, radius));
+  };
+  const auto box = [&](const std::string& name, const Vec3& half) {
+    lens(name, make_box(Vec3(0.5), Mat3(Vec3(half.x, 0, 0), Vec3(0, half.y, 0), Vec3(0, 0, half.z))),
+         in_box(Vec3(0.5), half));
+  };
+  ball("on a corner", Vec3(0.0), 0.6);
+  ball("on an edge", {0.5, 0.0, 0.0}, 0.6);
+  ball("on the face before", {0.5, 0.5, 1.0}, 0.5);
+  ball("that touches the face", {0.5, 0.5, 1.5}, 0.5);
+  ball("beside the volume", {5.0, 5.0, 5.0}, 1.0);
+  ball("around all of it", Vec3(0.5), 100.0);
+  ball("of no size", Vec3(0.5), 0.0);
+  ball("a millionth wide", Vec3(0.5), 1e-6);
+  box("a box on its faces", Vec3(0.5));
+  box("a plate a millionth thick", {0.5, 0.5, 1e-6});
+  box("a plate along the view", {1e-6, 0.5, 0.5});
+}
+
+/// How far the eye's ray through a pixel next to the middle runs in the unit cube, before the eye.
+double way_in_cube(const Camera& camera) {
+  const Vec3 from = eye(camera), aim = camera.focal_point +
+                                       place_of(camera, PictureStage::kPixels / 2, PictureStage::kPixels / 2);
+  const Vec3 way = glm::normalize(aim - from);
+  double first = 0.0, last = HUGE_VAL;
+  for (int a = 0; a < 3; ++a) {
+    const double low = -from[a] / way[a], high = (1.0 - from[a]) / way[a];
+    first = std::max(first, std::min(low, high));
+    last = std::min(last, std::max(low, high));
+  }
+  return std::max(0.0, last - first);
 }
 
 void add_cameras(std::vector<Extreme>& rows, const Stage& stage) {
-  // From within, what lies before the eye: along z from a depth on.
   const auto sound = [&](const std::string& name, const std::string& builder,
                          const std::function<void(Camera&)>& move) {
-    rows.push_back({ExtremeKind::kCamera, name, builder, "the brightest number, none of them NaN", 1.0 + 1e-5,
-                    kUnit, [stage, move] {
-                      const VolumeView view = view_of({}, 0.5);
+    rows.push_back({ExtremeKind::kCamera, name, builder,
+                    "opacity next to the middle against the closed form; no number of the picture is none",
+                    kStep, kUnit, [stage, move] {
+                      constexpr double kLength = 0.5;
+                      const VolumeView view = view_of({}, kLength);
                       Camera camera = make_camera(view.image->bounds(), {}, 1.0);
                       move(camera);
-                      return brightest(stage->draw(view, camera));
+                      const FloatImage image = stage->draw(view, camera);
+                      if (!std::isfinite(brightest(image))) return HUGE_VAL;
+                      return std::abs(middle_opacity(image) - opacity_of(way_in_cube(camera), kLength));
                     }});
   };
   sound("within", "the eye next to the middle of the volume", [](Camera& c) { c.view_height *= 1e-3; });
@@ -210,14 +266,15 @@ void add_cameras(std::vector<Extreme>& rows, const Stage& stage) {
     c.focal_point.z += 100.0;
     c.axes = Mat3(Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, -1));
   });
-  rows.push_back(
-      {ExtremeKind::kCamera, "a thousand times too near", "without perspective, on 16^3 points of one value",
-       "opacity against the closed form", kStep, kUnit, [stage] {
-         const VolumeView view = view_of({}, 0.5);
-         Camera camera = along_z(view);
-         camera.view_height *= 1e-3;
-         return std::abs(middle_opacity(stage->draw(view, camera)) - (1.0 - std::pow(1.0 - kOpacity, 2.0)));
-       }});
+  rows.push_back({ExtremeKind::kCamera, "a thousand times too near",
+                  "without perspective, on 16^3 points of one value", "opacity against the closed form",
+                  kStep, kUnit, [stage] {
+                    constexpr double kLength = 0.5;
+                    const VolumeView view = view_of({}, kLength);
+                    Camera camera = along_z(view);
+                    camera.view_height *= 1e-3;
+                    return std::abs(middle_opacity(stage->draw(view, camera)) - opacity_of(1.0, kLength));
+                  }});
 }
 
 }  // namespace

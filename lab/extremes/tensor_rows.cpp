@@ -81,9 +81,11 @@ void add_eigen_rows(std::vector<Extreme>& rows) {
                     "R diag(w) R^T, R aligned with nothing", "residual of A v = w v and of V^T V = 1", 24.0,
                     "roundings", [values = values] { return eigen_error(values); }});
   }
-  rows.push_back({ExtremeKind::kTensor, "eigenvectors, NaN", "a NaN among the six numbers",
+  // Of a diagonal tensor, where arithmetic would not carry it to the other values.
+  rows.push_back({ExtremeKind::kTensor, "eigenvectors, NaN",
+                  "a NaN among the three numbers of a diagonal tensor",
                   "values that are numbers all the same", 0.0, "values", [] {
-                    Mat3 a = turned({1, 2, 3});
+                    Mat3 a(1.0);
                     a[1][1] = kNaN;
                     const SymmetricEigen found = symmetric_eigen(a);
                     double numbers = 0.0;
@@ -123,19 +125,20 @@ struct FitCase {
   Vec3 values{1.7e-3, 0.3e-3, 0.2e-3};  ///< of the tensor [mm^2/s]
 };
 
-std::vector<float> signals_of(const FitCase& of) {
+/// In single precision but for their scale.
+std::vector<double> signals_of(const FitCase& of) {
   const Mat3 d = turned(of.values);
-  std::vector<float> signals;
+  std::vector<double> signals;
   for (std::size_t i = 0; i < of.table.weightings.size(); ++i) {
     const Vec3& g = of.table.directions[i];
-    signals.push_back(static_cast<float>(of.scale * std::exp(-of.table.weightings[i] * glm::dot(g, d * g))));
+    signals.push_back(of.scale * static_cast<float>(std::exp(-of.table.weightings[i] * glm::dot(g, d * g))));
   }
   return signals;
 }
 
-TensorFit fitted(const FitCase& of, const std::vector<float>& signals) {
+TensorFit fitted(const FitCase& of, const std::vector<double>& signals) {
   const DataArray image = make_array("signals", Association::kPoint, static_cast<int>(signals.size()),
-                                     std::span<const float>(signals));
+                                     std::span<const double>(signals));
   return fit_tensors(image, of.table, {}, {.threads = 1});
 }
 
@@ -160,7 +163,7 @@ void add_fit_rows(std::vector<Extreme>& rows) {
   constexpr double kFloats = 1e-5;
   row("30 directions", "signals of a tensor in single precision", kFloats, {});
   row("6 directions", "as few as determine a tensor", kFloats, {.table = spread_gradients(6)});
-  row("signals of 1e30", "a scale of the signals", kFloats, {.scale = 1e30});
+  row("signals of 1e200", "a scale of the signals, whose squares are no numbers", kFloats, {.scale = 1e200});
   row("signals of 1e-30", "a scale of the signals", kFloats, {.scale = 1e-30});
   row("isotropic", "three equal values", kFloats, {.values = Vec3(1e-3)});
   row("negative", "a value below zero", kFloats, {.values = {1.7e-3, 0.3e-3, -0.1e-3}});
@@ -181,13 +184,13 @@ void add_fit_rows(std::vector<Extreme>& rows) {
                     }
                     return gradient_problem(flat).empty() ? 1.0 : 0.0;
                   }});
-  const auto spoiled = [&](const std::string& name, float value, bool usable) {
+  const auto spoiled = [&](const std::string& name, double value, bool usable) {
     rows.push_back({ExtremeKind::kTensor, "fit, " + name, "one signal of thirty is that",
                     usable ? "voxels whose tensor is not finite, or not counted as lifted"
                            : "voxels that are not counted as unusable",
                     0.0, "voxels", [value, usable] {
                       const FitCase of;
-                      std::vector<float> signals = signals_of(of);
+                      std::vector<double> signals = signals_of(of);
                       signals[7] = value;
                       const TensorFit fit = fitted(of, signals);
                       if (!usable) return fit.unusable == 1 && std::isnan(fit.tensors[0]) ? 0.0 : 1.0;
@@ -197,10 +200,10 @@ void add_fit_rows(std::vector<Extreme>& rows) {
                       return fit.lifted == 1 ? 0.0 : 1.0;
                     }});
   };
-  spoiled("a signal of zero", 0.0F, true);
-  spoiled("a negative signal", -1.0F, true);
-  spoiled("a signal of NaN", std::numeric_limits<float>::quiet_NaN(), false);
-  spoiled("an infinite signal", std::numeric_limits<float>::infinity(), false);
+  spoiled("a signal of zero", 0.0, true);
+  spoiled("a negative signal", -1.0, true);
+  spoiled("a signal of NaN", kNaN, false);
+  spoiled("an infinite signal", std::numeric_limits<double>::infinity(), false);
 }
 
 }  // namespace
