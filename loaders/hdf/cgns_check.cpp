@@ -1,14 +1,18 @@
 #include "loaders/hdf/cgns_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <hdf5.h>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -53,7 +57,7 @@ class CgnsFile {
   }
   /// The whole numbers of a node, few of them.
   [[nodiscard]] std::vector<std::int64_t> numbers(const std::string& node) const {
-    constexpr std::uint64_t kMost = 64;
+    constexpr std::uint64_t kMost = 512;
     const std::uint64_t n = has(node + "/ data") ? count(node) : 0;
     if (n == 0 || n > kMost) return {};
     std::vector<std::int64_t> out(n);
@@ -62,6 +66,22 @@ class CgnsFile {
     H5Dclose(set);
     return read ? out : std::vector<std::int64_t>{};
   }
+  /// The names below a node, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> children(const std::string& node) const {
+    std::vector<std::string> names;
+    const hid_t group = H5Gopen2(file_, node.c_str(), H5P_DEFAULT);
+    if (group < 0) return names;
+    H5Literate(
+        group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr,
+        [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
+          static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+          return 0;
+        },
+        &names);
+    H5Gclose(group);
+    return names;
+  }
+  /// The characters of a node: few of them, too.
   [[nodiscard]] std::string word(const std::string& node) const {
     std::string text;
     for (const std::int64_t c : numbers(node)) text += static_cast<char>(c);
@@ -132,15 +152,112 @@ herr_t check_node(hid_t, const char* name, const H5O_info_t* about, void* data) 
   return 1;
 }
 
+// CGNS SIDS, "Data-name identifiers": the coordinates of other systems.
+constexpr std::array kCurved{"CoordinateR", "CoordinateTheta", "CoordinatePhi"};
+
+/// Whether elements are of volumes: of three dimensions, or faces and cells without a kind.
+bool is_volume(std::int64_t kind) {
+  // ElementType_t: BAR_4 to QUAD_16 stand between volumes of two and three orders.
+  constexpr std::int64_t kFirst = 10, kBar4 = 24, kQuad16 = 28;
+  return kind >= kFirst && (kind < kBar4 || kind > kQuad16);
+}
+
+struct Zone {
+  std::string node;
+  bool of_cells = false;                              ///< it has values of cells
+  std::map<std::string, int> arrays;                  ///< by place and name, how many solutions have them
+  bool has_pointers = false;                          ///< which say what belongs to which time
+  std::int64_t first_volume = -1, first_border = -1;  ///< number of the first element of each
+};
+
+void look_at_solution(const CgnsFile& file, const std::string& node, Zone& zone) {
+  const std::string place = file.has(node + "/GridLocation") ? file.word(node + "/GridLocation") : "Vertex";
+  zone.of_cells = zone.of_cells || place == "CellCenter";
+  for (const std::string& array : file.children(node)) {
+    if (file.label(node + "/" + array) == "DataArray_t") ++zone.arrays[place + "/" + array];
+  }
+}
+
+void look_at_elements(const CgnsFile& file, const std::string& node, Zone& zone) {
+  const std::vector<std::int64_t> about = file.numbers(node), range = file.numbers(node + "/ElementRange");
+  if (about.empty() || range.empty()) return;
+  std::int64_t& first = is_volume(about[0]) ? zone.first_volume : zone.first_border;
+  if (first < 0 || range[0] < first) first = range[0];
+}
+
+// @throws Error (bad input).
+Zone look_at_zone(const CgnsFile& file, const std::string& name, const std::string& node) {
+  Zone zone{.node = node, .arrays = {}};
+  for (const std::string& child : file.children(node)) {
+    const std::string at = node + "/" + child, kind = file.label(at);
+    if (kind == "FlowSolution_t") look_at_solution(file, at, zone);
+    if (kind == "Elements_t") look_at_elements(file, at, zone);
+    if (kind == "ZoneIterativeData_t" && file.has(at + "/FlowSolutionPointers")) zone.has_pointers = true;
+    if (kind != "GridCoordinates_t") continue;
+    for (const char* const curved : kCurved) {
+      if (!file.has(at + "/" + curved)) continue;
+      throw input_error({name, "'" + at + "'", std::string("has ") + curved,
+                         "Cartesian coordinates: CoordinateX, CoordinateY and CoordinateZ",
+                         "convert them where the file was written"});
+    }
+  }
+  if (zone.of_cells && zone.first_border >= 0 && zone.first_border < zone.first_volume) {
+    throw input_error(
+        {name, "'" + node + "'",
+         "numbers elements of its border before those of its volume, behind which VTK's reader loses values "
+         "of cells",
+         "volume elements first", "write the values at vertices, or the elements in the other order"});
+  }
+  return zone;
+}
+
+std::string unit_of(const CgnsFile& file, const std::string& base) {
+  constexpr std::size_t kLength = 32;
+  const std::string units = base + "/DimensionalUnits";
+  const std::string all = file.word(units);  // five names of 32 characters
+  if (all.size() < 2 * kLength) return {};
+  static const std::map<std::string, std::string> kShort{
+      {"Meter", "m"}, {"Centimeter", "cm"}, {"Millimeter", "mm"}, {"Foot", "ft"}, {"Inch", "in"}};
+  const auto unit = kShort.find(std::string(trimmed(std::string_view(all).substr(kLength, kLength))));
+  return unit == kShort.end() ? std::string() : "coordinates in " + unit->second;
+}
+
+/// @returns the unit of the bases, where they have one.
+std::string look_at_bases(const CgnsFile& opened, const std::string& file, std::vector<std::string>& notes) {
+  std::set<std::string> units;
+  for (const std::string& base : opened.children("/")) {
+    if (opened.label("/" + base) != "CGNSBase_t") continue;
+    units.insert(unit_of(opened, "/" + base));
+    for (const std::string& child : opened.children("/" + base)) {
+      const std::string node = "/" + base + "/" + child;
+      if (opened.label(node) != "Zone_t") continue;
+      const Zone zone = look_at_zone(opened, file, node);
+      const auto several =
+          std::ranges::find_if(zone.arrays, [](const auto& array) { return array.second > 1; });
+      if (zone.has_pointers || several == zone.arrays.end()) continue;
+      notes.push_back(
+          "WARNING: '" + printable(node.substr(1)) + "' has " +
+          printable(several->first.substr(several->first.find('/') + 1)) + " in " +
+          std::to_string(several->second) +
+          " solutions, and no FlowSolutionPointers say at which time which is: the first one is shown at "
+          "all times");
+    }
+  }
+  if (units.size() > 1)
+    notes.emplace_back("WARNING: the bases of the file have different units, of which none is heeded");
+  return units.size() == 1 ? *units.begin() : std::string();
+}
+
 }  // namespace
 
-void check_cgns(const std::string& file) {
+std::string check_cgns(const std::string& file, std::vector<std::string>& notes) {
   const CgnsFile opened(file);
-  if (opened.id() < 0) return;
+  if (opened.id() < 0) return {};
   Walk walk{.file = opened, .node = {}, .problem = {}};
   H5Ovisit(opened.id(), H5_INDEX_NAME, H5_ITER_NATIVE, check_node, &walk);
   if (!walk.problem.empty())
     throw input_error({file, "'" + walk.node + "'", walk.problem, "", "the file may be damaged"});
+  return look_at_bases(opened, file, notes);
 }
 
 }  // namespace palpate

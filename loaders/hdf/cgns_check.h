@@ -2,13 +2,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace palpate {
 
 /// Coordinates and solutions have the size of their zone, lists of cells that of their range.
 /// Files of other kinds pass, and what has rinds, lists of points, or cells of several kinds. CGNS SIDS, "Zone structure
 /// definition", "Grid coordinates, elements and flow solutions".
+/// Coordinates are Cartesian, and elements of borders are numbered behind those of the volume where cells have values:
+/// VTK's reader makes other things of them without a word.
+/// @param notes gets a WARNING where a zone has one array several times and nothing says at which time.
+/// @returns the units of the file ("coordinates in mm"), or empty.
 /// @pre check_hdf5(file) passed. @throws Error (bad input).
-void check_cgns(const std::string& file);
+std::string check_cgns(const std::string& file, std::vector<std::string>& notes);
 
 }  // namespace palpate

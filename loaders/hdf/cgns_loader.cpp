@@ -14,9 +14,10 @@ namespace {
 
 class CgnsLoader : public OneReader {
  protected:
-  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
+  vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file,
+                                            std::vector<std::string>& notes) override {
     check_hdf5(file);
-    check_cgns(file);
+    units_ = check_cgns(file, notes);
     reader_ = vtkSmartPointer<vtkCGNSReader>::New();
     reader_->SetFileName(file.c_str());
     reader_->DoublePrecisionMeshOn();
@@ -34,8 +35,10 @@ class CgnsLoader : public OneReader {
       reader_->SetCellArrayStatus(name.c_str(), wanted == nullptr || wanted->count(name) > 0 ? 1 : 0);
     }
   }
+  [[nodiscard]] std::string units() const override { return units_; }
 
  private:
+  std::string units_;
   vtkSmartPointer<vtkCGNSReader> reader_;
 };
 

@@ -22,6 +22,7 @@ FileInfo OneReader::open(const LoadRequest& request, Format format) {
   file_ = request.files.front().string();
   FileInfo info;
   reader_ = make_reader(file_, info.notes);
+  info.units = units();
   reader_->UpdateInformation();
   errors_.check(file_);
   look(file_, info.notes);

@@ -31,6 +31,9 @@ class OneReader : public Loader {
   /// Chooses arrays; null: all.
   virtual void select(const std::set<std::string>* wanted) = 0;
 
+  /// What the file states of units (FileInfo::units), once the reader was made.
+  [[nodiscard]] virtual std::string units() const { return {}; }
+
   /// What is left to do to a block that was read.
   virtual void finish(DataSet& block);
 
