@@ -41,9 +41,9 @@ Document reopened(const Document& document) {
 /// then it is kept, or made of the data.
 std::vector<std::function<void(SceneView&)>> edits() {
   SceneView view;
-  auto& [bounds, lines, outline, style, units, background, show_outline, show_axes, show_color_bar, title,
-         subtitle, camera, aspect, stereo, probe, surfaces, color_lens, volume, slice, tensors, tracts, notes,
-         regions, labels, volume_label, anatomical] = view;
+  auto& [bounds, lines, outline, style, units, background, show_outline, show_axes, show_color_bar,
+         color_bar_left, show_scale_bar, caption, title, subtitle, camera, aspect, stereo, probe, surfaces,
+         color_lens, volume, slice, tensors, tracts, notes, regions, labels, volume_label, anatomical] = view;
   auto& [color_by, array, range, usual, logarithmic, color_map, width, opacity, clearing, halo, depth_cue,
          dimming] = style;
   // What data, seeds, stereo options, hands and annotations make, and what has a keep_…() of its own.
@@ -52,8 +52,8 @@ std::vector<std::function<void(SceneView&)>> edits() {
   (void)labels, (void)slice, (void)volume_label, (void)anatomical, (void)array, (void)clearing, (void)dimming,
       (void)usual, (void)regions;
   // What an edit of these changes of another view.
-  (void)background, (void)show_outline, (void)show_axes, (void)show_color_bar, (void)camera, (void)color_by,
-      (void)aspect;
+  (void)background, (void)show_outline, (void)show_axes, (void)show_color_bar, (void)color_bar_left,
+      (void)show_scale_bar, (void)caption, (void)camera, (void)color_by, (void)aspect;
   (void)range, (void)logarithmic, (void)color_map, (void)width, (void)opacity, (void)halo, (void)depth_cue;
   return {[](SceneView& v) { v.background = Background::kLight; },
           [](SceneView& v) {
@@ -62,6 +62,9 @@ std::vector<std::function<void(SceneView&)>> edits() {
           [](SceneView& v) { v.show_outline = !v.show_outline; },
           [](SceneView& v) { v.show_axes = !v.show_axes; },
           [](SceneView& v) { v.show_color_bar = !v.show_color_bar; },
+          [](SceneView& v) { v.color_bar_left = true; },
+          [](SceneView& v) { v.show_scale_bar = true; },
+          [](SceneView& v) { v.caption = "one, \"two\""; },
           [](SceneView& v) {
             v.style.range = ValueRange{-1.0 / 3.0, 2e7};
           },

@@ -55,17 +55,17 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
         (void)remesher;  // what the program makes of the others
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.tracing;
-    expect("tracing", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = document.tracing;
+    expect("tracing", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = document.tracts;
     expect("tracts", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, b1, c1] =
         document.view;
-    expect("view", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
+    expect("view", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, a1, b1, c1);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = document.volume;
@@ -114,8 +114,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("hand", a, b, c, d, e, f);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = document.output;
-    expect("output", a, b, c, d, e, f, g, h, i, j, k, l, m, n);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = document.output;
+    expect("output", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j] = document.calibration;
