@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <filesystem>
+#include <optional>
 
 #include <vtkMultiBlockDataSet.h>
 #include <vtkMultiBlockPLOT3DReader.h>
@@ -11,9 +12,11 @@
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/base/json.h"
+#include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "loaders/vtk/memory_text.h"
+#include "loaders/vtk/plot3d_values.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"
@@ -34,15 +37,11 @@ Plot3dLayout layout_of(const std::string& file, Plot3dFile kind) {
     }
   }
   if (!layout) {
-    throw input_error(
-        {file, "",
-         "its " + std::to_string(head.file_size) + " bytes fit no layout of a PLOT3D " +
-             (kind == Plot3dFile::kGrid ? "grid" : "solution"),
-         "dimensions that agree with the file's size",
-         kind == Plot3dFile::kGrid
-             ? "it may be truncated"
-             : "it may be truncated, or a file of functions or of OVERFLOW, which are not read: write "
-               "the five values of PLOT3D"});
+    throw input_error({file, "",
+                       "its " + std::to_string(head.file_size) + " bytes fit no layout of a PLOT3D " +
+                           (kind == Plot3dFile::kGrid ? "grid" : "solution"),
+                       "dimensions that agree with the file's size",
+                       "it may be truncated, or the solution of another grid"});
   }
   return *layout;
 }
@@ -53,8 +52,23 @@ struct Pair {
   std::string grid, solution;
 };
 
-/// ParaView's list: {"filenames": [{"time": 0.0, "xyz": "a.xyz", "q": "a.q"}, …]}, names relative to its folder.
-std::vector<Pair> read_index(const std::string& file) {
+/// Names of functions, one a line: a file of the solution's name that ends with .nam, as FieldView has it.
+std::vector<std::string> names_beside(const std::string& solution) {
+  const std::filesystem::path file = std::filesystem::path(solution).replace_extension(".nam");
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return {};
+  const std::string text = read_head(file, kPlot3dHeadBytes).bytes;
+  std::vector<std::string> names;
+  for (const std::string_view line : split(text, '\n')) {
+    const std::string_view name = trimmed(line.substr(0, line.find(';')));
+    if (!name.empty()) names.push_back(printable(name));
+  }
+  return names;
+}
+
+/// ParaView's list: {"filenames": [{"time": 0.0, "xyz": "a.xyz", "q": "a.q"}, …], "function-names": […]}, names relative
+/// to its folder; "function" in place of "q" is a file of functions.
+std::vector<Pair> read_index(const std::string& file, std::vector<std::string>& names) {
   const auto index = parse_json(MappedFile(file).text());
   const auto wrong = [&file](const std::string& found) {
     return input_error({file, "", found,
@@ -70,16 +84,25 @@ std::vector<Pair> read_index(const std::string& file) {
     const auto has = [&entry](const char* key, bool needed) {
       return entry.contains(key) ? entry[key].is_string() : !needed;
     };
-    if (!entry.is_object() || !has("xyz", true) || !has("q", false) ||
+    if (entry.is_object() && entry.contains("q") && entry.contains("function"))
+      throw wrong("names a solution and functions of one grid");
+    if (!entry.is_object() || !has("xyz", true) || !has("q", false) || !has("function", false) ||
         (entry.contains("time") && !entry["time"].is_number()))
       throw wrong("has an entry without a grid, or of other types");
     Pair& pair = out.emplace_back();
     pair.time = entry.value("time", static_cast<double>(out.size() - 1));
     pair.grid = (folder / entry["xyz"].get<std::string>()).string();
-    if (entry.contains("q")) pair.solution = (folder / entry["q"].get<std::string>()).string();
+    for (const char* const key : {"q", "function"}) {
+      if (entry.contains(key)) pair.solution = (folder / entry[key].get<std::string>()).string();
+    }
     if (out.size() > 1 &&
         (pair.solution.empty() != out.front().solution.empty() || !(pair.time > out[out.size() - 2].time)))
       throw wrong("has times that do not rise, or solutions at some of them alone");
+  }
+  if (index.contains("function-names") && index["function-names"].is_array()) {
+    for (const auto& name : index["function-names"]) {
+      if (name.is_string()) names.push_back(printable(name.get<std::string>()));
+    }
   }
   return out;
 }
@@ -93,7 +116,7 @@ class Plot3dReader : public Loader {
     }
     const std::string file = request.files.front().string();
     if (read_head(file, 1).bytes == "{") {
-      pairs_ = read_index(file);
+      pairs_ = read_index(file, names_);
       if (request.solution)
         throw input_error(
             {request.solution->string(), "", "is a second solution: " + file + " names its own"});
@@ -105,7 +128,12 @@ class Plot3dReader : public Loader {
     for (std::size_t step = pairs_.size(); step-- > 0;) choose(step);
     info.notes.push_back("grid: " + describe(grid_, Plot3dFile::kGrid));
     info.notes.push_back(solution_file_.empty() ? "no solution file was given: a grid without values"
+                         : values_              ? "solution: " + describe(*values_)
                                                 : "solution: " + describe(solution_, Plot3dFile::kSolution));
+    if (values_ && !values_->overflow && names_.empty() && values_->parts.front().count != 3)
+      info.notes.emplace_back(
+          "WARNING: the file does not say which of its functions are a velocity: any three that follow one another are "
+          "offered (--field); a file beside it that ends with .nam names them, one a line");
     if (converted())
       info.notes.emplace_back("grid and solution are of different layouts: converted in memory");
     if (pairs_.size() > 1) {
@@ -115,7 +143,13 @@ class Plot3dReader : public Loader {
     for (const VtkBlock& block : leaves_of(run(false))) {
       BlockInfo about = describe_block(block.data, block.name);
       std::erase_if(about.arrays, [](const ArrayInfo& array) { return array.name == "IBlank"; });
-      if (!solution_file_.empty()) {
+      if (values_) {
+        for (const Plot3dArray& array : arrays_of(*values_, info.blocks.size(), axes(), names_)) {
+          about.arrays.push_back({array.name, Association::kPoint,
+                                  array.components == 2 ? 3 : array.components, ScalarType::kFloat64,
+                                  about.point_count});
+        }
+      } else if (!solution_file_.empty()) {
         const ScalarType type =
             solution_.double_precision || converted() ? ScalarType::kFloat64 : ScalarType::kFloat32;
         for (const auto& [name, components] :
@@ -133,17 +167,24 @@ class Plot3dReader : public Loader {
     choose(step);
     std::set<std::string> wanted(names.begin(), names.end());
     if (grid_.blanking) wanted.insert("IBlank");
-    vtkDataObject* data = run(!solution_file_.empty() && !names.empty());
+    vtkDataObject* data = run(!solution_file_.empty() && !values_ && !names.empty());
+    const std::optional<MappedFile> file = values_ ? std::optional<MappedFile>(solution_file_) : std::nullopt;
     std::vector<DataSet> blocks;
     for (const VtkBlock& block : leaves_of(data)) {
       blocks.push_back(convert_block(block.data, block.name, wanted, grid_file_));
       if (grid_.blanking) apply_blanking(blocks.back());
+      if (!values_ || blocks.size() > values_->parts.size()) continue;
+      for (const Plot3dArray& array : arrays_of(*values_, blocks.size() - 1, axes(), names_)) {
+        if (wanted.count(array.name) > 0)
+          blocks.back().arrays.push_back(read_values(file->text(), *values_, blocks.size() - 1, array));
+      }
     }
     check_blocks(blocks.size());
     return blocks;
   }
 
  private:
+  [[nodiscard]] int axes() const { return grid_.two_dimensional ? 2 : 3; }
   /// The blanked points are those where iblank is 0. VTK hides the cells around them, from which they could
   /// not be told apart from their neighbours.
   static void apply_blanking(DataSet& block) {
@@ -160,18 +201,21 @@ class Plot3dReader : public Loader {
   void choose(std::size_t step) {
     const Pair& pair = pairs_[step];
     if (grid_file_ != pair.grid) grid_ = layout_of(pair.grid, Plot3dFile::kGrid);
-    if (solution_file_ != pair.solution && !pair.solution.empty())
-      solution_ = layout_of(pair.solution, Plot3dFile::kSolution);
+    if ((solution_file_ != pair.solution || grid_file_ != pair.grid) && !pair.solution.empty()) {
+      values_ = find_plot3d_values(MappedFile(pair.solution).text(), grid_);
+      if (!values_) solution_ = layout_of(pair.solution, Plot3dFile::kSolution);
+      if (values_ && names_.empty()) names_ = names_beside(pair.solution);
+    }
     grid_file_ = pair.grid;
     solution_file_ = pair.solution;
-    if (!solution_file_.empty()) check_solution();
+    if (!solution_file_.empty() && !values_) check_solution();
   }
 
   /// Whether both files are handed to VTK in another layout (plot3d_bytes()). One setting of its reader covers both, and
   /// of text it would read some in single precision and others not at all.
   [[nodiscard]] bool converted() const {
     return grid_.text ||
-           (!solution_file_.empty() &&
+           (!solution_file_.empty() && !values_ &&
             (solution_.text || solution_.big_endian != grid_.big_endian ||
              solution_.record_marks != grid_.record_marks || solution_.multi_grid != grid_.multi_grid ||
              solution_.double_precision != grid_.double_precision));
@@ -242,6 +286,8 @@ class Plot3dReader : public Loader {
   MemoryText solution_text_;
   Plot3dLayout grid_;
   Plot3dLayout solution_;
+  std::optional<Plot3dValues> values_;  ///< in place of `solution_`
+  std::vector<std::string> names_;      ///< of functions
 };
 
 }  // namespace
