@@ -78,26 +78,60 @@ void check_hdf5(const std::string& file) {
                        "the file may be damaged"});
 }
 
+namespace {
+
+/// The whole numbers of an attribute of the root of VTKHDF, `count` of them; none where there are not so many.
+std::vector<int> root_numbers(hid_t file, const char* name, std::size_t count) {
+  std::vector<int> out;
+  if (H5Aexists_by_name(file, "/VTKHDF", name, H5P_DEFAULT) <= 0) return out;
+  const hid_t attribute = H5Aopen_by_name(file, "/VTKHDF", name, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t space = H5Aget_space(attribute);
+  if (H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(count)) {
+    out.resize(count);
+    H5Aread(attribute, H5T_NATIVE_INT, out.data());
+  }
+  H5Sclose(space);
+  H5Aclose(attribute);
+  return out;
+}
+
+/// What VTK's reader of images cannot do, or empty: it reads a block from the number of its first point on, stops the
+/// program where an axis has one point, and wants values of cells at every point.
+std::string image_problem(hid_t file) {
+  const std::vector<int> extent = root_numbers(file, "WholeExtent", 6);
+  if (extent.empty()) return {};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const int first = extent[2 * axis], last = extent[2 * axis + 1];
+    if (first != 0) return "has a WholeExtent that begins at " + std::to_string(first);
+    if (last <= first)
+      return "is flat (a WholeExtent from " + std::to_string(first) + " to " + std::to_string(last) + ")";
+  }
+  H5G_info_t cells{};
+  const bool of_cells = H5Lexists(file, "/VTKHDF/CellData", H5P_DEFAULT) > 0 &&
+                        H5Gget_info_by_name(file, "/VTKHDF/CellData", &cells, H5P_DEFAULT) >= 0 &&
+                        cells.nlinks > 0;
+  return of_cells ? "is an image with values of cells" : std::string();
+}
+
+}  // namespace
+
 // "VTK File Formats", VTKHDF: version 2 has time, tables of meshes and levels of refinement.
-void check_vtkhdf_version(const std::string& file) {
+void check_vtkhdf(const std::string& file) {
   constexpr int kRead = 1;
-  std::array<int, 2> version{kRead, 0};
   const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (opened < 0) return;  // which its reader says
-  if (H5Aexists_by_name(opened, "/VTKHDF", "Version", H5P_DEFAULT) > 0) {
-    const hid_t attribute = H5Aopen_by_name(opened, "/VTKHDF", "Version", H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t space = H5Aget_space(attribute);
-    if (H5Sget_simple_extent_npoints(space) == static_cast<hssize_t>(version.size()))
-      H5Aread(attribute, H5T_NATIVE_INT, version.data());
-    H5Sclose(space);
-    H5Aclose(attribute);
-  }
+  const std::vector<int> version = root_numbers(opened, "Version", 2);
+  const std::string problem = image_problem(opened);
   H5Fclose(opened);
-  if (version[0] == kRead) return;
-  throw input_error({file, "",
-                     "is VTKHDF of version " + std::to_string(version[0]) + "." + std::to_string(version[1]),
-                     "version 1 (an image or a mesh of one time), which VTK 9.1 reads",
-                     "open it in ParaView and save it as .vtu, or a series as .pvd"});
+  const char* const way_out = "open it in ParaView and save it as .vtu or .vti, or a series as .pvd";
+  if (!version.empty() && version[0] != kRead) {
+    throw input_error(
+        {file, "", "is VTKHDF of version " + std::to_string(version[0]) + "." + std::to_string(version[1]),
+         "version 1 (an image or a mesh of one time), which VTK 9.1 reads", way_out});
+  }
+  if (!problem.empty())
+    throw input_error(
+        {file, "", problem, "values of points of a volume that begins at 0, which VTK 9.1 reads", way_out});
 }
 
 }  // namespace palpate

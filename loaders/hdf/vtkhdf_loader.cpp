@@ -15,7 +15,7 @@ class VtkHdfLoader : public OneReader {
  protected:
   vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
     check_hdf5(file);
-    check_vtkhdf_version(file);
+    check_vtkhdf(file);
     reader_ = vtkSmartPointer<vtkHDFReader>::New();
     reader_->SetFileName(file.c_str());
     return reader_;

@@ -277,6 +277,15 @@ std::string_view appended_data(std::string_view text, std::size_t opens, std::si
 void end_piece(std::size_t end, Context& context, XmlScan& result) {
   std::vector<XmlArray> arrays;
   arrays.swap(context.of_piece);
+  for (auto one = arrays.begin(); one != arrays.end(); ++one) {
+    const bool again = std::any_of(arrays.begin(), one, [one](const XmlArray& other) {
+      return other.name == one->name && other.on_points == one->on_points;
+    });
+    // VTK's reader takes one of them.
+    if (again)
+      throw Broken{"two arrays of " + std::string(one->on_points ? "points" : "cells") + " are called '" +
+                   one->name + "'"};
+  }
   if (context.points == 0 && !context.structured) {
     if (!context.listed || !result.empty_pieces.empty())
       result.empty_pieces.emplace_back(context.piece_start, end);

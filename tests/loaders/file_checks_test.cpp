@@ -175,6 +175,16 @@ TEST(XmlScan, TextMustHoldAsManyNumbersAsTheTagsSay) {
   EXPECT_EQ(scan_xml(hexahedron("c", "200", "UInt8")).problem, "");
 }
 
+TEST(XmlScan, ArraysOfOneNameAreRefused) {
+  std::string text = hexahedron();
+  const std::size_t first = text.find("<DataArray"), end = text.find("</PointData>");
+  const std::string again = text.substr(first, end - first);
+  EXPECT_EQ(scan_xml(std::string(text).insert(text.find("</CellData>"), again)).problem.find("are called"),
+            std::string::npos)
+      << "one of points and one of cells are two";
+  EXPECT_EQ(scan_xml(text.insert(end, again)).problem, "two arrays of points are called 'p'");
+}
+
 /// Characters that base64 has for bytes.
 std::string base64(std::string bytes) {
   static constexpr std::string_view kDigits =

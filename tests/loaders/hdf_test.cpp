@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -131,6 +132,110 @@ TEST(Cgns, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(folder.write("a.cgns", "@(#)ADF Database Version B02012>")), "");
 }
 
+/// One zone of the lattice with the flow at its nodes. @param names of the three coordinates. @param solutions that have it.
+std::string lattice_cgns(const std::vector<std::string>& names, int solutions, const std::string& unit) {
+  const CgnsTree tree;
+  constexpr std::size_t kLength = 32;
+  tree.whole("/Base", "CGNSBase_t", {3, 3});
+  if (!unit.empty()) {
+    std::string units;
+    for (std::string word : {std::string("Kilogram"), unit, std::string("Second"), std::string("Kelvin"),
+                             std::string("Degree")}) {
+      word.resize(kLength, ' ');
+      units += word;
+    }
+    tree.text("/Base/DimensionalUnits", "DimensionalUnits_t", units, {5, kLength});
+  }
+  tree.whole("/Base/Zone", "Zone_t", {kNx, kNy, kNz, kNx - 1, kNy - 1, kNz - 1, 0, 0, 0}, {3, 3});
+  tree.text("/Base/Zone/ZoneType", "ZoneType_t", "Structured");
+  tree.empty("/Base/Zone/GridCoordinates", "GridCoordinates_t");
+  const std::vector<Vec3> nodes = lattice();
+  for (int axis = 0; axis < 3; ++axis)
+    tree.real("/Base/Zone/GridCoordinates/" + names[static_cast<std::size_t>(axis)], "DataArray_t",
+              along(nodes, axis), true, {kNz, kNy, kNx});
+  for (int s = 1; s <= solutions; ++s) {
+    const std::string solution = "/Base/Zone/Flow" + std::to_string(s);
+    tree.empty(solution, "FlowSolution_t");
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> values = along(flows_at(nodes), axis);
+      for (double& v : values) v *= s;
+      tree.real(solution + "/Velocity" + std::string(1, "XYZ"[axis]), "DataArray_t", values, true,
+                {kNz, kNy, kNx});
+    }
+  }
+  return tree.bytes();
+}
+
+const std::vector<std::string> kCartesian{"CoordinateX", "CoordinateY", "CoordinateZ"};
+
+TEST(Cgns, UnitsAreStated) {
+  const TempFolder folder;
+  for (const auto& [unit, stated] : std::vector<std::pair<std::string, std::string>>{
+           {"Millimeter", "coordinates in mm"}, {"Foot", "coordinates in ft"}, {"Null", ""}, {"", ""}}) {
+    const Source source = Source::open({{folder.write("a.cgns", lattice_cgns(kCartesian, 1, unit))}, {}});
+    EXPECT_EQ(source.info().units, stated) << unit;
+  }
+}
+
+TEST(Cgns, CylindricalCoordinatesAreRefused) {
+  const TempFolder folder;
+  const auto file =
+      folder.write("a.cgns", lattice_cgns({"CoordinateR", "CoordinateTheta", "CoordinateZ"}, 1, ""));
+  EXPECT_NE(refusal(file).find("has CoordinateR; expected Cartesian"), std::string::npos);
+}
+
+TEST(Cgns, SolutionsThatNoTimeBelongsToAreWarnedOf) {
+  const TempFolder folder;
+  for (const int solutions : {1, 2}) {
+    Source source = Source::open({{folder.write("a.cgns", lattice_cgns(kCartesian, solutions, ""))}, {}});
+    EXPECT_EQ(says(source.info().notes, "WARNING: 'Base/Zone' has VelocityX in 2 solutions"), solutions == 2);
+    const auto blocks = source.read({"Velocity"});
+    const DataArray* const v = blocks.at(0).find("Velocity", Association::kPoint);
+    ASSERT_NE(v, nullptr);
+    EXPECT_EQ(v->at(1, 0), flow_at(lattice()[1]).x) << "the first one, as the warning says";
+  }
+}
+
+/// A cube with a square of its border, and the flow at its middle. @param border number of that square, 1 or 2.
+std::string bordered_cgns(std::int32_t border) {
+  const CgnsTree tree;
+  tree.whole("/Base", "CGNSBase_t", {3, 3});
+  tree.whole("/Base/Zone", "Zone_t", {8, 1, 0}, {3, 1});
+  tree.text("/Base/Zone/ZoneType", "ZoneType_t", "Unstructured");
+  tree.empty("/Base/Zone/GridCoordinates", "GridCoordinates_t");
+  const std::vector<Vec3> nodes{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (int axis = 0; axis < 3; ++axis)
+    tree.real("/Base/Zone/GridCoordinates/" + kCartesian[static_cast<std::size_t>(axis)], "DataArray_t",
+              along(nodes, axis), true);
+  const auto elements = [&](const std::string& name, std::int32_t kind, std::int32_t number,
+                            const std::vector<std::int32_t>& order) {
+    tree.whole("/Base/Zone/" + name, "Elements_t", {kind, 0});
+    tree.whole("/Base/Zone/" + name + "/ElementRange", "IndexRange_t", {number, number});
+    tree.whole("/Base/Zone/" + name + "/ElementConnectivity", "DataArray_t", order);
+  };
+  constexpr std::int32_t kQuad = 7, kHexahedron = 17;
+  if (border == 1) elements("Wall", kQuad, 1, {1, 2, 3, 4});
+  elements("Cells", kHexahedron, 3 - border, {1, 2, 3, 4, 5, 6, 7, 8});
+  if (border == 2) elements("Wall", kQuad, 2, {1, 2, 3, 4});
+  tree.empty("/Base/Zone/Solution", "FlowSolution_t");
+  tree.text("/Base/Zone/Solution/GridLocation", "GridLocation_t", "CellCenter");
+  for (const std::string axis : {"X", "Y", "Z"})
+    tree.real("/Base/Zone/Solution/Velocity" + axis, "DataArray_t", {0.5}, true);
+  return tree.bytes();
+}
+
+TEST(Cgns, BordersBehindTheVolumeAreLeftOutAndOthersRefused) {
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.cgns", bordered_cgns(2))}, {}});
+  const auto blocks = source.read({"Velocity"});
+  const DataArray* const v = blocks.at(0).find("Velocity", Association::kCell);
+  ASSERT_NE(v, nullptr);
+  EXPECT_EQ(v->at(0, 2), 0.5);
+  EXPECT_NE(refusal(folder.write("b.cgns", bordered_cgns(1))).find("elements of its border before"),
+            std::string::npos);
+}
+
 // --- VTKHDF -----------------------------------------------------------------------------------------------
 
 TEST(VtkHdf, ImagesAreImages) {
@@ -156,6 +261,29 @@ TEST(VtkHdf, ImagesAreImages) {
   const std::vector<Vec3> nodes = lattice();
   for (std::size_t p = 0; p < nodes.size(); ++p)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(v->at(p, c), flow_at(nodes[p])[c]);
+}
+
+TEST(VtkHdf, ImagesThatItsReaderFailsOnAreNamed) {
+  const TempFolder folder;
+  const auto why = [&](const std::vector<std::int64_t>& extent, const std::string& place,
+                       const std::vector<hsize_t>& counts) {
+    const Hdf5File file;
+    file.group("/VTKHDF");
+    file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+    file.word("/VTKHDF", "Type", "ImageData", 9);
+    file.attribute("/VTKHDF", "WholeExtent", extent);
+    file.attribute("/VTKHDF", "Origin", std::vector<double>{0.0, 0.0, 0.0});
+    file.attribute("/VTKHDF", "Spacing", std::vector<double>{1.0, 1.0, 1.0});
+    file.attribute("/VTKHDF", "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
+    file.group("/VTKHDF/" + place);
+    std::size_t all = 1;
+    for (const hsize_t count : counts) all *= count;
+    file.set("/VTKHDF/" + place + "/s", std::vector<double>(all, 1.0), counts);
+    return refusal(folder.write("a.vtkhdf", file.bytes()));
+  };
+  EXPECT_NE(why({0, 3, 0, 2, 0, 0}, "PointData", {1, 3, 4}).find("is flat"), std::string::npos);
+  EXPECT_NE(why({3, 6, 0, 2, 0, 1}, "PointData", {2, 3, 4}).find("begins at 3"), std::string::npos);
+  EXPECT_NE(why({0, 3, 0, 2, 0, 1}, "CellData", {1, 2, 3}).find("values of cells"), std::string::npos);
 }
 
 TEST(VtkHdf, ClaimsBeyondTheFileAreRefused) {
