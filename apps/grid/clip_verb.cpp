@@ -79,7 +79,10 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
   const std::optional<DataSet> colors = color_block(input, &context.progress);
-  const DataSet block = cropped(colors ? *colors : load_volume_block(input, &context.progress), options);
+  Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
+  const DataSet block =
+      cropped(colors ? *colors : load_volume_block(input, &context.progress, &resampling), options);
+  for (const std::string& note : resampling.notes()) context.console.note(note);
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = std::get<UniformTopology>(block.topology);
@@ -147,13 +150,16 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
 }
 
 DrawnScene make_scene(Input& input, const Document& options, const VerbContext& context, double aspect) {
-  const DataSet block = cropped(load_volume_block(input, &context.progress), options);
+  Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
+  const DataSet block = cropped(load_volume_block(input, &context.progress, &resampling), options);
+  for (const std::string& note : resampling.notes()) context.console.note(note);
   auto image = make_volume_image(block, block.arrays.front().name, input.title());
   if (const std::optional<DataSet> colors = color_block(input, &context.progress)) {
     image = with_own_colors(std::move(image), cropped(*colors, options).arrays.front());
     context.console.note(kOwnColorsNote);
   }
   DrawnScene drawn;
+  drawn.volumes = std::move(resampling.taken);
   drawn.field = input.field_label();
   drawn.voxels = image->point_count();
   drawn.what = counted(drawn.voxels, "voxel");

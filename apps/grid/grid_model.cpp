@@ -11,15 +11,20 @@ namespace palpate {
 GridModel::GridModel(Document document, std::string program)
     : InputModel(std::move(document), std::move(program), FieldKind::kScalar) {}
 
-TangibleVolume GridModel::read(Input& input, const Document& document, Progress& progress) const {
-  TangibleVolume volume = load_tangible_volume(input, document.common.threads, &progress);
+GridContent GridModel::read(Input& input, const Document& document, Progress& progress) const {
+  GridContent content;
+  content.resampling = {.asked = document.volume.resample,
+                        .otherwise = "128",  // a window is opened to see something
+                        .threads = document.common.threads};
+  content.volume = load_tangible_volume(input, document.common.threads, &progress, &content.resampling);
   input.set_secondary(secondary_names(input, document.volume));
-  volume.secondary = load_secondary(input, document.volume, &progress);
-  return volume;
+  content.volume.secondary = load_secondary(input, document.volume, &progress, &content.resampling);
+  return content;
 }
 
-SceneState GridModel::present(Input& input, const TangibleVolume& volume, const Document& document,
+SceneState GridModel::present(Input& input, const GridContent& content, const Document& document,
                               const SceneState* before, Progress& /*progress*/) const {
+  const TangibleVolume& volume = content.volume;
   Document seen = document;
   // Another field has a window of its own, unless that was changed with it.
   if (before != nullptr && document.input.field != before->document.input.field &&
@@ -34,6 +39,8 @@ SceneState GridModel::present(Input& input, const TangibleVolume& volume, const 
   info->outline = view.outline;
   info->anatomical = view.anatomical;
   SceneState state = begin_state(input, document);
+  state.document.volume.resample = content.resampling.asked;
+  state.volume_notes = content.resampling.notes();
   state.info = std::move(info);
   state.appearances = lens_appearances(*view.volume, document.volume.focus, document.common.threads);
   if (has_regions(*view.volume)) state.notes.emplace_back(kRegionsNote);

@@ -8,16 +8,21 @@
 
 namespace palpate {
 
-class GridModel final : public InputModel<TangibleVolume> {
+/// What was read, and how.
+struct GridContent {
+  TangibleVolume volume;
+  Resampling resampling;
+};
+
+class GridModel final : public InputModel<GridContent> {
  public:
   GridModel(Document document, std::string program);
 
   void keep(const SceneView& view, Document& document) const override;
 
  private:
-  [[nodiscard]] TangibleVolume read(Input& input, const Document& document,
-                                    Progress& progress) const override;
-  [[nodiscard]] SceneState present(Input& input, const TangibleVolume& volume, const Document& document,
+  [[nodiscard]] GridContent read(Input& input, const Document& document, Progress& progress) const override;
+  [[nodiscard]] SceneState present(Input& input, const GridContent& content, const Document& document,
                                    const SceneState* before, Progress& progress) const override;
 };
 

@@ -48,9 +48,13 @@ DrawnScene make_scene(const std::vector<HapticMode>& modes, Input& input, const 
   DrawnScene drawn;
   const bool touched = !options.hand.path.empty() || !options.touch.fixtures.list.empty() ||
                        wants_surfaces(options, find_mode(modes, options.touch.mode).name);
-  TangibleVolume volume = touched ? load_tangible_volume(input, options.common.threads, &context.progress)
-                                  : TangibleVolume{.image = load_volume(input, &context.progress)};
-  volume.secondary = load_secondary(input, options.volume, &context.progress);
+  Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
+  TangibleVolume volume =
+      touched ? load_tangible_volume(input, options.common.threads, &context.progress, &resampling)
+              : TangibleVolume{.image = load_volume(input, &context.progress, &resampling)};
+  volume.secondary = load_secondary(input, options.volume, &context.progress, &resampling);
+  for (const std::string& note : resampling.notes()) context.console.note(note);
+  drawn.volumes = std::move(resampling.taken);
   const auto& image = volume.image;
   if (touched && !volume.field) {
     throw input_error({input.title(), "", "is flat: it has no inside to touch", "a volume", ""});

@@ -282,7 +282,9 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
     throw usage_error("--size is for --layout 2 and 4: --spacing says how large pixels are");
   Input input = open_input(options, context);
   context.console.note(input.choice_sentence());
-  const DataSet block = load_volume_block(input, &context.progress);
+  Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
+  const DataSet block = load_volume_block(input, &context.progress, &resampling);
+  for (const std::string& note : resampling.notes()) context.console.note(note);
   const auto& grid = std::get<UniformTopology>(block.topology);
   const DataArray& values = block.arrays.front();
   const Stopwatch watch;

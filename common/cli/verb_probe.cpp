@@ -132,7 +132,9 @@ HapticInput load_haptic(Input& input, const Document& options, const VerbContext
   } else if (context.explorer.kind == FieldKind::kScalar) {
     haptic.scalar = input.load_scalar(options.common.threads, &context.progress);
     describe(*haptic.scalar);
-    haptic.secondary = load_secondary(input, options.volume, &context.progress);
+    Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
+    haptic.secondary = load_secondary(input, options.volume, &context.progress, &resampling);
+    for (std::string& note : resampling.notes()) haptic.notes.push_back(std::move(note));
   } else {
     haptic.field = input.load_field(options.common.threads, &context.progress);
     describe(*haptic.field);

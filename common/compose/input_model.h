@@ -146,7 +146,8 @@ class InputModel : public WindowModel {
   [[nodiscard]] static bool same_content(const Document& a, const Document& b) {
     return a.input.field == b.input.field && a.input.secondary == b.input.secondary &&
            a.input.regions == b.input.regions && a.input.paint == b.input.paint &&
-           a.input.time == b.input.time && a.input.tensor == b.input.tensor;
+           a.input.time == b.input.time && a.input.tensor == b.input.tensor &&
+           (a.input.kind != FieldKind::kScalar || a.volume.resample == b.volume.resample);
   }
 
   /// What is open; null before start().

@@ -1,9 +1,6 @@
 #include "common/compose/resampled_volume.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -18,42 +15,6 @@ namespace palpate {
 namespace {
 
 constexpr const char* kSpeed = "speed";
-
-/// What `--resample` says: points along the longest edge, or along each axis.
-struct Resample {
-  int longest = 0;
-  std::optional<Index3> points;
-};
-
-[[noreturn]] void refuse_resample(const std::string& text) {
-  throw usage_error(
-      "--resample " + text +
-      ": a whole number from 2 to 1024 is expected, or one for each axis, such as 128,64,64, of "
-      "2^27 points at most");
-}
-
-// 1 GB in double precision.
-void check_size(const Index3& points, const std::string& text) {
-  constexpr double kMost = 0x1p27;
-  if (static_cast<double>(points.x) * points.y * points.z > kMost) refuse_resample(text);
-}
-
-Resample parse_resample(const std::string& text) {
-  constexpr double kFewest = 2, kMost = 1024;
-  const std::vector<std::string_view> parts = split(text, ',');
-  if (parts.size() != 1 && parts.size() != 3) refuse_resample(text);
-  std::array<int, 3> numbers{};
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::optional<double> value = number(parts[i]);
-    if (!value || *value != std::floor(*value) || !(*value >= kFewest && *value <= kMost))
-      refuse_resample(text);
-    numbers[i] = static_cast<int>(*value);
-  }
-  if (parts.size() == 1) return {.longest = numbers[0], .points = {}};
-  const Index3 points{numbers[0], numbers[1], numbers[2]};
-  check_size(points, text);
-  return {.longest = 0, .points = points};
-}
 
 std::string file_of(const Input& input) {
   return input.spec().files.empty() ? input.title() : input.spec().files.front().string();
@@ -97,21 +58,12 @@ std::shared_ptr<const VolumeImage> own_voxels(Input& input, const ScalarChoice& 
 UniformTopology lattice_for(const VectorField& field, const std::string& name, const std::string& resample) {
   const std::optional<UniformTopology> image = image_lattice(field);
   if (!resample.empty()) {
-    const Resample asked = parse_resample(resample);
-    const Index3 points = asked.points ? *asked.points : cubic_points(field.bounds(), asked.longest);
-    check_size(points, resample);
-    return lattice_over(field.bounds(), points);
+    return lattice_over(field.bounds(), resample_points(field.bounds(), resample));
   }
   if (image) return *image;
   throw usage_error("--volume " + name +
                     ": the data lies on no image; --resample 128 draws it from a grid "
                     "of 128 points along its longest edge, and says how far that is from it");
-}
-
-std::string percent(double share) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
-  return text.data();
 }
 
 }  // namespace
@@ -155,7 +107,6 @@ std::vector<std::string> flow_volume_arrays(const Input& input, const VolumeOpti
 
 void check_flow_volume(const VolumeOptions& options) {
   check_volume_options(options);
-  if (!options.resample.empty()) (void)parse_resample(options.resample);
   if (!options.scalar.empty()) return;
   const char* const said = !options.lenses.empty()     ? "--lens"
                            : !options.clips.empty()    ? "--clip"
@@ -164,21 +115,6 @@ void check_flow_volume(const VolumeOptions& options) {
                                                        : nullptr;
   if (said != nullptr)
     throw usage_error(std::string(said) + ": there is no volume; --volume speed shows that of the flow");
-}
-
-std::string taken_text(const TakenScalar& taken) {
-  const Index3& n = taken.points;
-  std::string text = taken.name + " on " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
-                     std::to_string(n.z) + " points ";
-  if (taken.error.compared == 0) return text + "has no value: nothing of it is drawn";
-  text += "differs from the field by " + percent(taken.error.rms) + " of its range (root mean square), " +
-          percent(taken.error.worst) + " at worst, at " + std::to_string(taken.error.compared) +
-          " random places";
-  if (taken.error.outside > 0.0)
-    text += "; " + percent(taken.error.outside) + " of its box lies outside the data and shows nothing";
-  if (taken.error.hidden > 0.0)
-    text += "; so does " + percent(taken.error.hidden) + " of the data, at its border";
-  return text;
 }
 
 ScalarSampler flow_sampler(const std::string& name, Input& input,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/compose/taken_scalar.h"
 #include "common/compose/volume_scene.h"
 #include "common/field/scalar_lattice.h"
 #include "common/field/vector_field.h"
@@ -36,16 +37,6 @@ namespace palpate {
 /// Checks what can be checked before anything is read: also that nothing is said of a volume that is not
 /// there. @throws Error (usage).
 void check_flow_volume(const VolumeOptions& options);
-
-/// A scalar that was taken on another grid than its own.
-struct TakenScalar {
-  std::string name;
-  Index3 points{0};
-  LatticeError error;
-};
-/// "speed on 128 x 64 x 64 points differs from the field by 0.3 % of its range (root mean square), 8 % at
-/// worst; …"
-[[nodiscard]] std::string taken_text(const TakenScalar& taken);
 
 /// A scalar of the flow at any place.
 /// @param name a scalar of flow_scalars(), not of another file. @throws Error, Cancelled where it is read.

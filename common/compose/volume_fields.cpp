@@ -28,12 +28,13 @@ std::optional<FileField> file_field(const std::string& name) {
   return FileField{name.substr(0, colon), name.substr(colon + 1)};
 }
 
-std::shared_ptr<const VolumeImage> load_named(Input& input, const std::string& name, Progress* progress) {
+std::shared_ptr<const VolumeImage> load_named(Input& input, const std::string& name, Progress* progress,
+                                              Resampling* resampling) {
   if (!input.names_field(name)) return load_file_field(name, progress);
   const std::string shown = input.spec().field;
   try {
     input.set_field(name);
-    auto image = load_volume(input, progress);
+    auto image = load_volume(input, progress, resampling);
     input.set_field(shown);
     return image;
   } catch (...) {
@@ -89,17 +90,19 @@ std::vector<std::string> secondary_names(const Input& input, const VolumeOptions
                          });
 }
 
-std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options, Progress* progress) {
+std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options, Progress* progress,
+                                        Resampling* resampling) {
   std::vector<VolumeField> fields;
   for (const std::string& name : secondary_names(input, options))
-    fields.push_back({load_named(input, name, progress), name});
+    fields.push_back({load_named(input, name, progress, resampling), name});
   return fields;
 }
 
-TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress) {
-  return {.image = load_volume(input, progress),
+TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress,
+                                Resampling* resampling) {
+  return {.image = load_volume(input, progress, resampling),
           .field = nullptr,
-          .secondary = load_secondary(input, options, progress)};
+          .secondary = load_secondary(input, options, progress, resampling)};
 }
 
 std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus, int threads) {

@@ -39,10 +39,11 @@ void check_file_field(const std::string& name, const std::string& option,
 
 /// Reads their voxels. @throws Error as secondary_names() and of the files; Cancelled.
 [[nodiscard]] std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options,
-                                                      Progress* progress);
+                                                      Progress* progress, Resampling* resampling = nullptr);
 
 /// All voxels of a picture that nobody feels. @throws Error, Cancelled.
-[[nodiscard]] TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress);
+[[nodiscard]] TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Progress* progress,
+                                              Resampling* resampling = nullptr);
 
 /// How lenses show each field, by Lens::field: as `--focus-tf` says, of the values of that field; where it
 /// says nothing the context's denser half, and all of another field.

@@ -38,14 +38,46 @@ struct Voxels {
   ScalarChoice choice;
   std::string file;
   std::shared_ptr<const VolumeImage> image;
+  std::shared_ptr<const ScalarField> field;  ///< of data that were resampled, on their own grid
 };
 
-Voxels read_voxels(Input& input, Progress* progress) {
+bool is_image(const std::vector<DataSet>& blocks) {
+  return blocks.size() == 1 && std::holds_alternative<UniformTopology>(blocks.front().topology);
+}
+
+/// Has `voxels` lie on an image, where it is asked for and where they have to.
+void take_resampled(Voxels& voxels, Resampling& resampling, Progress* progress) {
+  const bool image = is_image(voxels.blocks);
+  if (image && resampling.asked.empty()) return;
+  if (resampling.asked.empty()) resampling.asked = resampling.otherwise;
+  if (resampling.asked.empty()) {
+    throw input_error(
+        {voxels.file, "", "is not one uniform grid", "one: images, and grids whose points lie evenly",
+         "--resample 128 takes its values at so many points along the longest edge, and says how far "
+         "that is from them"});
+  }
+  if (progress) progress->begin("preparing the field", 0);
+  voxels.field = make_scalar_field(voxels.blocks, voxels.choice, voxels.file, resampling.threads);
+  const ScalarSampler sampler = [field = voxels.field](const Vec3& x, CellHint& hint) {
+    return field->sample(x, hint);
+  };
+  const UniformTopology lattice =
+      lattice_over(voxels.field->bounds(), resample_points(voxels.field->bounds(), resampling.asked));
+  if (progress) progress->begin("taking " + voxels.field->name() + " on an image", 0);
+  DataSet block = take_scalar(sampler, voxels.choice.array, lattice, resampling.threads, progress);
+  resampling.taken.push_back(
+      {voxels.field->name(), lattice.points, lattice_error(sampler, block, resampling.threads, progress)});
+  voxels.blocks = {std::move(block)};
+  voxels.choice = {.array = voxels.choice.array, .association = Association::kPoint, .component = 0};
+}
+
+Voxels read_voxels(Input& input, Progress* progress, Resampling* resampling) {
   Voxels voxels{.choice = input.scalar_choice()};
   voxels.file = input.spec().files.empty() ? input.title() : input.spec().files.front().string();
   if (progress) progress->begin("reading " + input.title(), 0);
   voxels.blocks = input.read_timed({voxels.choice.array}, progress);
   take_lattices(voxels.blocks);
+  if (resampling != nullptr) take_resampled(voxels, *resampling, progress);
   voxels.image = make_volume_image(volume_source(voxels.blocks, voxels.choice, voxels.file),
                                    voxels.choice.array, voxels.file);
   const bool whole =
@@ -172,6 +204,7 @@ void check_volume_options(const VolumeOptions& options) {
   if (options.context_level < 0 || options.context_level > kCoarsestLevel)
     throw usage_error("--context-level: a whole number from 0 to " + std::to_string(kCoarsestLevel) +
                       " is expected");
+  check_resample(options.resample);
   check_transfer(options.transfer);
   check_transfer(options.focus);
   for (const std::string& transfer : make_parts(options).transfers) check_transfer(transfer);
@@ -198,12 +231,18 @@ std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeI
   return colored;
 }
 
-std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress) {
-  return read_voxels(input, progress).image;
+std::vector<std::string> Resampling::notes() const {
+  std::vector<std::string> out;
+  for (const TakenScalar& one : taken) out.push_back(taken_text(one));
+  return out;
 }
 
-DataSet load_volume_block(Input& input, Progress* progress) {
-  const Voxels voxels = read_voxels(input, progress);  // which refuses what is no volume
+std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress, Resampling* resampling) {
+  return read_voxels(input, progress, resampling).image;
+}
+
+DataSet load_volume_block(Input& input, Progress* progress, Resampling* resampling) {
+  const Voxels voxels = read_voxels(input, progress, resampling);  // which refuses what is no volume
   DataSet block = volume_source(voxels.blocks, voxels.choice, voxels.file);
   if (block.visible.empty()) return block;
   const DataArray& array = block.arrays.front();
@@ -216,11 +255,13 @@ DataSet load_volume_block(Input& input, Progress* progress) {
   return block;
 }
 
-TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress) {
-  const Voxels voxels = read_voxels(input, progress);
+TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress, Resampling* resampling) {
+  const Voxels voxels = read_voxels(input, progress, resampling);
   TangibleVolume volume{.image = voxels.image};
   const Index3& n = voxels.image->points;
   if (std::min({n.x, n.y, n.z}) < 2) return volume;
+  volume.field = voxels.field;
+  if (volume.field) return volume;
   if (progress) progress->begin("preparing the field", 0);
   volume.field = make_scalar_field(voxels.blocks, voxels.choice, voxels.file, threads);
   return volume;

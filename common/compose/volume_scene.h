@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/progress.h"
+#include "common/compose/taken_scalar.h"
 #include "common/load/write/write_image.h"
 #include "common/render/scene_view.h"
 #include "common/scene/document/document.h"
@@ -60,14 +61,27 @@ inline constexpr const char* kOwnColorsNote =
 [[nodiscard]] std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeImage> image,
                                                                  const DataArray& colors);
 
+/// How data that are no image are read as one.
+struct Resampling {
+  std::string asked;      ///< as `--resample`; empty: an image alone is read
+  std::string otherwise;  ///< becomes `asked` where that is empty and data are no image
+  int threads = 0;
+  std::vector<TakenScalar> taken;  ///< what reading has resampled, added to what is there
+
+  /// Their texts (taken_text()).
+  [[nodiscard]] std::vector<std::string> notes() const;
+};
+
 /// Reads the voxels of the field that the input's spec names, with their own colours where it is the magnitude
 /// of some.
+/// @param resampling null: an image alone is read.
 /// @throws Error, Cancelled.
-[[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress);
+[[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress,
+                                                             Resampling* resampling = nullptr);
 
 /// Reads the same as one uniform block with one point array of one number: where a voxel is blanked, NaN.
 /// @throws Error, Cancelled.
-[[nodiscard]] DataSet load_volume_block(Input& input, Progress* progress);
+[[nodiscard]] DataSet load_volume_block(Input& input, Progress* progress, Resampling* resampling = nullptr);
 
 /// What is known of the coordinates of `input`, for images that are made of it.
 [[nodiscard]] ImageSpace space_of(const Input& input);
@@ -82,11 +96,13 @@ inline constexpr const char* kOwnColorsNote =
 /// The same voxels to be drawn and to be felt, read once.
 struct TangibleVolume {
   std::shared_ptr<const VolumeImage> image;
-  std::shared_ptr<const ScalarField> field;  ///< null where the image is flat: it has no inside
-  std::vector<VolumeField> secondary;        ///< other scalars, to be drawn in lenses
+  std::shared_ptr<const ScalarField>
+      field;                           ///< on its own grid; null where the image is flat: it has no inside
+  std::vector<VolumeField> secondary;  ///< other scalars, to be drawn in lenses
 };
 /// @throws Error, Cancelled.
-[[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress);
+[[nodiscard]] TangibleVolume load_tangible_volume(Input& input, int threads, Progress* progress,
+                                                  Resampling* resampling = nullptr);
 
 /// `shown` as the options have it drawn: transfer functions, lenses, cuts, rays.
 /// @throws Error (usage), (bad input) as take_parts() and volume_transfer_of().

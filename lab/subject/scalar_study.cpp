@@ -46,10 +46,12 @@ ReportAnswer study_scalars(const Study& study) {
   const Stopwatch watch;
   Input input = study.open();
   (void)input.scalar_choice();  // an unknown --field is refused before anything is read
-  const SceneView scene =
-      make_volume_scene(input, load_seen_volume(input, document.volume, study.progress()), document, 1.0);
+  Resampling resampling{.asked = document.volume.resample, .threads = document.common.threads};
+  const SceneView scene = make_volume_scene(
+      input, load_seen_volume(input, document.volume, study.progress(), &resampling), document, 1.0);
   Report report = study.begin(input);
   report.scene.push_back(scene.subtitle + ".");
+  for (const std::string& note : resampling.notes()) report.scene.push_back(note + ".");
   const VolumeQuality quality = run_volume_quality(*scene.volume, input.title(), effort, study.progress());
   report.sections = volume_quality_sections(quality);
   const PlacingSettings placing = placing_settings(*scene.volume->image, effort, document.common.seed);

@@ -27,6 +27,16 @@ const Setting kVolumeRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kFlows},
+    {.name = "resample",
+     .place = kVolumeAt<&VolumeOptions::resample>,
+     .help =
+         "take the values at N points along the longest edge of the data, or so many an axis, and say how far "
+         "that is from them; grids that are no images are shown in no other way",
+     .value = "N|N,N,N",
+     .heading = "Input",
+     .groups = {Group::kInput},
+     .kinds = kVolumes,
+     .otherwise = "none, in windows 128 where it is needed"},
     {.name = "transfer-function",
      .place = kVolumeAt<&VolumeOptions::transfer>,
      .help = "which colour and opacity values have: density, mr, ct, or a file with the header "

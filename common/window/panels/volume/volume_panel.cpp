@@ -135,6 +135,12 @@ void draw_volume(PanelContext& on) {
   if (section("VOLUME")) {
     choose_word("field", state.document.input.field, scene.info->fields);
     explain("field", false);
+    if (!state.document.volume.resample.empty()) {
+      std::string& resample = state.document.volume.resample;
+      std::string typed = resample;
+      if (input_text("resample", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) resample = typed;
+      explain("resample", false);
+    }
     if (!volume.fields.empty()) draw_values_at_probe(state, state.document.input.field, volume);
     draw_time(state, scene.info->times);
   }
