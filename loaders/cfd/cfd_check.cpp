@@ -29,6 +29,35 @@ std::optional<std::uint64_t> hexadecimal(std::string_view word) {
   return value;
 }
 
+/// Where the section of text that begins at `at` ends, behind its last bracket; npos where it does not. Brackets count as
+/// VTK counts them: within quotation marks, too.
+std::size_t end_of_text_section(std::string_view text, std::size_t at) {
+  std::size_t depth = 0;
+  for (std::size_t i = text.find_first_of("()", at); i != std::string_view::npos;
+       i = text.find_first_of("()", i + 1)) {
+    depth = text[i] == '(' ? depth + 1 : depth - 1;
+    if (depth == 0) return i + 1;
+  }
+  return std::string_view::npos;
+}
+
+/// What is wrong with the sections of a Fluent file one after the other, or empty. VTK's reader goes on without end for
+/// what has none.
+std::string sections_problem(std::string_view text) {
+  for (std::size_t at = text.find('('); at != std::string_view::npos; at = text.find('(', at)) {
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
+    const std::string number(text.substr(at + 1, digits - at - 1));
+    if (number.empty() || digits == text.size() || text[digits] != ' ')
+      return "has a section '" + printable(text.substr(at, 24)) + "' without a number and a blank behind it";
+    const bool binary = number.size() > 3;
+    const std::string words = "End of Binary Section   " + number + ")";
+    const std::size_t end = binary ? text.find(words, digits) : end_of_text_section(text, at);
+    if (end == std::string_view::npos) return "has a section " + number + " that does not end";
+    at = binary ? end + words.size() : end;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string fluent_problem(std::string_view text) {
@@ -58,17 +87,24 @@ std::string fluent_problem(std::string_view text) {
                    : std::string("has a section of ") + section->what + " without counts";
     return false;
   });
-  return problem;
+  return problem.empty() ? sections_problem(text) : problem;
 }
 
 std::string gambit_problem(std::string_view text) {
   std::vector<std::uint64_t> counts;
   bool titles = false;
   std::size_t sections = 0, ends = 0;
+  std::optional<std::uint64_t> nodes;  ///< that were listed, while they are
   std::string problem;
   each_line(text, [&](std::string_view line) {
     const auto of_line = words(line.substr(0, 256));
     if (of_line.empty()) return true;
+    if (nodes && of_line[0] == "ENDOFSECTION") nodes.reset();
+    if (nodes && parsed<std::uint64_t>(of_line[0]) != ++*nodes) {
+      problem = "numbers a node '" + printable(of_line[0].substr(0, 40)) + "', not " +
+                std::to_string(*nodes) + ": VTK's reader takes nodes as 1, 2, 3 and so on, in this order";
+      return false;
+    }
     if (titles && counts.empty()) {
       for (const std::string_view word : of_line) {
         const auto count = parsed<std::uint64_t>(word);
@@ -94,6 +130,7 @@ std::string gambit_problem(std::string_view text) {
          line.find("NODAL COORDINATES") != std::string_view::npos ||
          line.find("ELEMENTS/CELLS") != std::string_view::npos))
       ++sections;
+    if (line.find("NODAL COORDINATES") != std::string_view::npos) nodes = 0;
     return true;
   });
   if (!problem.empty()) return problem;

@@ -14,6 +14,7 @@
 #include "common/base/index.h"
 #include "common/load/helper/chosen_loader.h"
 #include "loaders/cfd/cfd_check.h"
+#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/one_reader.h"
 
 namespace palpate {
@@ -32,6 +33,7 @@ class FluentReader : public OneReader {
     std::error_code error;
     if (!std::filesystem::exists(values, error))
       throw input_error({file, "", "has no values beside it", "its data in " + values});
+    refuse(values, fluent_problem(MappedFile(values).text()));
     reader_ = vtkSmartPointer<vtkFLUENTReader>::New();
     reader_->SetFileName(file.c_str());
     return reader_;
@@ -54,10 +56,17 @@ class GambitReader : public OneReader {
  protected:
   vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file,
                                             std::vector<std::string>& notes) override {
-    refuse(file, gambit_problem(MappedFile(file).text()));
+    const MappedFile mapped(file);
+    refuse(file, gambit_problem(mapped.text()));
     notes.emplace_back(kMeshAlone);
     const auto reader = vtkSmartPointer<vtkGAMBITReader>::New();
-    reader->SetFileName(file.c_str());
+    if (mapped.text().find('\r') == std::string_view::npos) {
+      reader->SetFileName(file.c_str());
+    } else {
+      std::string text(mapped.text());
+      std::erase(text, '\r');
+      reader->SetFileName(memory_.write(text).c_str());
+    }
     return reader;
   }
   void select(const std::set<std::string>*) override {}
@@ -72,6 +81,9 @@ class GambitReader : public OneReader {
       if (mesh.types[c] == kHexahedron) std::swap(mesh.connectivity[first + 6], mesh.connectivity[first + 7]);
     }
   }
+
+ private:
+  MemoryText memory_;
 };
 
 /// A mesh alone: .vrt and .cel.

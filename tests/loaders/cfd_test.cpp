@@ -133,6 +133,67 @@ TEST(Fluent, WhatIsMissingOrClaimedIsSaid) {
   EXPECT_NE(fluent_problem("(3013(4 1 ffffff 3 4)("), "");
 }
 
+TEST(Fluent, SectionsThatDoNotEndAreRefusedAtOnce) {
+  const std::string words = "\nEnd of Binary Section   3010)\n";
+  EXPECT_EQ(fluent_problem("(0 \"a\")\n(3010 (1 1 2 1 3)(()((" + words + "(2 3)\n"), "");
+  EXPECT_NE(fluent_problem("(3010 (1 1 2 1 3)(()((\nEnd of Bin").find("3010 that does not end"),
+            std::string::npos);
+  EXPECT_NE(fluent_problem("(2013(a 1 2 2 4)(" + words).find("a blank behind"), std::string::npos);
+  const TempFolder folder;
+  const std::string whole = fluent_case(), values = fluent_values();
+  constexpr std::size_t kStep = 31;
+  for (std::size_t size = whole.find("(13 (4 ") + kStep; size + 4 < whole.find("(45 (2"); size += kStep) {
+    (void)folder.write("cut.dat", values);
+    EXPECT_NE(refusal(folder.write("cut.cas", whole.substr(0, size))).find("not end"), std::string::npos)
+        << size;
+  }
+  (void)folder.write("cut.dat", values.substr(0, values.size() - 9));
+  EXPECT_NE(refusal(folder.write("cut.cas", whole)).find("cut.dat"), std::string::npos);
+}
+
+/// A row of cubes. @param first number of the first node; @param step from one to the next.
+std::string gambit_cubes(int first, int step, const std::string& end) {
+  const auto node = [&](int p) { return first + step * (p - 1); };
+  std::string out =
+      "        CONTROL INFO 2.4.6\n** GAMBIT NEUTRAL FILE\nmade\nPROGRAM: Gambit VERSION: 2.4.6\nJan 2020\n"
+      " NUMNP NELEM NGRPS NBSETS NDFCD NDFVL\n " +
+      std::to_string(4 * (kCubes + 1)) + " " + std::to_string(kCubes) +
+      " 1 0 3 3\nENDOFSECTION\n   NODAL COORDINATES 2.4.6\n";
+  for (int p = 1; p <= 4 * (kCubes + 1); ++p) {
+    const int i = (p - 1) % (kCubes + 1), j = (p - 1) / (kCubes + 1) % 2, k = (p - 1) / (kCubes + 1) / 2;
+    out += std::to_string(node(p)) + " " + std::to_string(i) + " " + std::to_string(j) + " " +
+           std::to_string(k) + "\n";
+  }
+  out += "ENDOFSECTION\n      ELEMENTS/CELLS 2.4.6\n";
+  for (int c = 0; c < kCubes; ++c) {
+    out += std::to_string(c + 1) + " 4 8";
+    for (const int k : {0, 1}) {
+      for (const int j : {0, 1}) {
+        for (const int a : {0, 1}) out += " " + std::to_string(node(point_at(c + a, j, k)));
+      }
+    }
+    out += "\n";
+  }
+  out +=
+      "ENDOFSECTION\n       ELEMENT GROUP 2.4.6\nGROUP: 1 ELEMENTS: 3 MATERIAL: 2 NFLAGS: 1\nfluid\n0\n1 2 3\nENDOFSECTION\n";
+  std::string with_end;
+  for (const char c : out) with_end += c == '\n' ? end : std::string(1, c);
+  return with_end;
+}
+
+TEST(Gambit, NodesAreThoseOfTheirNumbersOrRefused) {
+  const TempFolder folder;
+  for (const std::string end : {"\n", "\r\n"}) {
+    Source source = Source::open({{folder.write("a.neu", gambit_cubes(1, 1, end))}, {}});
+    expect_cubes(source.read({}).at(0));
+  }
+  const int last = 4 * (kCubes + 1);
+  EXPECT_NE(refusal(folder.write("b.neu", gambit_cubes(last, -1, "\n"))).find("numbers a node '16', not 1"),
+            std::string::npos);
+  EXPECT_NE(refusal(folder.write("c.neu", gambit_cubes(1, 10, "\n"))).find("numbers a node '11', not 2"),
+            std::string::npos);
+}
+
 TEST(Gambit, HeadsAreHeldAgainstTheFile) {
   EXPECT_NE(gambit_problem(""), "");
   const std::string head = "        CONTROL INFO 2.3.16\n NUMNP NELEM NGRPS NBSETS NDFCD NDFVL\n";

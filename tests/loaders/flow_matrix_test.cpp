@@ -21,6 +21,7 @@
 #include "common/load/load.h"
 #include "tests/loaders/cell_kinds.h"
 #include "tests/loaders/hdf5_file.h"
+#include "tests/loaders/plot3d_cells.h"
 #include "tests/loaders/solver_cells.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
@@ -155,6 +156,19 @@ std::vector<Dialect> dialects() {
           return Files{{"a.geo", files.geometry}, {"a.vec", files.variable}};
         }};
   };
+  const auto plot3d = [](const char* encoding, Plot3dKind values, bool text,
+                         const std::vector<Variant>& variants) {
+    return Dialect{"PLOT3D",
+                   encoding,
+                   "a.p3d",
+                   variants,
+                   [=](const CellKind& kind, const Variant&) { return plot3d_list(kind, values); },
+                   true,
+                   [=](const CellKind& kind, const Variant& v) {
+                     return Files{{"a.xyz", plot3d_grid(kind, v.wide, v.big, text)},
+                                  {"a.q", plot3d_values(kind, values, v.wide, v.big, text)}};
+                   }};
+  };
   const auto foam = [](const char* encoding, bool binary, const std::vector<Variant>& variants) {
     return Dialect{"OpenFOAM",
                    encoding,
@@ -203,6 +217,16 @@ std::vector<Dialect> dialects() {
        [](const CellKind&, const Variant&) {
          return Files{{"a.dat", fluent_values_file()}};
        }},
+      {"Fluent", "binary, mesh alone", "a.cas", text,
+       [](const CellKind& kind, const Variant& v) { return fluent_in_binary(kind, v.wide); }, false,
+       [](const CellKind&, const Variant&) {
+         return Files{{"a.dat", fluent_values_file()}};
+       }},
+      plot3d("binary", Plot3dKind::kSolution, false, all),
+      plot3d("text", Plot3dKind::kSolution, true, one),
+      plot3d("OVERFLOW", Plot3dKind::kOverflow, false, all),
+      plot3d("functions, binary", Plot3dKind::kFunctions, false, all),
+      plot3d("functions, text", Plot3dKind::kFunctions, true, one),
       {"STAR-CD", "mesh alone", "a.vrt", one,
        [](const CellKind& kind, const Variant&) { return star_vertices_file(kind); }, false,
        [](const CellKind& kind, const Variant&) {
@@ -236,12 +260,25 @@ std::set<std::array<double, 6>> edges_of(const CellKind& kind, const std::vector
   return out;
 }
 
+/// A grid of one cell as a mesh.
+UnstructuredTopology mesh_of(const StructuredTopology& grid) {
+  UnstructuredTopology mesh;
+  mesh.positions = grid.positions;
+  mesh.connectivity = {0, 1, 3, 2, 4, 5, 7, 6};
+  mesh.offsets = {0, 8};
+  mesh.types = {12};
+  return mesh;
+}
+
 /// Empty: the cell is of that kind, its nodes lie between its corners as VTK has them, and have their values.
 std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool has_values) {
   Source source = Source::open({{file}, {}});
   std::vector<std::string> names;
   for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
-  const DataSet block = source.read(names).at(0);
+  DataSet block = source.read(names).at(0);
+  if (const auto* const grid = std::get_if<StructuredTopology>(&block.topology);
+      grid != nullptr && grid->points == Index3{2})
+    block.topology = mesh_of(*grid);
   const auto* const mesh = std::get_if<UnstructuredTopology>(&block.topology);
   if (mesh == nullptr || mesh->types.size() != 1) return "no single cell";
   if (mesh->types[0] != kind.vtk) return "a cell of type " + std::to_string(mesh->types[0]);
@@ -250,7 +287,8 @@ std::string wrong(const std::filesystem::path& file, const CellKind& kind, bool 
   // Some formats list faces, and VTK's readers turn some cells the other way: the corners may come in any order that
   // makes the same cell, and then the nodes between them in that order.
   std::vector<Vec3> there, values;
-  const DataArray* const velocity = block.find("Velocity", Association::kPoint);
+  const DataArray* const velocity = block.find(
+      block.find("Momentum", Association::kPoint) != nullptr ? "Momentum" : "Velocity", Association::kPoint);
   const DataArray* const named = block.find("U", Association::kPoint);
   const DataArray* const whole = velocity != nullptr ? velocity
                                  : named != nullptr  ? named
