@@ -116,8 +116,10 @@ void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
     depth(unit > 1.0 ? "values of 1e30" : "values of 1e-30", "near the ends of single precision",
           {.value = [unit](const Index3&) { return unit; }, .unit = unit});
   }
-  depth("one value of 1e20 in a corner", "the range says nothing of the rest",
-        {.value = [](const Index3& at) { return at == Index3(0) ? 1e20 : 1.0; }});
+  depth("values of 1e20 and -1e20 in two corners", "the range says nothing of the rest",
+        {.value = [](const Index3& at) { return at == Index3(0)    ? 1e20
+                                                : at == Index3(15) ? -1e20
+                                                                   : 1.0; }});
   depth("a corner of NaN", "its cells show nothing, the others what they hold",
         {.value = [](const Index3& at) { return at == Index3(0) ? kNaN : 1.0; }});
   const auto nothing = [&](const std::string& name, const std::string& builder, const Block& block,
@@ -130,7 +132,11 @@ void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
                       return brightest(stage->draw(view, camera));
                     }});
   };
-  nothing("all NaN", "no value at all", {.value = [](const Index3&) { return kNaN; }}, {});
+  nothing("all NaN", "no value at all, where any would be seen and nothing is passed over",
+          {.value = [](const Index3&) { return kNaN; }}, [](VolumeView& view) {
+            view.transfer = ColorTransfer({{0.0, Vec3f(1.0F), kOpacity}, {2.0, Vec3f(1.0F), kOpacity}});
+            view.skip_empty = false;
+          });
   // The matter begins at 7.75 / 15.
   nothing("beside a step", "a step of values between two voxels, cut away two voxels before it",
           {.value = [](const Index3& at) { return at.x < 8 ? 0.0 : 1.0; }}, [](VolumeView& view) {
