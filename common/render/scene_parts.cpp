@@ -93,8 +93,9 @@ bool has_colored_lines(const SceneView& view) {
 }
 
 bool has_overlay(const SceneView& view) {
-  return !view.title.empty() || !view.subtitle.empty() || view.show_axes || view.show_color_bar ||
-         view.probe || !view.notes.empty();
+  return !view.title.empty() || !view.subtitle.empty() || !view.caption.empty() || view.show_axes ||
+         view.show_color_bar || view.show_scale_bar || view.anatomical || view.slice || view.probe ||
+         !view.notes.empty();
 }
 
 }  // namespace palpate

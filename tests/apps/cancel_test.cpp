@@ -50,6 +50,9 @@ std::optional<double> goes_on(const Work& work, double after, std::string& stage
     try {
       work(progress);
     } catch (const Cancelled&) {  // NOLINT(bugprone-empty-catch): that is what is waited for
+    } catch (const Error& error) {
+      // Reading, which names the file.
+      EXPECT_TRUE(progress.cancelled()) << error.what();
     }
     ended = true;
   });
