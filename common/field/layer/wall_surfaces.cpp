@@ -30,6 +30,7 @@ constexpr double kLevel = 0.02;        // bulge of what is flat or a saddle; a h
 constexpr double kFacesUp = 0.3;       // mean of normal times axis of what does not lie along the wall
 constexpr double kFacesOpening = 0.6;  // that of a base; at most 0.5 for the inside of half a sphere
 constexpr double kMost = 0.75;         // of a part's area that says what all of it is
+constexpr double kNearlyAll = 0.95;    // likewise, of a cavity that creases do not part
 constexpr double kLeastConfidence = 0.9;
 constexpr double kRounder = 1.2;  // how much rounder the left ventricle should be than the next
 
@@ -347,6 +348,13 @@ class BorderReading {
     return volume > 0.0 ? 36.0 * std::numbers::pi * volume * volume / (total * total * total) : 0.0;
   }
 
+  /// Whether a part of a cavity is one of several.
+  [[nodiscard]] bool is_parted(std::size_t part) const {
+    return std::any_of(cavities_.begin(), cavities_.end(), [part](const Cavity& cavity) {
+      return cavity.size() > 1 && std::find(cavity.begin(), cavity.end(), part) != cavity.end();
+    });
+  }
+
   void find_septum(std::vector<std::string>& doubts) {
     enum class Behind : std::uint8_t { kUnknown, kFree, kLeft };
     const WallCrossing crossing(mesh_, border_);
@@ -364,7 +372,10 @@ class BorderReading {
         if (behind[t] == Behind::kFree) free += glm::length(border_.areas[t]);
       }
       right += parts_[p].area;
-      const bool all_left = left > kMost * (left + free), all_free = !(left > (1.0 - kMost) * (left + free));
+      // Where creases part septum and free wall, most of a part says what it is; the septum of a cavity of one part
+      // may be a small share of it.
+      const double most = is_parted(p) ? kMost : kNearlyAll;
+      const bool all_left = left > most * (left + free), all_free = !(left > (1.0 - most) * (left + free));
       if (!all_left && !all_free) mixed += parts_[p].area;
       for (const std::uint32_t t : parts_[p].triangles) {
         if (all_left) behind[t] = Behind::kLeft;
