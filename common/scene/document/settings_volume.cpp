@@ -34,7 +34,7 @@ const Setting kVolumeRows[] = {
          "that is from them; grids that are no images are shown in no other way",
      .value = "N|N,N,N",
      .heading = "Input",
-     .groups = {Group::kInput},
+     .groups = {Group::kView, Group::kSlice},
      .kinds = kVolumes,
      .otherwise = "none, in windows 128 where it is needed"},
     {.name = "transfer-function",
