@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
@@ -325,6 +326,10 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   constexpr double kLeastSum = 1e-3;  // 1 + s is none below zero
   verdict.gain = (1.0 + scores[best].score) / std::max(1.0 + scores.front().score, kLeastSum);
   verdict.suspicious = suspicious;
+  std::vector<Coherence> others(scores.begin() + 1, scores.end());
+  const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
+  std::ranges::nth_element(others, middle, {}, &Coherence::score);
+  verdict.judged = suspicious || better_by(scores.front(), *middle, kByTurn, errors);
   if (!suspicious) return verdict;
   verdict.best = answers[best];
   verdict.advice = words_of(verdict.best, taken.frame);

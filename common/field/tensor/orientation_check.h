@@ -92,6 +92,9 @@ struct OrientationVerdict {
   std::string advice;
   double gain = 1.0;        ///< (1 + s(best)) / (1 + s(as taken))
   bool suspicious = false;  ///< the best is clearly_better() than what was taken
+  /// Suspicious, or what was taken is clearly better than half of all others are. Where fibres fill an image so
+  /// smoothly that other axes do as well, nothing can be said of them.
+  bool judged = false;
   bool rotated = false;  ///< suspicious, and a rotation by 10 degrees behind the best is clearly better still
 };
 

@@ -58,6 +58,11 @@ std::string turn_text(const AxisTurn& turn) {
 
 void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
                          std::vector<std::string>& notes) {
+  if (!verdict.judged) {
+    notes.emplace_back(
+        "whether gradients, vectors or tensors have the right axes cannot be told from this image: neighbouring main "
+        "directions line up as well in others; look at a tract that is known");
+  }
   if (!verdict.suspicious) return;
   std::string warning = "WARNING: neighbouring main directions line up " +
                         short_number(std::round(1000.0 * (verdict.gain - 1.0)) / 10.0) +

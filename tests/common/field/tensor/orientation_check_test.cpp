@@ -53,6 +53,7 @@ TEST(OrientationCheck, FindsTheWayBackFromWrongTurns) {
     const OrientationVerdict verdict =
         check_orientation(DirectionMap(made.tensors, made.topology, 2), made.topology, {}, 2);
     EXPECT_EQ(verdict.suspicious, !wrong.is_identity()) << wrong.text() << " gain " << verdict.gain;
+    EXPECT_TRUE(verdict.judged) << wrong.text();
     if (!verdict.suspicious) continue;
     // Up to the sign, both turns together change nothing.
     const Mat3 both = verdict.best.turn.matrix() * wrong.matrix();
