@@ -60,8 +60,8 @@ void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn
                          std::vector<std::string>& notes) {
   if (!verdict.judged) {
     notes.emplace_back(
-        "whether gradients, vectors or tensors have the right axes cannot be told from this image: neighbouring main "
-        "directions line up as well in others; look at a tract that is known");
+        "whether gradients, vectors or tensors have the right axes cannot be told from this image: too few voxels have a "
+        "main direction, or neighbours line up as well in other axes; look at a tract that is known");
   }
   if (!verdict.suspicious) return;
   std::string warning = "WARNING: neighbouring main directions line up " +
