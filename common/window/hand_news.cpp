@@ -2,12 +2,10 @@
 
 namespace palpate {
 
-void HandNews::follow(const ProbeSession& touch, PanelState& state) {
-  const ProbeReadout& hand = touch.readout();
+void HandNews::follow(const ProbeReadout& hand, bool through_surfaces, PanelState& state) {
   if (hand.popped != popped_) {
     if (hand.popped > popped_)
-      state.say(touch.data().levels().field ? "popped through to the other side"
-                                            : "popped over to the next line");
+      state.say(through_surfaces ? "popped through to the other side" : "popped over to the next line");
     popped_ = hand.popped;
   }
   if (hand.fault != fault_) {
@@ -20,7 +18,7 @@ void HandNews::follow(const ProbeSession& touch, PanelState& state) {
     }
   }
   if (const std::uint64_t stalls = hand.servo.statistics.stalls; stalls != stalls_) {
-    if (stalls > stalls_) state.say("the machine was busy: the servo stood still for a moment");
+    if (stalls > stalls_) state.add("the machine was busy: the servo stood still for a moment");
     stalls_ = stalls;
   }
   if (hand.device != device_) {

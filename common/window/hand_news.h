@@ -10,8 +10,10 @@ namespace palpate {
 
 class HandNews {
  public:
-  /// Once a frame: says in `state` what is new.
-  void follow(const ProbeSession& touch, PanelState& state);
+  /// Once a frame: says in `state` what is new. A stall of the machine is said beside what was said before, which
+  /// may be an answer that was not read yet.
+  /// @param through_surfaces what is popped through is a surface of a scalar field, else one line is left for the next
+  void follow(const ProbeReadout& hand, bool through_surfaces, PanelState& state);
 
  private:
   std::string fault_, device_;

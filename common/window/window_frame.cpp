@@ -61,7 +61,7 @@ void ExplorerWindow::draw_frame(double seconds) {
   answer_questions();
   if (files_.follow_export()) glfwMakeContextCurrent(glfw_.get());
   follow_hand();
-  news_.follow(touch_, state_);
+  news_.follow(touch_.readout(), touch_.data().levels().field != nullptr, state_);
   time_.follow(state_, scene_, jobs_.running());
   follow_layer();
   edits_.follow();

@@ -33,6 +33,7 @@ struct PanelState {
   SeedChoice seeds;                   ///< edited; goes into the document
   PictureFigures picture;             ///< of the picture that was drawn
   std::string message;
+  std::string aside;  ///< news that no act asked for, shown after `message` until the next one
   /// What went wrong last, until it is closed or what it was of goes well; empty: nothing.
   std::string error;
   bool error_of_job = false;           ///< of what was read or made
@@ -64,7 +65,13 @@ struct PanelState {
   /// The line at the bottom.
   void say(std::string words) {
     log.add(words, false);
+    aside.clear();
     message = std::move(words);
+  }
+  /// After the line at the bottom, which may be an answer that was not read yet.
+  void add(std::string words) {
+    log.add(words, false);
+    aside = std::move(words);
   }
   /// A banner over the picture.
   void fail(std::string words, bool of_job = false) {

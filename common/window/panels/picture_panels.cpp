@@ -108,9 +108,10 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
   const float right = ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x;
 
   // Cut where the time begins; all of it is in the tooltip.
-  const std::string words = !state.message.empty()   ? state.message
-                            : state.scene != nullptr ? status_text(*state.scene)
-                                                     : std::string();
+  std::string words = !state.message.empty()   ? state.message
+                      : state.scene != nullptr ? status_text(*state.scene)
+                                               : std::string();
+  if (!state.aside.empty()) words += (words.empty() ? "" : "; ") + state.aside;
   const ImVec2 corner = ImGui::GetWindowPos();
   ImGui::PushClipRect(
       corner, {corner.x + right - frame_width - ImGui::GetFontSize(), corner.y + ImGui::GetWindowHeight()},
