@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/base/error.h"
 #include "common/base/text.h"
 
 namespace palpate {
@@ -29,6 +30,14 @@ std::vector<double> joined_times(std::vector<double> times) {
     for (; first < end; ++first) times[order[first]] = shortest;
   }
   return times;
+}
+
+void check_rising(const std::string& file, const std::vector<double>& times) {
+  for (std::size_t t = 0; t < times.size(); ++t) {
+    if (std::isfinite(times[t]) && (t == 0 || times[t] > times[t - 1])) continue;
+    throw input_error(
+        {file, "time step " + std::to_string(t + 1), "has a time that does not rise", "rising times"});
+  }
 }
 
 }  // namespace palpate

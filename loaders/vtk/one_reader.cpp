@@ -1,7 +1,5 @@
 #include "loaders/vtk/one_reader.h"
 
-#include <cmath>
-
 #include <vtkAlgorithm.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataObject.h>
@@ -11,6 +9,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include "common/base/error.h"
+#include "common/load/step_times.h"
 
 namespace palpate {
 
@@ -30,11 +29,7 @@ FileInfo OneReader::open(const LoadRequest& request, Format format) {
   vtkInformation* const about = reader_->GetOutputInformation(0);
   auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();
   if (about->Has(steps) != 0) times_.assign(about->Get(steps), about->Get(steps) + about->Length(steps));
-  for (std::size_t t = 0; t < times_.size(); ++t) {
-    if (std::isfinite(times_[t]) && (t == 0 || times_[t] > times_[t - 1])) continue;
-    throw input_error(
-        {file_, "time step " + std::to_string(t + 1), "has a time that does not rise", "rising times"});
-  }
+  check_rising(file_, times_);
   if (times_.size() > 1) info.times = times_;
   select(nullptr);
   update(0);

@@ -203,7 +203,7 @@ std::vector<Dialect> dialects() {
        [](const CellKind& kind, const Variant&) { return gambit_file(kind); }, false},
       {"CGNS", "HDF5", "a.cgns", text,
        [](const CellKind& kind, const Variant& v) { return cgns_file(kind, v.wide); }},
-      {"VTKHDF", "1.0", "a.vtkhdf", text,
+      {"VTKHDF", "1 and 2", "a.vtkhdf", text,
        [](const CellKind& kind, const Variant& v) { return vtkhdf_file(kind, v.wide); }},
       {"XDMF", "text", "a.xdmf", text,
        [](const CellKind& kind, const Variant& v) { return xdmf_file(kind, v.wide, false); }},

@@ -1,4 +1,4 @@
-// CGNS, VTKHDF and netCDF: fields and times beyond the single cells of flow_matrix_test, and damaged files.
+// CGNS and netCDF: fields and times beyond the single cells of flow_matrix_test, and damaged files.
 
 #include <cmath>
 #include <cstdint>
@@ -234,78 +234,6 @@ TEST(Cgns, BordersBehindTheVolumeAreLeftOutAndOthersRefused) {
   EXPECT_EQ(v->at(0, 2), 0.5);
   EXPECT_NE(refusal(folder.write("b.cgns", bordered_cgns(1))).find("elements of its border before"),
             std::string::npos);
-}
-
-// --- VTKHDF -----------------------------------------------------------------------------------------------
-
-TEST(VtkHdf, ImagesAreImages) {
-  const Hdf5File file;
-  file.group("/VTKHDF");
-  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-  file.word("/VTKHDF", "Type", "ImageData", 9);
-  file.attribute("/VTKHDF", "WholeExtent", std::vector<std::int64_t>{0, kNx - 1, 0, kNy - 1, 0, kNz - 1});
-  file.attribute("/VTKHDF", "Origin", std::vector<double>{0.0, 0.0, 0.0});
-  file.attribute("/VTKHDF", "Spacing", std::vector<double>{0.5, 1.0, 2.0});
-  file.attribute("/VTKHDF", "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-  file.group("/VTKHDF/PointData");
-  file.set("/VTKHDF/PointData/velocity", tuples_of(flows_at(lattice())), {kNz, kNy, kNx, 3});
-  const TempFolder folder;
-  Source source = Source::open({{folder.write("a.vtkhdf", file.bytes())}, {}});
-  const auto blocks = source.read({"velocity"});
-  const auto* const grid = std::get_if<UniformTopology>(&blocks.at(0).topology);
-  ASSERT_NE(grid, nullptr);
-  EXPECT_EQ(grid->points, (Index3{kNx, kNy, kNz}));
-  EXPECT_EQ(grid->axes[2], (Vec3{0.0, 0.0, 2.0}));
-  const DataArray* const v = blocks[0].find("velocity", Association::kPoint);
-  ASSERT_NE(v, nullptr);
-  const std::vector<Vec3> nodes = lattice();
-  for (std::size_t p = 0; p < nodes.size(); ++p)
-    for (int c = 0; c < 3; ++c) EXPECT_EQ(v->at(p, c), flow_at(nodes[p])[c]);
-}
-
-TEST(VtkHdf, ImagesThatItsReaderFailsOnAreNamed) {
-  const TempFolder folder;
-  const auto why = [&](const std::vector<std::int64_t>& extent, const std::string& place,
-                       const std::vector<hsize_t>& counts) {
-    const Hdf5File file;
-    file.group("/VTKHDF");
-    file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-    file.word("/VTKHDF", "Type", "ImageData", 9);
-    file.attribute("/VTKHDF", "WholeExtent", extent);
-    file.attribute("/VTKHDF", "Origin", std::vector<double>{0.0, 0.0, 0.0});
-    file.attribute("/VTKHDF", "Spacing", std::vector<double>{1.0, 1.0, 1.0});
-    file.attribute("/VTKHDF", "Direction", std::vector<double>{1, 0, 0, 0, 1, 0, 0, 0, 1});
-    file.group("/VTKHDF/" + place);
-    std::size_t all = 1;
-    for (const hsize_t count : counts) all *= count;
-    file.set("/VTKHDF/" + place + "/s", std::vector<double>(all, 1.0), counts);
-    return refusal(folder.write("a.vtkhdf", file.bytes()));
-  };
-  EXPECT_NE(why({0, 3, 0, 2, 0, 0}, "PointData", {1, 3, 4}).find("is flat"), std::string::npos);
-  EXPECT_NE(why({3, 6, 0, 2, 0, 1}, "PointData", {2, 3, 4}).find("begins at 3"), std::string::npos);
-  EXPECT_NE(why({0, 3, 0, 2, 0, 1}, "CellData", {1, 2, 3}).find("values of cells"), std::string::npos);
-}
-
-TEST(VtkHdf, ClaimsBeyondTheFileAreRefused) {
-  const TempFolder folder;
-  const Hdf5File file;
-  file.group("/VTKHDF");
-  file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-  file.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
-  file.claim("/VTKHDF/Points", {std::uint64_t{1} << 40U, 3});
-  EXPECT_NE(refusal(folder.write("claims.vtkhdf", file.bytes())).find("data set 'VTKHDF/Points'"),
-            std::string::npos);
-  const Hdf5File other;
-  other.group("/VTKHDF");
-  other.claim("/VTKHDF/Points", {4, 3});
-  EXPECT_NE(refusal(folder.write("never.vtkhdf", other.bytes())).find("never written"), std::string::npos);
-  const Hdf5File newer;
-  newer.group("/VTKHDF");
-  newer.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{2, 0});
-  newer.word("/VTKHDF", "Type", "UnstructuredGrid", 16);
-  const std::string why = refusal(folder.write("newer.vtkhdf", newer.bytes()));
-  EXPECT_NE(why.find("is VTKHDF of version 2.0"), std::string::npos) << why;
-  EXPECT_NE(why.find("save it as .vtu"), std::string::npos) << why;
 }
 
 // --- netCDF -----------------------------------------------------------------------------------------------
