@@ -22,6 +22,7 @@
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/math/symmetric3.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 namespace {

@@ -17,6 +17,7 @@
 #include "common/field/layer/wall_surfaces.h"
 #include "common/field/scalar_choice.h"
 #include "common/render/line_style.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 namespace {

@@ -5,6 +5,7 @@
 #include "common/base/text.h"
 #include "common/render/line_style.h"
 #include "common/scene/time_series.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 namespace {

@@ -12,6 +12,7 @@
 #include "common/field/field_on_grid.h"
 #include "common/math/same_time.h"
 #include "common/scene/tensor/read_vectors.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 namespace {

@@ -23,30 +23,12 @@
 #include "common/load/load.h"
 #include "common/scene/document/input_options.h"
 #include "common/scene/tensor/tensor_image.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 
 /// The built-in data sets of a kind; the first is the one shown by default.
 [[nodiscard]] std::vector<ExampleInfo> examples_of(FieldKind kind);
-
-/// A time step and whether it is the very one that was asked for.
-struct TimeChoice {
-  std::size_t step = 0;
-  bool exact = true;
-};
-
-/// The step that `text` means (first, last or a time: the nearest one).
-/// @throws Error (usage) that names the range, where `text` is no time or lies outside by more than the
-/// nearest interval.
-[[nodiscard]] TimeChoice choose_time(const std::vector<double>& times, std::string_view text);
-
-/// The steps by their times; those of one time stay in the order of the file. Without times the only one.
-[[nodiscard]] std::vector<std::size_t> steps_in_order(const std::vector<double>& times);
-/// The step whose time comes after that of `step` (`on`) or before it, round at either end. @pre step <
-/// times.size().
-[[nodiscard]] std::size_t step_beside(const std::vector<double>& times, std::size_t step, bool on);
-/// The step with the nearest time. @pre there is one.
-[[nodiscard]] std::size_t nearest_step(const std::vector<double>& times, double time);
 
 class Input {
  public:

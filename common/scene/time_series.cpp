@@ -10,6 +10,7 @@
 #include "common/field/field_on_grid.h"
 #include "common/field/region_names.h"
 #include "common/field/scalar_choice.h"
+#include "common/scene/time_steps.h"
 
 namespace palpate {
 namespace {

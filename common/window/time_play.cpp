@@ -1,5 +1,7 @@
 #include "common/window/time_play.h"
 
+#include "common/scene/time_steps.h"
+
 namespace palpate {
 
 bool has_times(const std::optional<SceneState>& scene) { return scene && scene->info->times.size() > 1; }

@@ -14,6 +14,7 @@
 #include "common/compose/appearance.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/scene_parts.h"
+#include "common/scene/time_steps.h"
 #include "common/window/event_text.h"
 #include "common/window/explorer_window.h"
 #include "common/window/files/dropped_files.h"

@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <initializer_list>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -13,9 +11,9 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/load/step_times.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
+#include "loaders/mesh/tecplot_zones.h"
 
 namespace palpate {
 namespace {
@@ -27,29 +25,6 @@ std::string upper(std::string_view text) {
   }
   return out;
 }
-
-struct Zone {
-  std::string name;
-  bool block = false, elements = false;
-  std::int64_t i = 1, j = 1, k = 1, nodes = 0, cells = 0;
-  std::uint8_t type = 0;  ///< of VTK's file format; 0: of lower dimension
-  int corners = 0;
-  std::optional<double> time;
-  std::set<std::size_t> of_cells, passive;
-  std::map<std::size_t, std::size_t> shared;  ///< variables, and from which zone
-  std::optional<std::size_t> cells_of;        ///< the zone that has its connectivity
-  std::vector<std::vector<double>> values;    ///< by variable
-  std::vector<std::int64_t> connectivity;
-
-  [[nodiscard]] std::size_t node_count() const {
-    return static_cast<std::size_t>(elements ? nodes : i * j * k);
-  }
-  [[nodiscard]] std::size_t cell_count() const {
-    if (elements) return static_cast<std::size_t>(cells);
-    const auto along = [](std::int64_t n) { return std::max<std::int64_t>(1, n - 1); };
-    return static_cast<std::size_t>(along(i) * along(j) * along(k));
-  }
-};
 
 class TecplotReader {
  public:
@@ -76,14 +51,14 @@ class TecplotReader {
       } else if (key == "DATASETAUXDATA" || key == "VARAUXDATA") {
         skip_line();
       } else if (key == "TEXT" || key == "GEOMETRY" || key == "CUSTOMLABELS") {
-        notes_.insert("records " + key + " left out");
+        content_.notes.insert("records " + key + " left out");
         do skip_line();
         while (!token_.empty() && !starts_record(upper(token_)));
       } else {
         words_.refuse("'" + printable(token_.substr(0, 40)) + "'", "TITLE, VARIABLES or ZONE");
       }
     }
-    return made();
+    return meshes_of(std::move(content_), words_.file(), budget_);
   }
 
  private:
@@ -159,9 +134,9 @@ class TecplotReader {
       found.push_back(token_);
       next();
     }
-    if (!variables_.empty() && found != variables_)
+    if (!content_.variables.empty() && found != content_.variables)
       words_.refuse("other VARIABLES than before", "the same for all zones");
-    variables_ = std::move(found);
+    content_.variables = std::move(found);
   }
 
   std::int64_t whole(const std::string& text, const char* what, std::int64_t least) {
@@ -179,7 +154,8 @@ class TecplotReader {
       const auto n = parsed<std::size_t>(trimmed(text));
       if (!n || *n == 0)
         words_.refuse("'" + printable(list.substr(0, 40)) + "'", "numbers of variables such as 1-3,7");
-      if (*n > variables_.size()) words_.refuse("variable " + std::to_string(*n), "one that there is");
+      if (*n > content_.variables.size())
+        words_.refuse("variable " + std::to_string(*n), "one that there is");
       return *n;
     };
     for (const std::string_view part : split(list, ',')) {
@@ -232,7 +208,7 @@ class TecplotReader {
     return out;
   }
 
-  void set_type(Zone& zone, std::string type) {
+  void set_type(TecplotZone& zone, std::string type) {
     if (type.substr(0, 2) == "FE") type.erase(0, 2);
     static const std::map<std::string, std::pair<std::uint8_t, int>> kTypes{{"LINESEG", {0, 2}},
                                                                             {"TRIANGLE", {0, 3}},
@@ -250,9 +226,9 @@ class TecplotReader {
   }
 
   void read_zone() {
-    if (variables_.empty()) words_.refuse("a zone", "VARIABLES before it");
-    Zone zone;
-    zone.name = "zone " + std::to_string(zones_.size() + 1);
+    if (content_.variables.empty()) words_.refuse("a zone", "VARIABLES before it");
+    TecplotZone zone;
+    zone.name = "zone " + std::to_string(content_.zones.size() + 1);
     next();
     // Up to the first number that no key stands before.
     while (!token_.empty() && (quoted_ || !looks_like_number(token_))) {
@@ -296,22 +272,22 @@ class TecplotReader {
       if (key == "VARSHARELIST") {
         for (const auto& [variable, from] : by_variable(value)) {
           const std::size_t other =
-              from.empty() ? zones_.size() : static_cast<std::size_t>(whole(from, "a zone", 1));
-          if (other == 0 || other > zones_.size())
+              from.empty() ? content_.zones.size() : static_cast<std::size_t>(whole(from, "a zone", 1));
+          if (other == 0 || other > content_.zones.size())
             words_.refuse("variables of zone " + std::to_string(other), "a zone before this");
           zone.shared[variable] = other - 1;
         }
       }
       if (key == "CONNECTIVITYSHAREZONE") {
         const auto other = static_cast<std::size_t>(whole(value, "a zone", 1));
-        if (other > zones_.size())
+        if (other > content_.zones.size())
           words_.refuse("the elements of zone " + std::to_string(other), "a zone before this");
         zone.cells_of = other - 1;
       }
       next();
     }
     read_numbers(zone);
-    zones_.push_back(std::move(zone));
+    content_.zones.push_back(std::move(zone));
   }
 
   static bool is_value(std::string_view token) {
@@ -345,11 +321,12 @@ class TecplotReader {
     return !text.empty() && (is_value(text) || lower.substr(0, 3) == "nan" || lower.substr(0, 3) == "inf");
   }
 
-  void read_numbers(Zone& zone) {
+  void read_numbers(TecplotZone& zone) {
     constexpr std::int64_t kMostPoints = std::int64_t{1} << 36U;
     if (zone.i > kMostPoints / zone.j || zone.i * zone.j > kMostPoints / zone.k)
       words_.refuse("a zone of more points than 2^36", "one that can be");
-    const std::size_t nodes = zone.node_count(), cells = zone.cell_count(), variables = variables_.size();
+    const std::size_t nodes = zone.node_count(), cells = zone.cell_count(),
+                      variables = content_.variables.size();
     if (zone.elements && nodes == 0) words_.refuse("a zone without NODES", "a count of them");
     std::vector<std::size_t> own;
     for (std::size_t v = 0; v < variables; ++v) {
@@ -374,10 +351,10 @@ class TecplotReader {
     for (const auto& [variable, from] : zone.shared) {
       if (variable >= variables)
         words_.refuse("variable " + std::to_string(variable + 1), "one that there is");
-      if (zones_[from].values[variable].size() != (zone.of_cells.count(variable) > 0 ? cells : nodes))
+      if (content_.zones[from].values[variable].size() != (zone.of_cells.count(variable) > 0 ? cells : nodes))
         words_.refuse("a variable of a zone of another size", "one of the same");
-      spend(zones_[from].values[variable].size(), "many values of other zones");
-      zone.values[variable] = zones_[from].values[variable];
+      spend(content_.zones[from].values[variable].size(), "many values of other zones");
+      zone.values[variable] = content_.zones[from].values[variable];
     }
     if (zone.elements) read_elements(zone, nodes, cells);
     if (!token_.empty() && !quoted_ && looks_like_number(token_))
@@ -385,9 +362,9 @@ class TecplotReader {
                     "as many values as it says");
   }
 
-  void read_elements(Zone& zone, std::size_t nodes, std::size_t cells) {
+  void read_elements(TecplotZone& zone, std::size_t nodes, std::size_t cells) {
     if (zone.cells_of) {
-      const Zone& other = zones_[*zone.cells_of];
+      const TecplotZone& other = content_.zones[*zone.cells_of];
       if (other.cells != zone.cells || other.corners != zone.corners || other.nodes > zone.nodes)
         words_.refuse("the elements of a zone of another size", "one of the same");
       spend(other.connectivity.size(), "many elements of other zones");
@@ -402,158 +379,13 @@ class TecplotReader {
     }
   }
 
-  /// A brick with corners that coincide, as wedges, pyramids and tetrahedra are written.
-  static void add_brick(CellList& cells, const std::int64_t* p) {
-    const auto cell = [&](std::uint8_t type, std::initializer_list<int> corners) {
-      std::array<std::int64_t, 8> points{};
-      std::size_t count = 0;
-      for (const int corner : corners) points[count++] = p[corner];
-      cells.add(type, points.data(), count);
-    };
-    const bool top_is_point = p[4] == p[5] && p[5] == p[6] && p[6] == p[7];
-    if (top_is_point && p[2] == p[3]) {
-      cell(10, {0, 1, 2, 4});
-    } else if (top_is_point) {
-      cell(14, {0, 1, 2, 3, 4});
-    } else if (p[2] == p[3] && p[6] == p[7]) {
-      cell(13, {0, 1, 2, 4, 5, 6});
-    } else {
-      cell(12, {0, 1, 2, 3, 4, 5, 6, 7});
-    }
-  }
-
-  /// The variables that are coordinates.
-  std::array<std::size_t, 3> coordinates() {
-    std::array<std::size_t, 3> out{0, 1, 2};
-    int found = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::string letter(1, "xyz"[axis]);
-      for (std::size_t v = variables_.size(); v-- > 0;) {
-        const std::string name = lowered(variables_[v]);
-        const bool own = name == letter || name.substr(0, 2) == letter + " " ||
-                         name.substr(0, 2) == letter + "(" || name.substr(0, 2) == letter + "[" ||
-                         name.substr(0, 2) == letter + "," || name == "coordinate" + letter ||
-                         name == letter + "-coordinate" || name == letter + "_coordinate";
-        if (!own) continue;
-        out[axis] = v;
-        found |= 1 << axis;
-      }
-    }
-    if (variables_.size() < 3) {
-      throw input_error({words_.file(), "", "has " + counted(variables_.size(), "variable"),
-                         "three coordinates and values", ""});
-    }
-    if (found != 7) {
-      out = {0, 1, 2};
-      notes_.insert("the first three variables, " + variables_[0] + ", " + variables_[1] + " and " +
-                    variables_[2] + ", are taken for the coordinates");
-    }
-    return out;
-  }
-
-  DataSet block_of(const Zone& zone, const std::array<std::size_t, 3>& xyz) {
-    const std::size_t nodes = zone.node_count();
-    std::vector<double> positions(3 * nodes);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::vector<double>& from = zone.values[xyz[axis]];
-      if (from.size() != nodes)
-        throw input_error({words_.file(), zone.name,
-                           "has no coordinate " + variables_[xyz[axis]] + " of its points", "", ""});
-      for (std::size_t n = 0; n < nodes; ++n) positions[3 * n + axis] = from[n];
-    }
-    DataSet block;
-    block.name = zone.name;
-    const DataArray placed = mesh_array("positions", Association::kPoint, 3, positions);
-    if (zone.elements) {
-      UnstructuredTopology mesh;
-      mesh.positions = placed;
-      CellList cells;
-      for (std::size_t c = 0; c < zone.cell_count() && zone.type != 0; ++c) {
-        const std::int64_t* const corners =
-            zone.connectivity.data() + c * static_cast<std::size_t>(zone.corners);
-        if (zone.type == 12) {
-          add_brick(cells, corners);
-        } else {
-          cells.add(zone.type, corners, static_cast<std::size_t>(zone.corners));
-        }
-      }
-      cells.take(mesh);
-      block.topology = std::move(mesh);
-    } else {
-      block.topology = StructuredTopology{
-          .points = {static_cast<int>(zone.i), static_cast<int>(zone.j), static_cast<int>(zone.k)},
-          .positions = placed};
-    }
-    for (std::size_t v = 0; v < variables_.size(); ++v) {
-      if (v == xyz[0] || v == xyz[1] || v == xyz[2] || zone.values[v].empty()) continue;
-      block.arrays.push_back(mesh_array(variables_[v],
-                                        zone.of_cells.count(v) > 0 ? Association::kCell : Association::kPoint,
-                                        1, zone.values[v]));
-    }
-    return block;
-  }
-
-  MeshFile made() {
-    if (zones_.empty())
-      throw input_error({words_.file(), "", "has no zone", "data", "the file may be truncated"});
-    const auto xyz = coordinates();
-    std::vector<double> times;
-    for (const Zone& zone : zones_) {
-      if (zone.time) times.push_back(*zone.time);
-    }
-    times = joined_times(std::move(times));
-    for (std::size_t z = 0, t = 0; z < zones_.size(); ++z) {
-      if (zones_[z].time) zones_[z].time = times[t++];
-    }
-    MeshFile out;
-    std::map<double, std::vector<DataSet>> by_time;
-    std::vector<DataSet> always;
-    std::size_t flat = 0;
-    for (const Zone& zone : zones_) {
-      const bool volume = zone.elements ? zone.type != 0 : std::min({zone.i, zone.j, zone.k}) > 1;
-      constexpr std::int64_t kMostPoints = std::numeric_limits<int>::max();
-      if (std::max({zone.i, zone.j, zone.k}) > kMostPoints)
-        words_.refuse("a zone of too many points", "2^31 at most");
-      if (!volume) {
-        ++flat;
-        continue;
-      }
-      (zone.time ? by_time[*zone.time] : always).push_back(block_of(zone, xyz));
-    }
-    if (by_time.empty() && always.empty()) {
-      throw input_error({words_.file(), "",
-                         "holds points, lines or surfaces only (" + counted(flat, "zone") + ")",
-                         "a zone of a volume", ""});
-    }
-    if (flat > 0) notes_.insert(counted(flat, "zone") + " of points, lines or surfaces left out");
-    if (by_time.empty()) {
-      out.steps.push_back(std::move(always));
-    } else {
-      std::size_t repeated = 0;
-      for (const DataSet& block : always) {
-        if (const auto* mesh = std::get_if<UnstructuredTopology>(&block.topology))
-          repeated += mesh->connectivity.size();
-      }
-      for (auto& [time, blocks] : by_time) {
-        spend(repeated, "many elements that stand at all times");
-        out.times.push_back(time);
-        out.steps.push_back(always);
-        out.steps.back().insert(out.steps.back().end(), blocks.begin(), blocks.end());
-      }
-    }
-    out.notes.assign(notes_.begin(), notes_.end());
-    return out;
-  }
-
   MeshWords words_;
   std::size_t budget_;  ///< of spend()
   std::string token_, pending_;
   bool quoted_ = false;
   std::size_t repeats_ = 0;
   double repeated_ = 0.0;
-  std::vector<std::string> variables_;
-  std::vector<Zone> zones_;
-  std::set<std::string> notes_;
+  TecplotContent content_;
 };
 
 }  // namespace

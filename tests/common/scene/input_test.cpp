@@ -4,6 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/scene/flow_series.h"
+#include "common/scene/time_steps.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
