@@ -15,6 +15,7 @@
 #include "common/render/camera.h"
 #include "common/study/random_stream.h"
 #include "common/study/scattered_field.h"
+#include "common/study/study_appearance.h"
 #include "common/trace/trace.h"
 
 namespace palpate {
@@ -158,33 +159,51 @@ struct View {
   double occluded = 0.0;  ///< share of it behind displayed lines
 };
 
+/// A point as it is seen: on the focal plane [m], and how far it is from the eye.
+struct SeenPoint {
+  double right = 0.0, up = 0.0, depth = 0.0;
+};
+
+SeenPoint seen_by(const Camera& camera, const Vec3& from, const Vec3& x) {
+  const Vec3 in_view = (x - from) * camera.axes;  // right, up, back
+  const double scale = distance(camera) / -in_view.z;
+  return {scale * in_view.x, scale * in_view.y, -in_view.z};
+}
+
 /// @param least what depth and occlusion come to in a better view: a deeper one is not looked at any further.
 View view_from(const std::vector<Vec3>& path, const std::vector<Line>& lines, double azimuth, double length,
                double least) {
   constexpr double kElevation = 18.0;
+  const Box box = stimulus_box(false);
   View view;
-  view.axes = make_camera(stimulus_box(false), {.azimuth = azimuth, .elevation = kElevation}, 1.0).axes;
-  const auto in_view = [&](const Vec3& x) { return x * view.axes; };  // right, up, back
+  view.axes = make_camera(box, {.azimuth = azimuth, .elevation = kElevation}, 1.0).axes;
   double nearest = -HUGE_VAL, farthest = HUGE_VAL;
   for (const Vec3& x : path) {
-    nearest = std::max(nearest, in_view(x).z);
-    farthest = std::min(farthest, in_view(x).z);
+    const double back = glm::dot(x, view.axes[2]);
+    nearest = std::max(nearest, back);
+    farthest = std::min(farthest, back);
   }
   view.depth = (nearest - farthest) / length;
   if (view.depth > kDeep || view.depth >= least) return view;
   constexpr double kWide = 0.002;  // [m] of a drawn line and what is beside it
   constexpr std::size_t kEvery = 5;
-  std::vector<Vec3> drawn;
+  const Camera camera = study_view(box, view.axes, false, 1.0).camera;
+  const Vec3 from = eye(camera);
+  std::vector<SeenPoint> drawn;
   for (const Line& line : lines) {
-    for (const LinePoint& point : line.points) drawn.push_back(in_view(point.position));
+    for (const LinePoint& point : line.points) drawn.push_back(seen_by(camera, from, point.position));
   }
   std::size_t behind = 0, count = 0;
   for (std::size_t i = 0; i < path.size(); i += kEvery, ++count) {
-    const Vec3 p = in_view(path[i]);
-    const bool hidden = std::ranges::any_of(drawn, [&p](const Vec3& q) {
-      const double x = q.x - p.x, y = q.y - p.y;
-      return q.z > p.z + kWide && x * x + y * y < kWide * kWide;
+    const SeenPoint p = seen_by(camera, from, path[i]);
+    const bool hidden = std::ranges::any_of(drawn, [&p](const SeenPoint& q) {
+      const double x = q.right - p.right, y = q.up - p.up;
+      return q.depth < p.depth - kWide && x * x + y * y < kWide * kWide;
     });
+    if (hidden && i == 0) {  // who does not see the start cannot go there
+      view.occluded = 1.0;
+      return view;
+    }
     behind += hidden ? 1 : 0;
   }
   view.occluded = static_cast<double>(behind) / static_cast<double>(count);
@@ -194,6 +213,7 @@ View view_from(const std::vector<Vec3>& path, const std::vector<Line>& lines, do
 struct Candidate {
   std::shared_ptr<const PathStimulus> stimulus;
   double score = 0.0;
+  int field = 0;  ///< its number
 };
 
 /// The path as a stimulus where it is good, else null.
@@ -265,22 +285,44 @@ struct FieldSearch {
 };
 
 /// The best of all fields, two of each at most where `count` is no more than there are fields, one more for each time
-/// that it is.
+/// that it is. Those that go along a better one of their field come after all others.
 std::vector<Candidate> best_of(const std::vector<FieldSearch>& fields, std::size_t count) {
   const std::size_t share = 2 + (std::max<std::size_t>(count, 1) - 1) / kFields;
-  std::vector<Candidate> all;
-  for (const FieldSearch& one : fields) {
-    std::vector<Candidate> good = one.good;
+  std::vector<Candidate> all, alike;
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    std::vector<Candidate> good = fields[f].good;
     std::ranges::stable_sort(good, {}, &Candidate::score);
-    good.resize(std::min(good.size(), share));
-    std::ranges::move(good, std::back_inserter(all));
+    std::vector<Candidate> own, rest;
+    for (Candidate& one : good) {
+      one.field = static_cast<int>(f);
+      const bool along = std::ranges::any_of(own, [&one](const Candidate& better) {
+        return shared_part(one.stimulus->path, better.stimulus->path) > kMostShared;
+      });
+      (along ? rest : own).push_back(std::move(one));
+    }
+    own.resize(std::min(own.size(), share));
+    rest.resize(std::min(rest.size(), share - own.size()));
+    std::ranges::move(own, std::back_inserter(all));
+    std::ranges::move(rest, std::back_inserter(alike));
   }
   std::ranges::stable_sort(all, {}, &Candidate::score);
+  std::ranges::stable_sort(alike, {}, &Candidate::score);
+  std::ranges::move(alike, std::back_inserter(all));
   all.resize(std::min(all.size(), count));
   return all;
 }
 
 }  // namespace
+
+double shared_part(const std::vector<Vec3>& a, const std::vector<Vec3>& b) noexcept {
+  constexpr double kBeside = 0.005;  // [m]
+  const auto part = [](const std::vector<Vec3>& path, const std::vector<Vec3>& other) {
+    const auto count = std::ranges::count_if(
+        path, [&other](const Vec3& x) { return glm::distance(x, foot_on(other, x).point) < kBeside; });
+    return static_cast<double>(count) / static_cast<double>(path.size());
+  };
+  return std::max(part(a, b), part(b, a));
+}
 
 std::shared_ptr<const VectorField> stimulus_field(bool flat, std::uint64_t seed, int number) {
   const int vectors = flat ? 19 : 13;
@@ -355,10 +397,9 @@ PathChoice choose_paths(const PathWish& wish, std::uint64_t seed, int count, Pro
   for (const int i : shuffle.order(count)) {  // practice and recorded ones are equally good
     choice.stimuli.push_back(kept[as_size(i)].stimulus);
     choice.scores.push_back(kept[as_size(i)].score);
+    choice.field_numbers.push_back(kept[as_size(i)].field);
   }
-  std::set<const VectorField*> used;
-  for (const auto& stimulus : choice.stimuli) used.insert(stimulus->field.get());
-  choice.fields = used.size();
+  choice.fields = std::set<int>(choice.field_numbers.begin(), choice.field_numbers.end()).size();
   return choice;
 }
 

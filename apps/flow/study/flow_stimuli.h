@@ -22,15 +22,17 @@ struct PathWish {
 struct PathChoice {
   std::vector<std::shared_ptr<const PathStimulus>> stimuli;  ///< the best ones
   std::vector<double> scores;                                ///< of each of them
+  std::vector<int> field_numbers;                            ///< likewise, from 0
   std::size_t good = 0, tried = 0;
   std::size_t fields = 0;  ///< that the kept ones are of
 };
 
 inline constexpr double kStimulusSize = 0.25;  ///< [m] side of the square or cube, as in the reference
 inline constexpr int kFields = 30;             ///< data sets of a kind
-inline constexpr double kMostSpread = 3.0;     ///< see choose_paths(), as the next two
+inline constexpr double kMostSpread = 3.0;     ///< see choose_paths(), as the next three
 inline constexpr std::size_t kMostOfField = 3;
 inline constexpr double kStartsApart = 0.015;  ///< [m]
+inline constexpr double kMostShared = 0.5;
 
 /// A field of a kind: 19 random vectors by biharmonic splines on 128 x 128 points, or 13 by inverse distance on
 /// 32^3. @param number from 0.
@@ -39,9 +41,13 @@ inline constexpr double kStartsApart = 0.015;  ///< [m]
 /// The streamlines from 6 x 6 or 5 x 5 x 5 seeds, both ways.
 [[nodiscard]] std::shared_ptr<const std::vector<Line>> global_view(const VectorField& field, bool flat);
 
+/// The part of a path that lies within 5 mm of another one, of whichever of both it is more. @pre neither is empty.
+[[nodiscard]] double shared_part(const std::vector<Vec3>& a, const std::vector<Vec3>& b) noexcept;
+
 /// Places in these fields are drawn, as many in each that has not given kMostOfField good ones, until 70 or a few more
 /// are good, or 10 000 were drawn in each of the others. The `count` best are kept, of up to as many as there are fields
-/// two of each field at most. Good is a path that
+/// two of each field at most, and of those that share more than kMostShared of their way with a better one of their field
+/// none before all others are kept. Good is a path that
 ///   - has the length wished for, within the field and a margin of it;
 ///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
 ///   - meets its circle or plane for the first time at its end; all of the circle lies in the field;
@@ -49,8 +55,8 @@ inline constexpr double kStartsApart = 0.015;  ///< [m]
 ///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
 ///   - forgives, where it is not shown: lines that begin 2 mm beside it, at its start and at each quarter, meet the goal no
 ///     farther than kMostSpread times that from its end: where the flow parts nobody finds the end who was off by little;
-///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length and fewer than a tenth of it lies
-///     behind displayed lines.
+///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length, its start is not behind displayed
+///     lines, and less than a tenth of it is, as seen from the eye of the window.
 /// The score is least for paths off displayed lines (8 mm and more count alike), of middling curvature, of little depth
 /// and occlusion, that forgive most.
 /// @throws Error (usage) for a `count` above 70; (work failed) where too few are good; Cancelled.

@@ -25,6 +25,8 @@ std::vector<DataColumn> FlowPathTask::stimulus_columns() const {
        {std::tuple{"end", "where it ends", "m"},
         std::tuple{"back", "direction of the view, towards the viewer", ""}})
     std::ranges::move(vector_columns(name, what, units), std::back_inserter(columns));
+  columns.push_back(
+      {"field", "which of the " + std::to_string(kFields) + " data sets the path is in, from 0", ""});
   columns.push_back({"score", "by which the best paths were chosen: less is better", ""});
   return columns;
 }
@@ -33,6 +35,7 @@ std::vector<double> FlowPathTask::stimulus_row(int stimulus) const {
   const PathStimulus& s = *choice_.stimuli.at(as_size(stimulus));
   std::vector<double> row;
   for (const Vec3& v : {s.path.front(), s.path.back(), s.view[2]}) row.insert(row.end(), {v.x, v.y, v.z});
+  row.push_back(choice_.field_numbers[as_size(stimulus)]);
   row.push_back(choice_.scores[as_size(stimulus)]);
   return row;
 }

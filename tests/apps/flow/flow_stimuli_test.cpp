@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "apps/flow/study/path_task.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/render/camera.h"
 
 namespace palpate::test {
 namespace {
@@ -20,6 +23,24 @@ double length_of(const std::vector<Vec3>& path) {
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += glm::distance(path[i], path[i + 1]);
   return sum;
+}
+
+/// Points of displayed lines that cover the start in the window's picture.
+std::size_t before_start(const std::shared_ptr<const PathStimulus>& stimulus) {
+  constexpr int kHeight = 864, kWidth = 1152;
+  constexpr double kBeside = 0.0018, kBefore = 0.003;  // [m]
+  const Camera camera = PathTrial(stimulus).view(nullptr, 1.0 * kWidth / kHeight).camera;
+  const Vec3 start = stimulus->path.front(), from = eye(camera);
+  const Vec2 at = glm::dvec2(project(camera, start, kWidth, kHeight));
+  std::size_t count = 0;
+  for (const Line& line : *stimulus->lines) {
+    count += as_size(std::ranges::count_if(line.points, [&](const LinePoint& q) {
+      const Vec2 pixel = glm::dvec2(project(camera, q.position, kWidth, kHeight));
+      return glm::distance(q.position, from) < glm::distance(start, from) - kBefore &&
+             glm::distance(pixel, at) < kBeside * kHeight / camera.view_height;
+    }));
+  }
+  return count;
 }
 
 class FlowStimuli : public ::testing::TestWithParam<PathWish> {};
@@ -35,16 +56,27 @@ TEST_P(FlowStimuli, AreOfManyFieldsAndStartApart) {
     EXPECT_TRUE(choice.good >= kEnough || choice.tried >= kPlaces * poor) << "seed " << seed;
     EXPECT_GE(choice.good, 60U) << "seed " << seed;
     EXPECT_LE(choice.good, kMost);
-    std::map<const VectorField*, std::vector<Vec3>> starts;
-    for (const auto& stimulus : choice.stimuli) {
-      EXPECT_NEAR(length_of(stimulus->path), GetParam().length, 1e-3);
-      std::vector<Vec3>& others = starts[stimulus->field.get()];
-      for (const Vec3& other : others) EXPECT_GE(glm::distance(other, stimulus->path.front()), kStartsApart);
-      others.push_back(stimulus->path.front());
+    std::map<const VectorField*, std::vector<std::vector<Vec3>>> paths;
+    std::set<int> numbers;
+    for (std::size_t i = 0; i < choice.stimuli.size(); ++i) {
+      const std::vector<Vec3>& path = choice.stimuli[i]->path;
+      EXPECT_NEAR(length_of(path), GetParam().length, 1e-3);
+      if (!GetParam().flat) {
+        EXPECT_EQ(before_start(choice.stimuli[i]), 0U) << "seed " << seed << ": stimulus " << i;
+      }
+      auto& others = paths[choice.stimuli[i]->field.get()];
+      for (const std::vector<Vec3>& other : others) {
+        EXPECT_GE(glm::distance(other.front(), path.front()), kStartsApart);
+        EXPECT_LE(shared_part(path, other), kMostShared)
+            << "seed " << seed << ": stimulus " << i << " goes along another one";
+      }
+      others.push_back(path);
+      numbers.insert(choice.field_numbers.at(i));
     }
-    EXPECT_EQ(starts.size(), choice.fields);
+    EXPECT_EQ(paths.size(), choice.fields);
+    EXPECT_EQ(numbers.size(), choice.fields);
     EXPECT_GE(choice.fields, 15U) << "seed " << seed;
-    for (const auto& [field, of_field] : starts) EXPECT_LE(of_field.size(), 2U) << "seed " << seed;
+    for (const auto& [field, of_field] : paths) EXPECT_LE(of_field.size(), 2U) << "seed " << seed;
   }
 }
 
@@ -56,9 +88,15 @@ INSTANTIATE_TEST_SUITE_P(Tasks, FlowStimuli,
 
 TEST(FlowStimuli, SayOfHowManyFieldsTheyAre) {
   Progress progress;
-  const std::string said = make_tracing_2d()->prepare(7, 30, progress);
+  const auto task = make_tracing_2d();
+  const std::string said = task->prepare(7, 30, progress);
   EXPECT_NE(said.find("the 30 best of "), std::string::npos) << said;
-  EXPECT_NE(said.find(" of the 30 fields"), std::string::npos) << said;
+  const std::vector<DataColumn> columns = task->stimulus_columns();
+  const auto column = std::ranges::find(columns, "field", &DataColumn::name) - columns.begin();
+  std::set<double> fields;
+  for (int s = 0; s < 30; ++s) fields.insert(task->stimulus_row(s).at(as_size(column)));
+  EXPECT_NE(said.find("of " + std::to_string(fields.size()) + " of the 30 fields"), std::string::npos)
+      << said;
   EXPECT_THROW((void)choose_paths({}, 7, 71, progress), Error);
 }
 
