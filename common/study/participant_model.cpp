@@ -84,14 +84,12 @@ Vec3 ParticipantModel::aim(const StudyTrial& trial, const Vec3& x) {
     const Vec3 off = axes_ * (Vec3{traits_.sight_noise, traits_.sight_noise, depth} * error);
     cue_ = trial.cue(seen_[as_size((step_ - back) % kMemory)] + off, speed_ * traits_.foresight);
     const Vec3 turn = noise(turn_, traits_.turn_noise, kSightTime, kLook);
-    if (const double pace = glm::length(cue_.along); pace > 0.0) {
-      const Vec3 turned = cue_.along / pace + axes_ * (flat_ ? Vec3{turn.x, turn.y, 0.0} : turn);
-      cue_.along = pace * glm::normalize(turned);
-    }
+    if (cue_.along != Vec3{0.0})
+      cue_.along = glm::normalize(cue_.along + axes_ * (flat_ ? Vec3{turn.x, turn.y, 0.0} : turn));
   }
   Vec3 move = noise(move_, traits_.move_noise, kMoveTime, 1);
   if (flat_) move.z = 0.0;
-  const double going = cue_.arrived ? 0.0 : speed_;
+  const double going = cue_.arrived ? 0.0 : std::min(speed_, traits_.gain * cue_.left);
   aim_ += kStep * (going * (cue_.along + axes_ * move) + traits_.gain * cue_.off + (x - aim_) / kYield);
   ++step_;
   time_ = kStep * static_cast<double>(step_);

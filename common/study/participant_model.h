@@ -1,22 +1,25 @@
 /// A simulated participant: sees where the cursor was, aims, and holds a simulated arm.
 ///
 /// Symbols. x cursor, a where the participant wants the hand to be, u(s, l) unit direction to move on in, a way of l
-/// ahead of s, and o(s) way back to the path as the trial's cue gives them (task.h), v chosen speed, tau delay, f
-/// foresight; n noises.
+/// ahead of s, o(s) way back to the path and e(s) length of the way to the place to stop at (infinite where that is not seen)
+/// as the trial's cue gives them (task.h), c chosen speed, tau delay, f foresight; n noises.
 ///
 ///   s(t) = x(t - tau) + n_see                                      what is seen, n_see larger in depth         (1)
-///   a' = v (u(s, v f) + n_turn) + g o(s) + v n_move + (x - a) / T  aim: moves on, corrects, follows the hand   (2)
-///   r = a + tremor                                             the rest of the hand's spring (hand_model.h) (3)
+///   a' = v (u(s, c f) + n_turn) + g o(s) + v n_move + (x - a) / T  aim: moves on, corrects, follows the hand   (2)
+///   v = min(c, g e(s))                                         speed: who sees the end stops there          (3)
+///   r = a + tremor                                             the rest of the hand's spring (hand_model.h) (4)
 ///
 /// Noises are Ornstein-Uhlenbeck processes, per axis of the view. v n_move grows with speed: who is faster is less
-/// accurate. The last part of (2) is that somebody who is held back by a force does not push against it for long.
+/// accurate. The last part of (2) is that somebody who is held back by a force does not push against it for long. By (3) the
+/// end is come to with the gain of any other correction: g times all delay stays below pi / 2, beyond which a delayed loop
+/// swings ever farther, round the end in place of to it.
 ///
 /// Where the numbers are from, all as means over participants with the spread between them:
 ///   tau     0.21 s, 0.03        visual corrections take 190 to 260 ms: Keele & Posner 1968, J. Exp. Psychol. 77:155
 ///   f       0.25 s, factor 1.2  the direction is taken where the hand will be: who sees the way ahead makes up for delay
 ///                               and lag of the arm (van der El, Pool, Damveld, van Paassen & Mulder 2016, IEEE Trans.
 ///                               Cybern. 46:2609), here 0.21 + 0.04 s; no farther than the indicator is drawn
-///   v       0.05 m/s, factor 1.3    some 3 s for a path of 0.1 m, within the limit that the reference set
+///   c       0.05 m/s, factor 1.3    some 3 s for a path of 0.1 m, within the limit that the reference set
 ///   n_move  0.20, factor 1.25   motor noise in proportion to the command: Harris & Wolpert 1998, Nature 394:780; linear
 ///                               speed-accuracy trade-off: Schmidt et al. 1979, Psychol. Rev. 86:415
 ///   n_turn  0.115 rad, factor 1.23    slow movements in a seen direction deviate at random by 4 degrees and constantly, with the
@@ -46,7 +49,7 @@ namespace palpate {
 struct ParticipantTraits {
   double delay = 0.21;         ///< tau [s]
   double foresight = 0.25;     ///< f [s]
-  double speed = 0.050;        ///< v [m/s]
+  double speed = 0.050;        ///< c [m/s]
   double move_noise = 0.20;    ///< part of v
   double turn_noise = 0.115;   ///< [rad]
   double sight_noise = 0.001;  ///< [m]

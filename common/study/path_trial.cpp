@@ -189,12 +189,19 @@ TrialCue PathTrial::cue(const Vec3& where, double ahead) const {
   const PathFoot foot = foot_on(stimulus_->path, x);
   cue.along = tangent_at(stimulus_->path, foot.arc + ahead);
   if (stimulus_->shown) {
-    const Vec3 end = stimulus_->path.back(), left = end - x;
-    constexpr double kClose = 0.010;  // [m] from where on the end itself is aimed at, ever slower
-    cue.arrived = glm::length(left) <= kNear;
-    cue.off = foot.point - x;
-    if (glm::length(left) < kClose || foot.point == end)
-      cue.along = left / std::max(kClose, glm::length(left));
+    const std::vector<Vec3>& path = stimulus_->path;
+    const Vec3 end = path.back(), straight = end - x;
+    const double length = glm::distance(path[0], path[1]) * static_cast<double>(path.size() - 1);
+    const double distance = glm::length(straight);
+    constexpr double kClose = 0.010;  // [m] from where on the end itself is aimed at, not the way to it
+    cue.arrived = distance <= kNear;
+    if (distance < kClose || foot.point == end) {
+      cue.left = distance;
+      cue.along = distance > 0.0 ? straight / distance : Vec3{0.0};
+    } else {
+      cue.left = std::max(distance, length - foot.arc);
+      cue.off = foot.point - x;
+    }
     return cue;
   }
   // Nobody sees farther than the indicator goes.

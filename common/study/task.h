@@ -5,6 +5,7 @@
 /// workspace [m]; what is drawn is in the same frame.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -41,10 +42,11 @@ struct StudyTaskInfo {
 
 /// What the picture tells somebody about where to go next.
 struct TrialCue {
-  Vec3 along{0.0};       ///< direction to move on in, of length one; shorter: more slowly
-  Vec3 off{0.0};         ///< [m] way back to the path, where that is shown
-  bool arrived = false;  ///< there is nothing left to do but to say so
-  bool marks = false;    ///< the button is to be pressed here
+  Vec3 along{0.0};         ///< direction to move on in, of length one; zero: stay
+  double left = HUGE_VAL;  ///< [m] way to the place to stop at, where that is seen
+  Vec3 off{0.0};           ///< [m] way back to the path, where that is shown
+  bool arrived = false;    ///< there is nothing left to do but to say so
+  bool marks = false;      ///< the button is to be pressed here
 };
 
 /// One stimulus, and how far a participant has come with it. Not shared between threads.

@@ -59,11 +59,11 @@ class PlaneTrial final : public StudyTrial {
   [[nodiscard]] TrialCue cue(const Vec3& seen, double /*ahead*/) const override {
     TrialCue cue{.arrived = reached()};
     if (cue.arrived) return cue;
-    constexpr double kHere = 0.008, kClose = 0.016;  // [m]
+    constexpr double kHere = 0.008;  // [m]
     const Vec3 way = stimulus_.points[marks_.size()] - seen;
-    const double left = glm::length(way);
-    cue.marks = left < kHere;
-    cue.along = way / std::max(kClose, left);
+    cue.left = glm::length(way);
+    cue.marks = cue.left < kHere;
+    if (cue.left > 0.0) cue.along = way / cue.left;
     return cue;
   }
   [[nodiscard]] bool reached() const override { return marks_.size() == stimulus_.points.size(); }

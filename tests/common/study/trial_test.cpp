@@ -240,6 +240,30 @@ TEST(SimulatedTrial, GuidanceHelps) {
   EXPECT_LT(helps.p, 0.01);
 }
 
+/// Who comes to the end of a drawn path stops there, and does not swing round it: few come near it, leave and come again,
+/// and all are done within the time of the way and of slowing down.
+TEST(SimulatedTrial, TheEndOfADrawnPathIsComeToOnce) {
+  constexpr double kNearEnd = 0.010, kAway = 0.012;  // [m]
+  PathTrial trial(circle_stimulus(PathGoal::kEnd, true));
+  const Vec3 end = circle_stimulus(PathGoal::kEnd, true)->path.back();
+  int left_again = 0;
+  constexpr int kPeople = 150;
+  for (int i = 0; i < kPeople; ++i) {
+    const ParticipantTraits traits = draw_traits(1, i);
+    const TrialRun run = simulate_trial(trial, kInfo, {"made", 0, false, 0.0}, traits,
+                                        RandomStream({6, static_cast<std::uint64_t>(i)}), nullptr);
+    EXPECT_LT(run.outcome.seconds, 3.0 + 1.5 * kLength / traits.speed) << "participant " << i;
+    bool near = false, left = false;
+    for (const HandStep& step : run.steps) {
+      const double away = glm::length(Vec2(step.probe - end));
+      near = near || away < kNearEnd;
+      left = left || (near && away > kAway);
+    }
+    left_again += left ? 1 : 0;
+  }
+  EXPECT_LE(left_again, kPeople / 20);
+}
+
 /// Without force both conditions are one, and p is uniform. PALPATE_STUDY_SEEDS=200 asks that of 200 studies
 /// (docs/guide/study.md has what came of it); by default a few are looked at.
 TEST(SimulatedTrial, WithoutForceThereIsNoEffect) {
