@@ -210,13 +210,15 @@ std::vector<Vec3> mean_normals(const WallBorder& border, const std::vector<std::
 }
 
 /// Makes rims of what faces the opening and hangs together with an edge between a cavity and the outside.
-void find_rims(const WallBorder& border, const Vec3& opening, std::vector<std::int32_t>& beside) {
+/// @param own cosine to the opening from which on a triangle beside them is of a rim by its own normal, too: edges of a
+/// rim that the mesh does not have are cut off. Normals of stairs say nothing: 2.
+void find_rims(const WallBorder& border, const Vec3& opening, double own, std::vector<std::int32_t>& beside) {
   const std::vector<Vec3> means = mean_normals(border, beside);
   std::vector<bool> up(beside.size()), rim(beside.size());
   for (std::size_t t = 0; t < up.size(); ++t)
     up[t] = glm::dot(means[t], opening) > kFacesUp * glm::length(means[t]);
   std::vector<std::vector<std::uint32_t>> joined(beside.size());
-  std::vector<std::uint32_t> front;
+  std::vector<std::uint32_t> front, edge;
   const auto begin = [&](std::uint32_t t) {
     if (!up[t] || rim[t]) return;
     rim[t] = true;
@@ -226,12 +228,25 @@ void find_rims(const WallBorder& border, const Vec3& opening, std::vector<std::i
     joined[a].push_back(b);
     joined[b].push_back(a);
     if (beside[a] == beside[b]) continue;
+    edge.push_back(a);
+    edge.push_back(b);
     begin(a);
     begin(b);
   }
   for (std::size_t f = 0; f < front.size(); ++f) {
     const std::uint32_t from = front[f];  // `front` may move
     for (const std::uint32_t t : joined[from]) begin(t);
+  }
+  const auto cut_off = [&](std::uint32_t t) { return glm::dot(border.normal(t), opening) > own; };
+  for (const std::uint32_t t : edge)
+    if (cut_off(t)) rim[t] = true;
+  constexpr int kWide = 2;  // triangles
+  for (int round = 0; round < kWide; ++round) {
+    const std::vector<bool> before = rim;
+    for (const auto& [a, b] : border.joints) {
+      if (before[a] && cut_off(b)) rim[b] = true;
+      if (before[b] && cut_off(a)) rim[a] = true;
+    }
   }
   for (std::size_t t = 0; t < rim.size(); ++t)
     if (rim[t]) beside[t] = WallStairs::kRim;
@@ -273,34 +288,90 @@ void join_patches(const WallBorder& border, std::vector<std::int32_t>& beside) {
   }
 }
 
+/// A lattice along the coordinate axes over cells of any shape.
+Lattice laid_over(const TetMesh& mesh, const WallBorder& border) {
+  constexpr double kMostLaid = 2e6;  // voxels
+  Box box;
+  std::vector<double> edges;
+  for (const auto& triangle : border.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.include(mesh.points()[triangle[i]]);
+      edges.push_back(glm::distance(mesh.points()[triangle[i]], mesh.points()[triangle[(i + 1) % 3]]));
+    }
+  }
+  const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+  std::nth_element(edges.begin(), middle, edges.end());
+  const Vec3 size = box.size();
+  const double step = std::max(0.5 * *middle, std::cbrt(size.x * size.y * size.z / kMostLaid));
+  Lattice lattice;
+  lattice.step = Vec3{step};
+  for (int a = 0; a < 3; ++a) {
+    lattice.count[as_size(a)] = static_cast<int>(std::ceil(size[a] / step)) + 2;
+    lattice.origin[a] = box.lower[a] - 0.5 * (lattice.count[as_size(a)] * step - size[a]);
+  }
+  return lattice;
+}
+
+/// What each triangle borders: the first voxel before it that is no wall says so.
+std::vector<std::int32_t> what_is_beside(const TetMesh& mesh, const WallBorder& border,
+                                         const Lattice& lattice, const std::vector<std::uint8_t>& wall,
+                                         const std::vector<std::int32_t>& cavity) {
+  constexpr int kFarthest = 4;  // half steps: voxels whose middle is wall may stick out of it
+  std::vector<std::int32_t> beside;
+  for (std::size_t t = 0; t < border.triangles.size(); ++t) {
+    const Vec3 half = 0.5 * border.normal(t) * std::min({lattice.step[0], lattice.step[1], lattice.step[2]});
+    const Vec3 middle = triangle_middle(mesh.points(), border.triangles[t]);
+    std::int32_t found = WallStairs::kOutside;
+    for (int n = 1; n <= kFarthest; ++n) {
+      const auto voxel = lattice.at(middle + static_cast<double>(n) * half);
+      if (voxel && wall[*voxel] != 0) continue;
+      if (voxel) found = cavity[*voxel];
+      break;
+    }
+    beside.push_back(found);
+  }
+  return beside;
+}
+
+/// @param own as find_rims().
+std::optional<WallStairs> in_lattice(const TetMesh& mesh, const WallBorder& border, const Lattice& lattice,
+                                     double own) {
+  const std::vector<std::uint8_t> wall = wall_of(mesh, lattice);
+  WallStairs stairs{.step = std::max({lattice.step[0], lattice.step[1], lattice.step[2]}),
+                    .beside = what_is_beside(mesh, border, lattice, wall, cavities_of(wall, lattice)),
+                    .areas = border.areas};
+  if (std::all_of(stairs.beside.begin(), stairs.beside.end(),
+                  [](std::int32_t number) { return number == WallStairs::kOutside; }))
+    return std::nullopt;
+  Vec3 opening{0.0};
+  for (std::size_t t = 0; t < border.areas.size(); ++t)
+    if (stairs.beside[t] != WallStairs::kOutside) opening += border.areas[t];
+  if (const double length = glm::length(opening); length > 0.0)
+    find_rims(border, opening / length, own, stairs.beside);
+  join_patches(border, stairs.beside);
+  return stairs;
+}
+
 }  // namespace
 
 std::optional<WallStairs> find_wall_stairs(const TetMesh& mesh, const WallBorder& border) {
   Lattice lattice;
   if (!find_axes(border, lattice.axes) || !find_planes(mesh.points(), border, lattice)) return std::nullopt;
-  const std::vector<std::int32_t> cavity = cavities_of(wall_of(mesh, lattice), lattice);
-  WallStairs stairs{
-      .step = std::max({lattice.step[0], lattice.step[1], lattice.step[2]}), .beside = {}, .areas = {}};
-  Vec3 opening{0.0};
-  for (std::size_t t = 0; t < border.triangles.size(); ++t) {
-    const Vec3 half = 0.5 * border.normal(t) * std::min({lattice.step[0], lattice.step[1], lattice.step[2]});
-    const auto voxel = lattice.at(triangle_middle(mesh.points(), border.triangles[t]) + half);
-    stairs.beside.push_back(voxel ? cavity[*voxel] : WallStairs::kOutside);
-    if (stairs.beside.back() != WallStairs::kOutside) opening += border.areas[t];
-  }
-  if (std::all_of(stairs.beside.begin(), stairs.beside.end(),
-                  [](std::int32_t number) { return number == WallStairs::kOutside; }))
-    return std::nullopt;
-  if (const double length = glm::length(opening); length > 0.0)
-    find_rims(border, opening / length, stairs.beside);
-  join_patches(border, stairs.beside);
-  const std::vector<Vec3> means = mean_normals(border, stairs.beside);
+  std::optional<WallStairs> stairs = in_lattice(mesh, border, lattice, 2.0);
+  if (!stairs) return std::nullopt;
+  const std::vector<Vec3> means = mean_normals(border, stairs->beside);
   for (std::size_t t = 0; t < means.size(); ++t) {
     const double length = glm::length(means[t]);
     const Vec3 normal = length > 0.0 ? means[t] / length : Vec3{0.0};
-    stairs.areas.push_back(normal * std::max(0.0, glm::dot(normal, border.areas[t])));
+    stairs->areas[t] = normal * std::max(0.0, glm::dot(normal, border.areas[t]));
   }
   return stairs;
+}
+
+std::optional<WallStairs> find_closed_cavities(const TetMesh& mesh, const WallBorder& border) {
+  if (border.triangles.empty()) return std::nullopt;
+  constexpr double kOwn = 0.5;  // edges of a rim that the mesh does not have are cut off at some 45 degrees
+  return in_lattice(mesh, border, laid_over(mesh, border), kOwn);
 }
 
 }  // namespace palpate

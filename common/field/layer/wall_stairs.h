@@ -27,4 +27,8 @@ struct WallStairs {
 /// Nothing where the border is none of voxels, or no cavity is found.
 [[nodiscard]] std::optional<WallStairs> find_wall_stairs(const TetMesh& mesh, const WallBorder& border);
 
+/// The same for cells of any shape, in a lattice that is laid over them: its step is half a typical edge of the border,
+/// but no more voxels than 2 million. WallStairs::areas are the border's own. Nothing where no cavity is found.
+[[nodiscard]] std::optional<WallStairs> find_closed_cavities(const TetMesh& mesh, const WallBorder& border);
+
 }  // namespace palpate

@@ -33,6 +33,7 @@ constexpr double kMost = 0.75;         // of a part's area that says what all of
 constexpr double kNearlyAll = 0.95;    // likewise, of a cavity that creases do not part
 constexpr double kLeastConfidence = 0.9;
 constexpr double kRounder = 1.2;  // how much rounder the left ventricle should be than the next
+constexpr double kThicker = 1.3;  // or how much thicker its wall
 
 bool both(const std::vector<WallSurface>& of_point) {
   const auto has = [&](WallSurface surface) {
@@ -112,12 +113,13 @@ class BorderReading {
   [[nodiscard]] std::size_t part_count() const { return parts_.size(); }
   [[nodiscard]] std::size_t cavity_count() const { return cavities_.size(); }
 
-  /// The roles of all triangles. @param doubts gets what should be looked at.
-  std::vector<BorderRole> roles(std::vector<std::string>& doubts) {
-    doubt_rims(doubts);
+  /// The roles of all triangles.
+  /// @param grave gets what may make all of it wrong. @param slight what else should be looked at.
+  std::vector<BorderRole> roles(std::vector<std::string>& grave, std::vector<std::string>& slight) {
+    doubt_rims(grave);
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (const std::uint32_t t : parts_[p].triangles) roles_[t] = part_roles_[p];
-    if (cavities_.size() > 1) find_septum(doubts);
+    if (cavities_.size() > 1) find_septum(grave, slight);
     return roles_;
   }
 
@@ -314,8 +316,28 @@ class BorderReading {
     }
     std::stable_sort(cavities_.begin(), cavities_.end(),
                      [this](const Cavity& a, const Cavity& b) { return roundness(a) > roundness(b); });
+    if (cavities_.size() > 1 && roundness(cavities_[0]) < kRounder * roundness(cavities_[1]) &&
+        wall_before(cavities_[1]) > wall_before(cavities_[0]))
+      std::swap(cavities_[0], cavities_[1]);
     for (std::size_t c = 1; c < cavities_.size(); ++c)
       for (const std::size_t p : cavities_[c]) part_roles_[p] = BorderRole::kRight;
+  }
+
+  /// How thick the wall is between a cavity and the outer surface, in the mean.
+  [[nodiscard]] double wall_before(const Cavity& cavity) const {
+    const WallCrossing crossing(mesh_, border_);
+    double sum = 0.0, all = 0.0;
+    for (const std::size_t p : cavity) {
+      for (const std::uint32_t t : parts_[p].triangles) {
+        const std::size_t met = crossing.from(t);
+        if (met >= part_of_.size() || part_roles_[part_of_[met]] != BorderRole::kOuter) continue;
+        const double area = glm::length(border_.areas[t]);
+        sum += area * glm::distance(triangle_middle(mesh_.points(), border_.triangles[t]),
+                                    triangle_middle(mesh_.points(), border_.triangles[met]));
+        all += area;
+      }
+    }
+    return all > 0.0 ? sum / all : 0.0;
   }
 
   /// 36 pi V^2 / A^3 of a cavity closed at the middle of its rim: 1 for a sphere.
@@ -355,7 +377,7 @@ class BorderReading {
     });
   }
 
-  void find_septum(std::vector<std::string>& doubts) {
+  void find_septum(std::vector<std::string>& grave, std::vector<std::string>& slight) {
     enum class Behind : std::uint8_t { kUnknown, kFree, kLeft };
     const WallCrossing crossing(mesh_, border_);
     std::vector<Behind> behind(border_.triangles.size(), Behind::kUnknown);
@@ -389,15 +411,17 @@ class BorderReading {
       septum += glm::length(border_.areas[t]);
     }
     const double first = roundness(cavities_[0]), second = roundness(cavities_[1]);
-    if (first < kRounder * second)
-      doubts.push_back("which of the cavities is the left ventricle's: they are as round as " +
-                       short_number(first) + " and " + short_number(second) + " of a sphere");
+    if (first < kRounder * second && wall_before(cavities_[0]) < kThicker * wall_before(cavities_[1]))
+      slight.push_back("which of the cavities is the left ventricle's: they are as round as " +
+                       short_number(first) + " and " + short_number(second) +
+                       " of a sphere, and their walls about as thick");
     if (cavities_.size() > 2)
-      doubts.push_back(std::to_string(cavities_.size()) + " cavities" +
-                       " were found: the roundest one is taken for the left ventricle's");
-    if (septum == 0.0) doubts.emplace_back("no wall between the cavities was found: none has a septum");
+      grave.push_back(
+          std::to_string(cavities_.size()) + " cavities" +
+          " were found: the roundest one, or that of the thicker wall, is taken for the left ventricle's");
+    if (septum == 0.0) grave.emplace_back("no wall between the cavities was found: none has a septum");
     if (mixed > 0.5 * right)
-      doubts.emplace_back(
+      slight.emplace_back(
           "where the septum ends in the right ventricle: there is no crease, the way through the wall says so");
   }
 
@@ -451,6 +475,47 @@ class BorderReading {
   std::optional<Vec3> axis_;  ///< the way that the outer surface opens
   std::vector<Cavity> cavities_;
 };
+
+/// Surfaces, and in how many ways they may be all wrong.
+struct Attempt {
+  WallSurfaces surfaces;
+  std::size_t grave = 0;
+};
+
+enum class FoundBy : std::uint8_t { kCreases, kStairs, kCavities };
+
+/// What a reading tells, measured. @param crease by which the border is parted. @param step of the voxels.
+Attempt attempt(BorderReading& reading, FoundBy by, double crease, double step, const FieldGrid& grid,
+                const WallBorder& border) {
+  WallSurfaces surfaces;
+  surfaces.triangles = border.triangles;
+  std::vector<std::string> slight;
+  surfaces.roles = reading.roles(surfaces.doubts, slight);
+  measure_surfaces(grid, border, surfaces);
+  mark_points(grid, surfaces);
+  if (crease < kCreases[0])
+    surfaces.doubts.push_back("its parts show only where it is parted at " + short_number(crease / kDegree) +
+                              " degrees in place of 40");
+  if (!reading.has(BorderRole::kBase) && reading.open())
+    surfaces.doubts.emplace_back("no base was found between the inner and the outer surface");
+  if (surfaces.confidence < kLeastConfidence)
+    surfaces.doubts.push_back("parts without a role are " +
+                              short_number(std::round(100.0 * (1.0 - surfaces.confidence))) +
+                              " % of its area");
+  for (const BorderRole role : {BorderRole::kOuter, BorderRole::kInner, BorderRole::kSeptum})
+    if (surfaces.pieces[as_size(role)] > 1)
+      surfaces.doubts.push_back(std::string(name_of(role)) + " is of " +
+                                counted(surfaces.pieces[as_size(role)], "piece"));
+  const std::size_t grave = surfaces.doubts.size();
+  surfaces.doubts.insert(surfaces.doubts.end(), slight.begin(), slight.end());
+  if (by == FoundBy::kStairs) surfaces.doubts.push_back(doubt_stairs(grid, border, surfaces, step));
+  const char* const how[] = {
+      "found by the creases of the border: ", "found by closing the cavities of a wall of voxels: ",
+      "found by closing the cavities, as creases alone do not part the border: "};
+  surfaces.note = how[as_size(by)] + areas_text(surfaces) + "; confidence " +
+                  short_number(std::round(100.0 * surfaces.confidence)) + " %";
+  return {.surfaces = std::move(surfaces), .grave = grave};
+}
 
 }  // namespace
 
@@ -506,30 +571,17 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   }
   if (!tells())
     refuse("has a border of " + counted(smooth, "smooth part") + ", none of them an inner surface");
-  surfaces.roles = reading->roles(surfaces.doubts);
-  measure_surfaces(grid, border, surfaces);
-  mark_points(grid, surfaces);
-  if (!both(surfaces.of_point)) refuse("has an inner surface that is all rim");
-
-  if (crease < kCreases[0])
-    surfaces.doubts.push_back("its parts show only where it is parted at " + short_number(crease / kDegree) +
-                              " degrees in place of 40");
-  if (!reading->has(BorderRole::kBase) && reading->open())
-    surfaces.doubts.emplace_back("no base was found between the inner and the outer surface");
-  if (surfaces.confidence < kLeastConfidence)
-    surfaces.doubts.push_back("parts without a role are " +
-                              short_number(std::round(100.0 * (1.0 - surfaces.confidence))) +
-                              " % of its area");
-  for (const BorderRole role : {BorderRole::kOuter, BorderRole::kInner, BorderRole::kSeptum})
-    if (surfaces.pieces[as_size(role)] > 1)
-      surfaces.doubts.push_back(std::string(name_of(role)) + " is of " +
-                                counted(surfaces.pieces[as_size(role)], "piece"));
-  if (stairs) surfaces.doubts.push_back(doubt_stairs(grid, border, surfaces, stairs->step));
-  surfaces.note = std::string(stairs ? "found by closing the cavities of a wall of voxels: "
-                                     : "found by the creases of the border: ") +
-                  areas_text(surfaces) + "; confidence " +
-                  short_number(std::round(100.0 * surfaces.confidence)) + " %";
-  return surfaces;
+  Attempt best = attempt(*reading, stairs ? FoundBy::kStairs : FoundBy::kCreases, crease,
+                         stairs ? stairs->step : 0.0, grid, border);
+  if (best.grave > 0 && !stairs) {
+    if (const auto closed = find_closed_cavities(*grid.tets, border)) {
+      BorderReading other(*grid.tets, border, *closed);
+      Attempt second = attempt(other, FoundBy::kCavities, kCreases[0], closed->step, grid, border);
+      if (both(second.surfaces.of_point) && second.grave <= best.grave) best = std::move(second);
+    }
+  }
+  if (!both(best.surfaces.of_point)) refuse("has an inner surface that is all rim");
+  return best.surfaces;
 }
 
 }  // namespace palpate

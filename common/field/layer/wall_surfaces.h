@@ -66,7 +66,9 @@ struct WallSurfaces {
 /// curved, as in a box, sides that meet in re-entrant edges are a cavity's, what meets them over another edge is base,
 /// and the rest is outer.
 /// The border of voxels is stairs and has no such parts: wall_stairs.h says what cavities, rims and normals are, which is
-/// a doubt.
+/// a doubt. Where that of other cells is doubtful in a way that may make all of it wrong, cavities are found likewise, in
+/// a lattice that is laid over the cells, and count where no more is doubtful then. Of two cavities about as round as each
+/// other the left one is that with the thicker wall.
 /// @throws Error (bad input) with `file` where there are not both: "name them in a point array 'surface'".
 [[nodiscard]] WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh,
                                               const std::string& file);
