@@ -216,6 +216,19 @@ struct Candidate {
   int field = 0;  ///< its number
 };
 
+/// Whether it turns somewhere by more than a right angle within kTurn. Somebody who looks that far ahead wants to go
+/// where the line leads back: held by it, a hand is led back.
+bool turns_back(const std::vector<Vec3>& path, double length) {
+  const std::size_t pieces = path.size() - 1;
+  const auto far = static_cast<std::size_t>(std::ceil(kTurn / length * static_cast<double>(pieces)));
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const Vec3 along = path[i + 1] - path[i];
+    for (std::size_t j = i + 1; j < std::min(pieces, i + far + 1); ++j)
+      if (glm::dot(along, path[j + 1] - path[j]) < 0.0) return true;
+  }
+  return false;
+}
+
 /// The path as a stimulus where it is good, else null.
 Candidate judged(std::vector<Vec3> path, const PathWish& wish,
                  const std::shared_ptr<const VectorField>& field,
@@ -225,7 +238,7 @@ Candidate judged(std::vector<Vec3> path, const PathWish& wish,
   if (path.empty() || !first_meets_at_end(path, wish.goal)) return {};
   const bool shown = wish.goal == PathGoal::kEnd;
   const double chord = glm::distance(path.front(), path.back()) / wish.length;
-  if (chord > kStraight || chord < kCurled) return {};
+  if (chord > kStraight || chord < kCurled || turns_back(path, wish.length)) return {};
   const double off = shown ? 0.0 : apart(path, *lines);
   if (!shown && off < kOff) return {};
   View view;

@@ -29,10 +29,11 @@ struct PathChoice {
 
 inline constexpr double kStimulusSize = 0.25;  ///< [m] side of the square or cube, as in the reference
 inline constexpr int kFields = 30;             ///< data sets of a kind
-inline constexpr double kMostSpread = 3.0;     ///< see choose_paths(), as the next three
+inline constexpr double kMostSpread = 3.0;     ///< see choose_paths(), as the next four
 inline constexpr std::size_t kMostOfField = 3;
 inline constexpr double kStartsApart = 0.015;  ///< [m]
 inline constexpr double kMostShared = 0.5;
+inline constexpr double kTurn = 0.015;  ///< [m]
 
 /// A field of a kind: 19 random vectors by biharmonic splines on 128 x 128 points, or 13 by inverse distance on
 /// 32^3. @param number from 0.
@@ -52,7 +53,8 @@ inline constexpr double kMostShared = 0.5;
 ///   - keeps off the displayed lines where it is not shown: 4 mm in the mean;
 ///   - meets its circle or plane for the first time at its end; all of the circle lies in the field;
 ///   - begins kStartsApart from those that were found before it in its field;
-///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it;
+///   - is a curve, neither straight nor a spiral: the chord is 0.55 to 0.97 of it, and within kTurn it turns by a right angle
+///     at most: a line that holds the hand leads it back where somebody looks farther ahead than the turn;
 ///   - forgives, where it is not shown: lines that begin 2 mm beside it, at its start and at each quarter, meet the goal no
 ///     farther than kMostSpread times that from its end: where the flow parts nobody finds the end who was off by little;
 ///   - in 3D has a view, of 16 around it, in which its depth is below a third of its length, its start is not behind displayed

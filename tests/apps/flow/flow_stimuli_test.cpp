@@ -2,9 +2,11 @@
 #include "apps/flow/study/flow_stimuli.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +25,21 @@ double length_of(const std::vector<Vec3>& path) {
   double sum = 0.0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) sum += glm::distance(path[i], path[i + 1]);
   return sum;
+}
+
+/// [degrees] by which a path turns within 15 mm, at most.
+double sharpest_turn(const std::vector<Vec3>& path) {
+  double most = 0.0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    double arc = 0.0;
+    for (std::size_t j = i; j + 1 < path.size() && arc < 0.015; ++j) {
+      const double cosine =
+          glm::dot(glm::normalize(path[i + 1] - path[i]), glm::normalize(path[j + 1] - path[j]));
+      most = std::max(most, std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi);
+      arc += glm::distance(path[j], path[j + 1]);
+    }
+  }
+  return most;
 }
 
 /// Points of displayed lines that cover the start in the window's picture.
@@ -61,6 +78,7 @@ TEST_P(FlowStimuli, AreOfManyFieldsAndStartApart) {
     for (std::size_t i = 0; i < choice.stimuli.size(); ++i) {
       const std::vector<Vec3>& path = choice.stimuli[i]->path;
       EXPECT_NEAR(length_of(path), GetParam().length, 1e-3);
+      EXPECT_LT(sharpest_turn(path), 95.0) << "seed " << seed << ": stimulus " << i;
       if (!GetParam().flat) {
         EXPECT_EQ(before_start(choice.stimuli[i]), 0U) << "seed " << seed << ": stimulus " << i;
       }
