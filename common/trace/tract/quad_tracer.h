@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "common/ode/explicit_step.h"
 #include "common/ode/step_control.h"
@@ -79,7 +80,9 @@ class QuadControlled : private QuadLanes<T> {
   using Base::bit;
 
  public:
-  QuadControlled(const UniformTensors<T>& tensors, const TractRules& rules) : Base(tensors, rules) {}
+  QuadControlled(const UniformTensors<T>& tensors, const TractRules& rules) : Base(tensors, rules) {
+    faces_.assign(4, tensors.faces(rules.options().tolerance));
+  }
 
   /// As QuadFixed::trace().
   template <class Check>
@@ -110,6 +113,7 @@ class QuadControlled : private QuadLanes<T> {
       reached_[lane] = error_[lane] = 0.0;
       step_[lane] = this->rules_.limits().spacing;
       control_[lane] = StepControl(Tableau::kEmbeddedOrder);
+      faces_[lane].restart();
     }
     this->fresh_ = 0;
   }
@@ -120,8 +124,10 @@ class QuadControlled : private QuadLanes<T> {
     const double shortest = TractStep::kShortest * spacing;
     std::array<double, 4> lengths{}, errors, taken{};
     for (unsigned lane = 0; lane < 4; ++lane) {
-      if ((lanes & bit(lane)) != 0)
-        lengths[lane] = std::clamp(step_[lane], shortest, TractStep::kLongest * spacing);
+      if ((lanes & bit(lane)) == 0) continue;
+      step_[lane] = std::clamp(step_[lane], shortest, TractStep::kLongest * spacing);
+      lengths[lane] =
+          faces_[lane].length(Base::get(here_, lane), Base::get(heading_, lane), step_[lane], shortest);
     }
     const Pack4 h = Pack4::load(lengths.data());
     unsigned alive = lanes;
@@ -139,6 +145,7 @@ class QuadControlled : private QuadLanes<T> {
     rk.finish(slope);
     const PackedVectors differ = rk.error();
     sqrt(dot(differ, differ)).store(errors.data());
+    rk.end.store(end_);
     for (unsigned lane = 0; lane < 4; ++lane) {
       if ((lanes & bit(lane)) == 0) continue;
       if ((alive & bit(lane)) == 0) {
@@ -147,14 +154,21 @@ class QuadControlled : private QuadLanes<T> {
           this->stop_short(lane, Base::get(here_, lane), reached_[lane], error_[lane], part);
         continue;
       }
-      const auto verdict = control_[lane].judge(errors[lane] / (tolerance * lengths[lane]));
-      step_[lane] = lengths[lane] * verdict.factor;
-      if (!verdict.accepted && lengths[lane] > shortest) continue;
+      const double h = lengths[lane];
+      errors[lane] = faces_[lane].counted(Base::get(here_, lane), Base::get(end_, lane), h, errors[lane]);
+      const auto verdict = control_[lane].judge(errors[lane] / (tolerance * h));
+      const double proposed = h * verdict.factor;
+      if (!verdict.accepted && h > shortest) {
+        step_[lane] = proposed;
+        continue;
+      }
+      step_[lane] =
+          faces_[lane].accept(step_[lane], proposed, Base::get(last_, lane) - Base::get(heading_, lane), h);
       taken[lane] = 1.0;
       piece_.start[lane] = reached_[lane];
-      piece_.length[lane] = lengths[lane];
+      piece_.length[lane] = h;
       piece_.error[lane] = error_[lane];
-      reached_[lane] += lengths[lane];
+      reached_[lane] += h;
       error_[lane] += errors[lane];
     }
     const Mask4 took = Pack4() < Pack4::load(taken.data());
@@ -200,13 +214,14 @@ class QuadControlled : private QuadLanes<T> {
     std::array<double, 4> start{}, length{1.0, 1.0, 1.0, 1.0}, error{};  ///< error: at its start
   };
 
-  Vectors4 here_, heading_;  ///< ends of the last steps
+  std::vector<FaceSteps> faces_;  ///< of each lane
+  Vectors4 here_, heading_;       ///< ends of the last steps
   std::array<double, 4> reached_{}, error_{}, step_{};
   std::array<StepControl, 4> control_{
       StepControl(Tableau::kEmbeddedOrder), StepControl(Tableau::kEmbeddedOrder),
       StepControl(Tableau::kEmbeddedOrder), StepControl(Tableau::kEmbeddedOrder)};
   Piece piece_;
-  Vectors4 at_, last_;  ///< what a round computes
+  Vectors4 at_, last_, end_;  ///< what a round computes
   Tensors4 tensor_;
 };
 

@@ -14,6 +14,7 @@
 #include "common/base/index.h"
 #include "common/field/field_grid.h"
 #include "common/field/tensor/tensor_field.h"
+#include "common/trace/tract/face_steps.h"
 #include "common/trace/tract/quad_kernel.h"
 #include "common/trace/tract/six_sum.h"
 #include "common/trace/tract/tensor6.h"
@@ -45,6 +46,7 @@ class AnyTensors {
     out = {s * m[0][0], s * m[1][0], s * m[2][0], s * m[1][1], s * m[2][1], s * m[2][2]};
     return sample.status;
   }
+  [[nodiscard]] FaceSteps faces(double tolerance) const { return {*field_->grid(), tolerance}; }
 
  private:
   const TensorField* field_;
@@ -58,8 +60,8 @@ template <typename T>
 class UniformTensors {
  public:
   /// @pre field.grid()->box, uniform; component-wise interpolation; values() of type T.
-  UniformTensors(const TensorField& field, std::span<const T> values) noexcept {
-    const FieldGrid& grid = *field.grid();
+  UniformTensors(const TensorField& field, std::span<const T> values) noexcept : image_(field.grid().get()) {
+    const FieldGrid& grid = *image_;
     const BoxGrid& box = *grid.box;
     grid_.values = values.data();
     grid_.scale = TractScale::of(field).tensor;
@@ -81,6 +83,7 @@ class UniformTensors {
   }
 
   void forget() noexcept {}
+  [[nodiscard]] FaceSteps faces(double tolerance) const { return {*image_, tolerance}; }
   [[nodiscard]] const TensorGrid<T>& grid() const noexcept { return grid_; }
   [[nodiscard]] SampleStatus sample(const Vec3& x, Tensor6& out) const noexcept {
     std::array<double, 3> f{};
@@ -125,6 +128,7 @@ class UniformTensors {
     return SampleStatus::kOk;
   }
 
+  const FieldGrid* image_;
   TensorGrid<T> grid_;
 };
 

@@ -1,17 +1,19 @@
 /// One side of a tract, followed from output point to output point. Frame S of tensor_source.h.
 ///
 /// The curve obeys x' = e(x), |e| = 1, e the main eigenvector continued by the last direction (Basser et al.
-/// 2000, MRM 44, eq. 1). Trilinear images are smooth inside a cell only: an error-controlled step over a
-/// face is repeated with shorter ones, down to a least step that it takes whatever its error.
+/// 2000, MRM 44, eq. 1). Trilinear images are smooth inside a cell only: error-controlled steps over faces count more, or end
+/// there (face_steps.h). A least step is taken whatever its error.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "common/ode/explicit_step.h"
 #include "common/ode/step_control.h"
 #include "common/ode/tableau.h"
+#include "common/trace/tract/face_steps.h"
 #include "common/trace/tract/main_direction.h"
 #include "common/trace/tract/tensor_source.h"
 
@@ -38,7 +40,9 @@ class TractWalk {
  public:
   /// @param tolerance local error per arc length, of methods with an embedded solution.
   TractWalk(Tensors tensors, double spacing, double tolerance)
-      : tensors_(tensors), spacing_(spacing), tolerance_(tolerance) {}
+      : tensors_(tensors), spacing_(spacing), tolerance_(tolerance) {
+    if constexpr (kControlled) faces_.emplace(tensors_.faces(tolerance));
+  }
 
   /// Puts the walk at its start.
   void start(const TractState& at) noexcept {
@@ -48,6 +52,7 @@ class TractWalk {
     has_piece_ = false;
     step_ = spacing_;
     control_ = StepControl(kPower);
+    if constexpr (kControlled) faces_->restart();
   }
 
   /// Goes on to the point at `arc` and puts it into `out`. Where the curve cannot be followed so far, says
@@ -110,17 +115,21 @@ class TractWalk {
     const double shortest = TractStep::kShortest * spacing_;
     for (;;) {
       step_ = std::clamp(step_, shortest, TractStep::kLongest * spacing_);
-      const double h = step_;
+      const double h = faces_->length(here_.position, here_.direction, step_, shortest);
       const SampleStatus status = try_step(h);
       if (status != SampleStatus::kOk) {
         if (h <= shortest) return status;
         step_ = 0.25 * h;
         continue;
       }
-      const double error = glm::length(rk_.error());
+      const double error = faces_->counted(here_.position, rk_.end, h, glm::length(rk_.error()));
       const StepControl::Verdict verdict = control_.judge(error / (tolerance_ * h));
-      step_ = h * verdict.factor;
-      if (!verdict.accepted && h > shortest) continue;
+      const double proposed = h * verdict.factor;
+      if (!verdict.accepted && h > shortest) {
+        step_ = proposed;
+        continue;
+      }
+      step_ = faces_->accept(step_, proposed, end_direction_ - here_.direction, h);
       has_piece_ = true;
       dense_ = rk_.dense();
       piece_start_ = arc_;
@@ -168,6 +177,7 @@ class TractWalk {
 
   Tensors tensors_;
   double spacing_, tolerance_;
+  std::optional<FaceSteps> faces_;  ///< of controlled steps
   StepControl control_{kPower};
   ExplicitStep<Tableau, Vec3> rk_;
   std::array<Vec3, Tableau::kDenseDegree> dense_{};
