@@ -49,7 +49,8 @@ std::string report_page(const Report& report) {
   if (!report.stability.empty()) out += "<h2>Stability</h2>\n" + stability_table(report.stability);
   out += "<h2>Files</h2>\n<p>";
   std::string separator;
-  for (const char* name : {"report.json", "work_precision.csv", "constraint.csv", "stability.csv"}) {
+  for (const char* name :
+       {"report.json", "work_precision.csv", "constraint.csv", "sections.csv", "stability.csv"}) {
     if (!in_folder(report, name)) continue;
     out += separator + "<a href=\"" + name + "\">" + name + "</a>";
     separator = ", ";

@@ -45,6 +45,8 @@ void write_report(const Report& report, const std::filesystem::path& folder, boo
 [[nodiscard]] std::string work_precision_lines_csv(const Report& report);
 [[nodiscard]] std::string constraint_csv(const Report& report);
 [[nodiscard]] std::string stability_csv(const Report& report);
+/// Errors over run time and other numbers of the sections, with all digits: what their plots show.
+[[nodiscard]] std::string sections_csv(const Report& report);
 /// Error against run time, and the stated against the true error.
 [[nodiscard]] std::string work_precision_plot(const Report& report);
 [[nodiscard]] std::string honesty_plot(const Report& report);

@@ -23,15 +23,16 @@ constexpr auto kFiles = std::to_array<std::string_view>(
      "stability.csv", "resampling.csv", "resampling.svg", "stated_error.svg", "constraint.csv",
      "constraint_force.svg", "constraint_distance.svg",
      // of sections
-     "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg", "linear_drift_rate.svg",
-     "surface_depth_time.svg", "surface_depth_curvature.svg", "constraint_budget.svg", "stiffness_rate.svg",
-     "stiffness_damping.svg", "stiffness_delay.svg", "stiffness_encoder.svg", "fit_angle.svg",
-     "tract_end_helix.svg", "tract_end_kissing.svg", "tract_direction_step.svg", "tract_direction_time.svg",
-     "volume_error.svg", "volume_error.csv", "tracker_position.svg", "tracker_orientation.svg",
-     "head_errors.svg", "heart_errors.svg", "position_effects.svg", "position_errors.svg", "time_effects.svg",
-     "completion_times.svg", "error_time_1.svg", "error_time_2.svg", "error_time_3.svg", "error_time_4.svg",
-     "trials.csv", "trials.json", "participants.csv", "participants.json", "fibre_lines.svg",
-     "distortion_lines.png", "orientation_icons.png", "field_icons.png"});
+     "sections.csv", "chain_work.svg", "chain_rivals.svg", "chain_cue.svg", "linear_drift.svg",
+     "linear_drift_rate.svg", "surface_depth_time.svg", "surface_depth_curvature.svg",
+     "constraint_budget.svg", "stiffness_rate.svg", "stiffness_damping.svg", "stiffness_delay.svg",
+     "stiffness_encoder.svg", "fit_angle.svg", "tract_end_helix.svg", "tract_end_kissing.svg",
+     "tract_direction_step.svg", "tract_direction_time.svg", "volume_error.svg", "volume_error.csv",
+     "tracker_position.svg", "tracker_orientation.svg", "head_errors.svg", "heart_errors.svg",
+     "position_effects.svg", "position_errors.svg", "time_effects.svg", "completion_times.svg",
+     "error_time_1.svg", "error_time_2.svg", "error_time_3.svg", "error_time_4.svg", "trials.csv",
+     "trials.json", "participants.csv", "participants.json", "fibre_lines.svg", "distortion_lines.png",
+     "orientation_icons.png", "field_icons.png"});
 
 /// A folder made by write_report(), or an empty one.
 bool holds_only_a_report(const fs::path& folder) {
@@ -65,6 +66,10 @@ bool in_folder(const Report& report, std::string_view file) {
   if (file.starts_with("work_precision") || file == "stated_error.svg") return !report.sweep.rows.empty();
   if (file.starts_with("constraint")) return !report.constraint.rows.empty();
   if (file == "stability.csv") return !report.stability.empty();
+  if (file == "sections.csv")
+    return std::ranges::any_of(report.sections, [](const ReportSection& section) {
+      return !section.work_precision.empty() || !section.measurements.empty();
+    });
   return file == "index.html" || file == "report.json";
 }
 
@@ -128,6 +133,22 @@ std::string constraint_csv(const Report& report) {
   return out;
 }
 
+std::string sections_csv(const Report& report) {
+  std::string out = "section,subject,method,parameter,quantity,value,seconds\n";
+  for (const ReportSection& section : report.sections) {
+    const auto add = [&](const auto& row, const std::string& quantity, double value,
+                         const std::string& seconds) {
+      out += quoted(section.title) + "," + quoted(row.subject) + "," + quoted(row.method) + "," +
+             quoted(row.parameter) + "," + quoted(quantity) + "," + exact_number(value) + "," + seconds +
+             "\n";
+    };
+    for (const WorkPrecision& row : section.work_precision)
+      add(row, row.error_kind, row.error, exact_number(row.seconds));
+    for (const Measurement& m : section.measurements) add(m, m.quantity, m.value, "");
+  }
+  return out;
+}
+
 std::string stability_csv(const Report& report) {
   std::string out = "case,measured,limit,holds,unit,meaning\n";
   for (const StabilityCase& c : report.stability) {
@@ -178,6 +199,7 @@ void write_report(const Report& report, const fs::path& given, bool replace) {
     write_part("work_precision.csv", work_precision_csv);
     write_part("work_precision_lines.csv", work_precision_lines_csv);
     write_part("stability.csv", stability_csv);
+    write_part("sections.csv", sections_csv);
     write_part("work_precision.svg", work_precision_plot);
     write_part("stated_error.svg", honesty_plot);
     write_part("constraint.csv", constraint_csv);

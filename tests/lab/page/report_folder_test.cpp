@@ -83,7 +83,8 @@ TEST(ReportFolder, HoldsSectionsWithTheirPlotsAndNumbers) {
                              .plots = {{"chain_work.svg", "a plot", "<svg/>"}},
                              .columns = {"case", "work"},
                              .table = {{"line < plane", "12"}},
-                             .work_precision = {{"loops", "sum", "plane", 0.5, "energy", 1e-6}}});
+                             .work_precision = {{"loops", "sum", "plane", 0.5, "energy", 1e-6}},
+                             .measurements = {{"loops", "sum", "line", "work [J]", 1.0 / 3.0}}});
   const TempFolder folder;
   write_report(report, folder.path("r"), false);
   EXPECT_GT(std::filesystem::file_size(folder.path("r") / "chain_work.svg"), 0U);
@@ -94,6 +95,12 @@ TEST(ReportFolder, HoldsSectionsWithTheirPlotsAndNumbers) {
     EXPECT_NE(page.find(text), std::string::npos) << text;
   }
   EXPECT_NE(report_json(report).find("\"subject\": \"loops\""), std::string::npos);
+  EXPECT_GT(std::filesystem::file_size(folder.path("r") / "sections.csv"), 0U);
+  EXPECT_NE(page.find("href=\"sections.csv\""), std::string::npos);
+  EXPECT_EQ(sections_csv(report),
+            "section,subject,method,parameter,quantity,value,seconds\n"
+            "\"Chains & loops\",\"loops\",\"sum\",\"plane\",\"energy\",0.5,1e-06\n"
+            "\"Chains & loops\",\"loops\",\"sum\",\"line\",\"work [J]\",0.3333333333333333,\n");
 }
 
 TEST(ReportFolder, ShowsFailuresAndEscapesNames) {
