@@ -17,7 +17,7 @@
 #include "loaders/cardiac/carp_reader.h"
 #include "loaders/cardiac/carp_results.h"
 #include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex_times.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/tetgen_reader.h"
 
@@ -88,7 +88,8 @@ class CardiacLoader : public Loader {
     DataSet chosen;
     chosen.topology = mesh_.topology;
     for (const DataArray& array : mesh_.arrays)
-      if (std::find(names.begin(), names.end(), array.name) != names.end()) chosen.arrays.push_back(array);
+      if (std::find(names.begin(), names.end(), array.name) != names.end())
+        chosen.arrays.push_back(at_step(array, step));
     for (std::size_t r = 0; r < series_.size(); ++r)
       if (std::find(names.begin(), names.end(), series_[r].info().name) != names.end())
         chosen.arrays.push_back(result_at(r, step));
@@ -141,6 +142,16 @@ class CardiacLoader : public Loader {
                              (unit.empty() ? "none" : unit) + ": taken as they stand");
   }
 
+  /// An array of an EX model as it is at a step.
+  [[nodiscard]] const DataArray& at_step(const DataArray& array, std::size_t step) const {
+    if (step == 0 || step > later_.size()) return array;
+    const std::vector<DataArray>& changed = later_[step - 1];
+    const auto found = std::find_if(changed.begin(), changed.end(), [&](const DataArray& other) {
+      return other.name == array.name && other.association == array.association;
+    });
+    return found == changed.end() ? array : *found;
+  }
+
   /// NaN at a time where it has no step.
   [[nodiscard]] DataArray result_at(std::size_t result, std::size_t step) const {
     const IgbFile& series = series_[result];
@@ -153,10 +164,13 @@ class CardiacLoader : public Loader {
   }
 
   void open_ex(const std::vector<std::string>& named, int refine, FileInfo& info) {
-    ex::Model model;
     const std::vector<std::string> files = ex_files(named);
-    for (const std::string& file : files) ex::read_ex_file(file, model);
+    const ex::TimedModel timed = ex::read_ex_files(files);
+    const ex::Model& model = timed.model;
     ex::SampledModel sampled = ex::sample(model, refine, files.back(), usable_memory());
+    if (!timed.later.empty())
+      later_ = ex::sample_later(timed, sampled.mesh, refine, usable_memory(), sampled.notes);
+    info.times = timed.times;
     info.notes = std::move(sampled.notes);
     info.exact_volume = ex::exact_volume(model, kQuadrature, files.back());
     info.notes.push_back("volume of the curved model " + short_number(info.exact_volume));
@@ -165,8 +179,9 @@ class CardiacLoader : public Loader {
   }
 
   DataSet mesh_;
-  std::vector<IgbFile> series_;  ///< of which a step is read when it is asked for
-  SharedTimes shared_;           ///< of them
+  std::vector<std::vector<DataArray>> later_;  ///< of an EX model: what differs at times after the first
+  std::vector<IgbFile> series_;                ///< of which a step is read when it is asked for
+  SharedTimes shared_;                         ///< of them
 };
 
 }  // namespace

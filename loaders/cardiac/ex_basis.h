@@ -1,5 +1,5 @@
-/// Interpolation along the axes of an element: Lagrange polynomials of degree one to three, cubic Hermite
-/// ones.
+/// Interpolation along the axes of an element: Lagrange polynomials of degree one to three, cubic Hermite ones, and
+/// polynomials of degree one or two on simplices.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct Interpolated {
 };
 
 /// @param parameters corner by corner (first axis fastest), at each corner the derivative along the first
-/// axis fastest: as many as the product of node and parameter counts.
+/// axis fastest: as many as nodes (node_count()) times the product of parameter counts.
 [[nodiscard]] Interpolated interpolate(const std::array<Basis, 3>& basis, const double* parameters,
                                        const Vec3& xi) noexcept;
 

@@ -17,6 +17,7 @@
 #include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex_element.h"
 #include "loaders/cardiac/ex_fields.h"
+#include "loaders/cardiac/ex_places.h"
 #include "loaders/cardiac/mesh_text.h"
 
 namespace palpate::ex {
@@ -72,63 +73,62 @@ struct Lattice {
   [[nodiscard]] std::size_t count() const { return side * side * side; }
 };
 
-/// The corners of cell (i, j, k) in VTK's order of a hexahedron.
-std::array<std::size_t, 8> corners_of(const Lattice& lattice, std::size_t i, std::size_t j, std::size_t k) {
-  return {lattice.at(i, j, k),
-          lattice.at(i + 1, j, k),
-          lattice.at(i + 1, j + 1, k),
-          lattice.at(i, j + 1, k),
-          lattice.at(i, j, k + 1),
-          lattice.at(i + 1, j, k + 1),
-          lattice.at(i + 1, j + 1, k + 1),
-          lattice.at(i, j + 1, k + 1)};
-}
+/// The places of all elements, one element behind the other.
+struct Samples {
+  std::map<Linked, ElementPlaces> shapes;
+  std::vector<const ElementPlaces*> of_element;
+  std::vector<std::size_t> first;  ///< place of each element, and their count
+
+  Samples(const Model& model, int refine) {
+    first.push_back(0);
+    for (const Element& element : model.elements) {
+      const auto [found, is_new] = shapes.try_emplace(element.linked);
+      if (is_new) found->second = element_places(element.linked, refine);
+      of_element.push_back(&found->second);
+      first.push_back(first.back() + found->second.xi.size());
+    }
+  }
+  [[nodiscard]] bool cubes() const { return shapes.size() == 1 && shapes.begin()->first == Linked{}; }
+};
 
 /// The shortest edge at each place that is not zero.
-std::vector<double> spacings(const std::vector<Place>& places, const Lattice& lattice, std::size_t elements) {
+std::vector<double> spacings(const std::vector<Place>& places, const Samples& samples) {
   std::vector<double> shortest(places.size(), std::numeric_limits<double>::infinity());
-  const std::size_t n = lattice.side;
-  const std::array<std::size_t, 3> stride{1, n, n * n};
-  for (std::size_t e = 0; e < elements; ++e) {
-    for (std::size_t p = 0; p < lattice.count(); ++p) {
-      const std::array<std::size_t, 3> index{p % n, p / n % n, p / (n * n)};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (index[axis] + 1 >= n) continue;
-        const std::size_t a = e * lattice.count() + p;
-        const std::size_t b = a + stride[axis];
-        const double length = glm::distance(places[a].x, places[b].x);
-        if (!(length > 0.0)) continue;
-        shortest[a] = std::min(shortest[a], length);
-        shortest[b] = std::min(shortest[b], length);
-      }
+  for (std::size_t e = 0; e < samples.of_element.size(); ++e) {
+    for (const auto& [from, to] : samples.of_element[e]->edges) {
+      const std::size_t a = samples.first[e] + from, b = samples.first[e] + to;
+      const double length = glm::distance(places[a].x, places[b].x);
+      if (!(length > 0.0)) continue;
+      shortest[a] = std::min(shortest[a], length);
+      shortest[b] = std::min(shortest[b], length);
     }
   }
   return shortest;
 }
 
 /// For each place the first one at the same point.
-std::vector<std::uint32_t> joined(const std::vector<Place>& places, const Lattice& lattice,
-                                  std::size_t elements, const std::string& file) {
-  const std::vector<double> spacing = spacings(places, lattice, elements);
+std::vector<std::uint32_t> joined(const std::vector<Place>& places, const Samples& samples,
+                                  const std::string& file) {
+  const std::vector<double> spacing = spacings(places, samples);
   double size = 0.0;
   for (const Place& place : places) size = std::max(size, glm::length(place.x - places.front().x));
   std::vector<Vec3> positions;
   std::vector<MergeCandidate> candidates;
   positions.reserve(places.size());
   candidates.reserve(places.size());
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    const Vec3& x = places[p].x;
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
-      throw input_error({file, "", "leads to coordinates that are not finite"});
-    positions.push_back(x);
-    // What is inside an element is no other's.
-    const std::size_t n = lattice.side, at = p % lattice.count();
-    const auto inside = [n](std::size_t i) { return i > 0 && i + 1 < n; };
-    if (inside(at % n) && inside(at / n % n) && inside(at / (n * n))) continue;
-    // A collapsed edge is zero but for rounding: it must not count as a spacing.
-    const bool real = std::isfinite(spacing[p]) && spacing[p] > 1e-9 * size;
-    candidates.push_back({static_cast<std::uint32_t>(p), real ? spacing[p] : 1e-3 * size,
-                          static_cast<std::uint32_t>(p / lattice.count()), true});
+  for (std::size_t e = 0; e < samples.of_element.size(); ++e) {
+    for (std::size_t p = samples.first[e]; p < samples.first[e + 1]; ++p) {
+      const Vec3& x = places[p].x;
+      if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2]))
+        throw input_error({file, "", "leads to coordinates that are not finite"});
+      positions.push_back(x);
+      // What is inside an element is no other's.
+      if (samples.of_element[e]->inside[p - samples.first[e]]) continue;
+      // A collapsed edge is zero but for rounding: it must not count as a spacing.
+      const bool real = std::isfinite(spacing[p]) && spacing[p] > 1e-9 * size;
+      candidates.push_back({static_cast<std::uint32_t>(p), real ? spacing[p] : 1e-3 * size,
+                            static_cast<std::uint32_t>(e), true});
+    }
   }
   return merge_points(positions, candidates, kSamePlace);
 }
@@ -194,19 +194,42 @@ std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const L
   return depth;
 }
 
-void check_memory(std::size_t elements, const Lattice& lattice, std::uint64_t memory,
-                  const std::string& file) {
-  const double places = static_cast<double>(elements) * static_cast<double>(lattice.count());
+void check_memory(const Model& model, int refine, std::uint64_t memory, const std::string& file) {
+  const double side = refine + 1.0;
+  double places = 0.0;
+  for (const Element& element : model.elements) {
+    const auto axes = std::count(element.linked.begin(), element.linked.end(), true);
+    places += axes == 3   ? side * (side + 1.0) * (side + 2.0) / 6.0
+              : axes == 2 ? side * side * (side + 1.0) / 2.0
+                          : side * side * side;
+  }
   const double wanted = kBytesPerPlace * places;
   if (wanted <= static_cast<double>(memory)) return;
-  const std::string side = std::to_string(lattice.side - 1);
   throw input_error({file, "",
-                     "makes " + short_number(places) + " points of its " + counted(elements, "element") +
-                         ", sampled " + side + " x " + side + " x " + side + ", which take some " +
+                     "makes " + short_number(places) + " points of its " +
+                         counted(model.elements.size(), "element") + ", sampled as " +
+                         cells_text(model.elements.front().linked, refine) + " each, which take some " +
                          short_number(std::round(1e-9 * wanted)) + " GB",
                      "no more than the " + short_number(std::round(1e-9 * static_cast<double>(memory))) +
                          " GB that this machine can give",
                      "a smaller --refine"});
+}
+
+/// Whether all fields are linear in tetrahedra: sampling these finer says nothing more.
+bool linear_tetrahedra(const Model& model) {
+  const auto is_linear = [](const ElementComponent& component) {
+    return std::all_of(component.basis.begin(), component.basis.end(),
+                       [](Basis basis) { return basis == Basis::kLinearSimplex; });
+  };
+  std::set<std::uint32_t> headers;
+  for (const Element& element : model.elements) headers.insert(element.header);
+  return std::all_of(headers.begin(), headers.end(), [&](std::uint32_t header) {
+    const auto& fields = model.element_headers[header];
+    return std::all_of(fields.begin(), fields.end(), [&](const ElementField& field) {
+      return field.system == System::kCartesian &&
+             std::all_of(field.components.begin(), field.components.end(), is_linear);
+    });
+  });
 }
 
 bool disagree(const Place& a, const Place& b) {
@@ -305,22 +328,17 @@ std::optional<Vec3> long_axis(const Model& model) {
 SampledModel sample(const Model& model, int refine, const std::string& file, std::uint64_t memory) {
   bool with_fibres = false;
   const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
-  const Lattice lattice{as_size(refine) + 1};
-  const auto cells_along = as_size(refine);
-  check_memory(shapes.size(), lattice, memory, file);
+  const bool linear = linear_tetrahedra(model);
+  if (linear) refine = 1;
+  check_memory(model, refine, memory, file);
+  const Samples samples(model, refine);
 
   std::vector<Place> places;
-  places.reserve(shapes.size() * lattice.count());
-  for (const ElementShape& shape : shapes) {
-    for (std::size_t k = 0; k < lattice.side; ++k)
-      for (std::size_t j = 0; j < lattice.side; ++j)
-        for (std::size_t i = 0; i < lattice.side; ++i)
-          places.push_back(
-              shape.at(Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)) /
-                       static_cast<double>(refine)));
-  }
+  places.reserve(samples.first.back());
+  for (std::size_t e = 0; e < shapes.size(); ++e)
+    for (const Vec3& xi : samples.of_element[e]->xi) places.push_back(shapes[e].at(xi));
 
-  const std::vector<std::uint32_t> first = joined(places, lattice, shapes.size(), file);
+  const std::vector<std::uint32_t> first = joined(places, samples, file);
   SampledModel sampled;
   const std::vector<OtherField> others = other_fields(model, file, sampled.notes);
   std::vector<std::vector<double>> values_of_others(others.size());
@@ -330,29 +348,28 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   std::size_t points = 0, undefined = 0;
   std::set<std::uint32_t> disagreeing;
   const auto append = [](std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v[0], v[1], v[2]}); };
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    if (first[p] != p) {
-      // A collapsed edge has many directions at one place: which of them does not matter, there is none.
-      if (with_fibres && places[p].has_axes && disagree(places[p], places[first[p]]))
-        disagreeing.insert(first[p]);
-      point_of[p] = point_of[first[p]];
-      continue;
+  for (std::size_t e = 0; e < shapes.size(); ++e) {
+    for (std::size_t p = samples.first[e]; p < samples.first[e + 1]; ++p) {
+      if (first[p] != p) {
+        // A collapsed edge has many directions at one place: which of them does not matter, there is none.
+        if (with_fibres && places[p].has_axes && disagree(places[p], places[first[p]]))
+          disagreeing.insert(first[p]);
+        point_of[p] = point_of[first[p]];
+        continue;
+      }
+      const Place& place = places[p];
+      point_of[p] = static_cast<std::int64_t>(points++);
+      append(positions, place.x);
+      for (std::size_t f = 0; f < others.size(); ++f)
+        others[f].of_element[e].append_at(samples.of_element[e]->xi[p - samples.first[e]],
+                                          values_of_others[f]);
+      if (!with_fibres) continue;
+      if (!place.has_axes) ++undefined;
+      append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
+      append(sheet, place.has_axes ? place.axes[1] : Vec3{kNaN});
+      append(normal, place.has_axes ? place.axes[2] : Vec3{kNaN});
+      for (int c = 0; c < 3; ++c) angles[as_size(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
     }
-    const Place& place = places[p];
-    point_of[p] = static_cast<std::int64_t>(points++);
-    append(positions, place.x);
-    const std::size_t at = p % lattice.count(), n = lattice.side;
-    const Vec3 xi = Vec3(static_cast<double>(at % n), static_cast<double>(at / n % n),
-                         static_cast<double>(at / (n * n))) /
-                    static_cast<double>(refine);
-    for (std::size_t f = 0; f < others.size(); ++f)
-      others[f].of_element[p / lattice.count()].append_at(xi, values_of_others[f]);
-    if (!with_fibres) continue;
-    if (!place.has_axes) ++undefined;
-    append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
-    append(sheet, place.has_axes ? place.axes[1] : Vec3{kNaN});
-    append(normal, place.has_axes ? place.axes[2] : Vec3{kNaN});
-    for (int c = 0; c < 3; ++c) angles[as_size(c)].push_back(place.angles[c] * 180.0 / std::numbers::pi);
   }
 
   UnstructuredTopology topology;
@@ -360,16 +377,13 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   topology.offsets.push_back(0);
   std::vector<double> element_of;
   for (std::size_t e = 0; e < shapes.size(); ++e) {
-    for (std::size_t k = 0; k < cells_along; ++k) {
-      for (std::size_t j = 0; j < cells_along; ++j) {
-        for (std::size_t i = 0; i < cells_along; ++i) {
-          for (const std::size_t corner : corners_of(lattice, i, j, k))
-            topology.connectivity.push_back(point_of[e * lattice.count() + corner]);
-          topology.types.push_back(kVtkHexahedron);
-          topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-          element_of.push_back(static_cast<double>(model.elements[e].name));
-        }
-      }
+    const ElementPlaces& cells = *samples.of_element[e];
+    for (std::size_t c = 0; c < cells.corners.size(); ++c) {
+      topology.connectivity.push_back(point_of[samples.first[e] + cells.corners[c]]);
+      if ((c + 1) % cells.corner_count != 0) continue;
+      topology.types.push_back(cells.type);
+      topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+      element_of.push_back(static_cast<double>(model.elements[e].name));
     }
   }
   sampled.mesh.topology = std::move(topology);
@@ -381,14 +395,17 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
     sampled.mesh.arrays.push_back(array_of("imbrication angle", 1, angles[1]));
     sampled.mesh.arrays.push_back(array_of("sheet angle", 1, angles[2]));
   }
-  const std::vector<double> tags = surfaces_of(point_of, lattice, shapes.size(), points);
-  sampled.mesh.arrays.push_back(array_of("surface", 1, tags));
-  int deep = 0;
-  const std::vector<double> depth = depths_of(point_of, lattice, shapes.size(), tags, deep);
-  if (!depth.empty()) {
-    sampled.mesh.arrays.push_back(array_of(kLayerArray, 1, depth));
-    sampled.notes.push_back("layers by the elements' third axis, " +
-                            counted(static_cast<std::uint64_t>(deep), "element") + " deep");
+  if (samples.cubes()) {
+    const Lattice lattice{as_size(refine) + 1};
+    const std::vector<double> tags = surfaces_of(point_of, lattice, shapes.size(), points);
+    sampled.mesh.arrays.push_back(array_of("surface", 1, tags));
+    int deep = 0;
+    const std::vector<double> depth = depths_of(point_of, lattice, shapes.size(), tags, deep);
+    if (!depth.empty()) {
+      sampled.mesh.arrays.push_back(array_of(kLayerArray, 1, depth));
+      sampled.notes.push_back("layers by the elements' third axis, " +
+                              counted(static_cast<std::uint64_t>(deep), "element") + " deep");
+    }
   }
   sampled.mesh.arrays.push_back(
       make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
@@ -405,9 +422,14 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   if (model.data_points > 0)
     sampled.notes.push_back(counted(model.data_points, "data point") + " left out: they are no nodes");
 
-  const std::string side = std::to_string(refine);
-  sampled.notes.push_back(counted(shapes.size(), "curved element") + " sampled as " + side + " x " + side +
-                          " x " + side + " hexahedra each");
+  for (const auto& [linked, cells] : samples.shapes) {
+    const auto is_one = [&shape = linked](const Element& element) { return element.linked == shape; };
+    const auto count =
+        static_cast<std::uint64_t>(std::count_if(model.elements.begin(), model.elements.end(), is_one));
+    sampled.notes.push_back(linear ? counted(count, "element") + ", linear tetrahedra, as they stand"
+                                   : counted(count, "curved element") + " sampled as " +
+                                         cells_text(linked, refine) + " each");
+  }
   if (undefined > 0)
     sampled.notes.push_back(counted(undefined, "point") +
                             " on collapsed edges without a fibre direction: no data there");
@@ -422,12 +444,16 @@ double exact_volume(const Model& model, int order, const std::string& file) {
   const std::vector<ElementShape> shapes = shapes_of(model, file, with_fibres);
   const auto rule = gauss_legendre(order);
   double volume = 0.0;
-  for (const ElementShape& shape : shapes) {
+  for (std::size_t e = 0; e < shapes.size(); ++e) {
     double part = 0.0;
-    for (const auto& [z, wz] : rule)
-      for (const auto& [y, wy] : rule)
-        for (const auto& [x, wx] : rule)
-          part += wx * wy * wz * glm::determinant(shape.at({x, y, z}).tangents);
+    for (const auto& [z, wz] : rule) {
+      for (const auto& [y, wy] : rule) {
+        for (const auto& [x, wx] : rule) {
+          const auto at = from_cube(model.elements[e].linked, {x, y, z});
+          part += wx * wy * wz * at.second * glm::determinant(shapes[e].at(at.first).tangents);
+        }
+      }
+    }
     volume += std::abs(part);
   }
   return volume;

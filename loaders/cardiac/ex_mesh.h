@@ -1,4 +1,4 @@
-/// Sampling an EX model into hexahedra.
+/// Sampling an EX model into cells.
 #pragma once
 
 #include <array>
@@ -15,7 +15,9 @@ namespace palpate::ex {
 
 /// A sampled model, and what is to be said of it.
 struct SampledModel {
-  /// Hexahedra with their corners in VTK's order; those at collapsed edges name a point twice or more.
+  /// Hexahedra with their corners in VTK's order; those at collapsed edges name a point twice or more. Of simplices
+  /// tetrahedra and wedges (ex_places.h), linear ones as they stand; these have no third axis that runs through the wall,
+  /// and so no "surface" and "layer".
   /// Point arrays "fibre", "sheet", "normal" (unit vectors; NaN where an edge is collapsed), "fibre angle",
   /// "imbrication angle", "sheet angle" [degrees], "surface" (1 where the third axis of an element begins at
   /// the border, the inner surface; 2 where it ends there; else 0), "layer" (layer_levels(), where it rises
@@ -31,7 +33,7 @@ struct SampledModel {
 /// 0. The depth (level + xi_3) / levels then has no jump between elements. Empty where no such numbers exist.
 [[nodiscard]] std::vector<int> layer_levels(const std::vector<std::array<std::int64_t, 8>>& corners);
 
-/// Samples every element at (refine + 1)^3 places, equidistant in xi. Places of neighbouring elements that
+/// Samples every element at (refine + 1)^3 places, of simplices a part of these, equidistant in xi. Places of neighbouring elements that
 /// differ by less than 1e-9 of the model's size are one point; where elements disagree there on an angle
 /// (versions), the first one's is kept, and said.
 /// @param memory in bytes that samples, and the tetrahedra made of them, may take.

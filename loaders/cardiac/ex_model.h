@@ -15,11 +15,18 @@
 
 namespace palpate::ex {
 
-/// Along one axis of an element.
-enum class Basis : std::uint8_t { kLinear, kQuadratic, kCubic, kHermite };
+/// Along one axis of an element. Axes of a simplex are linked: their coordinates add up to at most one.
+enum class Basis : std::uint8_t { kLinear, kQuadratic, kCubic, kHermite, kLinearSimplex, kQuadraticSimplex };
+[[nodiscard]] constexpr bool is_simplex(Basis basis) noexcept {
+  return basis == Basis::kLinearSimplex || basis == Basis::kQuadraticSimplex;
+}
+/// Which axes are those of a simplex: none, two (a wedge) or all three (a tetrahedron).
+using Linked = std::array<bool, 3>;
 /// Nodes along that axis, and parameters (value, derivative) at each.
 [[nodiscard]] int node_count(Basis basis) noexcept;
 [[nodiscard]] int parameter_count(Basis basis) noexcept;
+/// Nodes of an element. @pre linked axes have one basis.
+[[nodiscard]] std::size_t node_count(const std::array<Basis, 3>& basis) noexcept;
 
 /// How an angle that winds around the axis is taken where it passes from 2 pi to 0.
 enum class Winding : std::uint8_t { kNone, kIncreasing, kDecreasing, kNonIncreasing, kNonDecreasing };
@@ -90,6 +97,7 @@ struct Element {
   std::int64_t name = 0;     ///< its number in the file
   std::uint32_t header = 0;  ///< of Model::element_headers
   std::size_t line = 0;      ///< where it begins
+  Linked linked{};           ///< its shape
   std::vector<std::int64_t> nodes;
   std::vector<double> scales;
 };

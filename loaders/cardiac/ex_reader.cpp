@@ -106,11 +106,19 @@ class Reader {
   void shape() {
     dimension_ = static_cast<int>(claim("Dimension", 0, 3));
     in_elements_ = dimension_ > 0;
+    linked_ = {};
     const std::string_view line = lines_.line();
-    for (const char* other : {"simplex", "polygon"}) {
-      if (dimension_ == 3 && line.find(other) != std::string_view::npos)
-        lines_.refuse(std::string("has ") + other + " elements", "products of three lines");
-    }
+    if (dimension_ != 3) return;
+    if (line.find("polygon") != std::string_view::npos)
+      lines_.refuse("has polygon elements", "products of lines and simplices");
+    // "Shape. Dimension=3, simplex(2;3)*simplex*simplex", with or without the comma
+    const std::size_t first = line.find_first_of("ls", line.find('=') + 1);
+    if (first == std::string_view::npos) return;
+    const std::vector<std::string_view> axes = split(line.substr(first), '*');
+    if (axes.size() != 3) lines_.refuse("is no shape of three dimensions", "\"line*line*line\"");
+    for (std::size_t a = 0; a < 3; ++a) linked_[a] = trimmed(axes[a]).starts_with("simplex");
+    if (std::count(linked_.begin(), linked_.end(), true) == 1)
+      lines_.refuse("has a simplex of one axis", "two or three that are linked");
   }
 
   std::string name_behind_colon() const {
@@ -127,6 +135,7 @@ class Reader {
     current_ = found->second;
     in_elements_ = current_.in_elements;
     dimension_ = current_.dimension;
+    linked_ = current_.linked;
   }
 
   void scale_sets() {
@@ -158,6 +167,7 @@ class Reader {
     }
     current_.in_elements = in_elements_;
     current_.dimension = dimension_;
+    current_.linked = linked_;
     if (!defined_.empty()) templates_[std::exchange(defined_, {})] = current_;
   }
 
@@ -288,15 +298,18 @@ class Reader {
   }
 
   Basis basis(std::string_view word) {
-    static constexpr std::array<std::pair<std::string_view, Basis>, 4> kKnown{
+    static constexpr std::array<std::pair<std::string_view, Basis>, 6> kKnown{
         {{"l.Lagrange", Basis::kLinear},
          {"q.Lagrange", Basis::kQuadratic},
          {"c.Lagrange", Basis::kCubic},
-         {"c.Hermite", Basis::kHermite}}};
+         {"c.Hermite", Basis::kHermite},
+         {"l.simplex", Basis::kLinearSimplex},
+         {"q.simplex", Basis::kQuadraticSimplex}}};
+    // The first axis of a simplex names those that are linked to it: "l.simplex(2;3)".
     for (const auto& [name, value] : kKnown)
-      if (word == name) return value;
+      if (word == name || (is_simplex(value) && word.substr(0, word.find('(')) == name)) return value;
     lines_.refuse("has the basis " + std::string(word.substr(0, 40)),
-                  "l.Lagrange, q.Lagrange, c.Lagrange or c.Hermite");
+                  "l.Lagrange, q.Lagrange, c.Lagrange, c.Hermite, l.simplex or q.simplex");
   }
 
   Winding winding(std::string_view text) {
@@ -323,13 +336,17 @@ class Reader {
     const std::vector<std::string_view> axes = split(trimmed(parts.front()), '*');
     if (axes.size() != 3 || parts.size() < 3)
       lines_.refuse("is no component of three dimensions", "\"NAME. BASIS*BASIS*BASIS, no modify, …\"");
-    std::size_t corners = 1;
-    std::size_t each = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       component.basis[axis] = basis(trimmed(axes[axis]));
-      corners *= as_size(node_count(component.basis[axis]));
-      each *= as_size(parameter_count(component.basis[axis]));
+      if (is_simplex(component.basis[axis]) != linked_[axis])
+        lines_.refuse("has the basis " + std::string(trimmed(parts.front()).substr(0, 60)),
+                      "one of the element's shape");
     }
+    const auto simplex = std::find_if(component.basis.begin(), component.basis.end(), is_simplex);
+    if (std::any_of(component.basis.begin(), component.basis.end(),
+                    [&](Basis b) { return is_simplex(b) && b != *simplex; }))
+      lines_.refuse("links axes of two bases", "one basis for them");
+    const std::size_t corners = node_count(component.basis), each = component.of_corner();
     component.winding = winding(trimmed(parts[1]));
     const std::string_view map = trimmed(parts[2]);
     if (!map.starts_with("standard node based") && !map.starts_with("general node based"))
@@ -432,6 +449,7 @@ class Reader {
     Element element;
     element.name = name;
     element.line = lines_.line_number();
+    element.linked = current_.linked;
     // A face or line has a zero first and its own number behind; its parts are passed over.
     const bool volume = dimension_ == 3 && name != 0;
     while (lines_.next()) {
@@ -482,6 +500,7 @@ class Reader {
     std::int64_t scales = 0;  ///< of an element
     bool in_elements = false;
     int dimension = 3;
+    Linked linked{};
   };
 
   TextLines lines_;
@@ -489,6 +508,7 @@ class Reader {
   int version_ = 1;
   bool in_elements_ = false, data_points_ = false;
   int dimension_ = 3;
+  Linked linked_{};  ///< of the shape that was named last
   Template current_;
   std::string defined_;  ///< the template whose definition is being read
   std::map<std::string, Template> templates_;

@@ -66,7 +66,11 @@ Directions read_directions(TextLines& lines, std::size_t count, const DirectionR
       const auto value = number(word);
       if (!value)
         lines.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "a component of a direction");
-      if (n < per_row) vectors[n / 3][n % 3] = *value;
+      if (n < per_row) {
+        vectors[n / 3][n % 3] = *value;
+      } else {
+        directions.further.push_back(*value);
+      }
     }
     append_directions(std::span<const Vec3>(vectors, as_size(per_row / 3)), directions);
   }

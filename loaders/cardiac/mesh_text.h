@@ -33,6 +33,7 @@ inline constexpr std::uint8_t kVtkQuadraticTetrahedron = 24;
 struct Directions {
   std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
   std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
+  std::vector<double> further;               ///< the numbers of all places of a row but the first, as they stand
 };
 /// Adds those of an element: its fibre, or fibre and sheet, or all three.
 void append_directions(std::span<const Vec3> vectors, Directions& directions);
@@ -40,7 +41,7 @@ void append_directions(std::span<const Vec3> vectors, Directions& directions);
 /// What a row of directions holds.
 struct DirectionRows {
   int numbers = 9;        ///< 3, 6 or 9 of them; with 6 the normal is the cross product of both
-  int places = 1;         ///< of an element, each with as many numbers; the first of them is taken
+  int places = 1;         ///< of an element, each with as many numbers; the first one is the row's direction
   bool numbered = false;  ///< the element's number stands first: 0 or 1, then the next one
 };
 /// Reads `count` rows.

@@ -12,6 +12,7 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
+#include "loaders/cardiac/element_frames.h"
 #include "loaders/cardiac/marked_faces.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
@@ -214,8 +215,12 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
     const Directions directions = read_directions(lines, count, rows);
     if (!lines.word().empty())
       lines.refuse("goes on after " + std::to_string(count) + " directions", "one an element");
-    add_directions(directions, mesh);
-    if (rows.places > 1)
+    if (rows.places == kFramePlaces) {
+      add_point_frames(directions.further, std::get<UnstructuredTopology>(mesh.topology), mesh, notes);
+    } else {
+      add_directions(directions, mesh);
+    }
+    if (rows.places > 1 && rows.places != kFramePlaces)
       notes.push_back("of " + counted(static_cast<std::uint64_t>(rows.places), "direction") +
                       " in each element, that at its centroid is taken");
     if (directions.missing > 0)

@@ -3,8 +3,9 @@
 ///
 /// A .bases file (CardioMechanics of the Karlsruhe Institute of Technology, user manual, "Fiber Orientation
 /// File") begins with the counts of elements and of places in an element, centroid first, then its quadrature
-/// points. A row is the element's number and nine numbers for each place: fibre, sheet and normal. The
-/// directions at the centroid are taken; they stay constant in the element as those of the other files do.
+/// points. A row is the element's number and nine numbers for each place: fibre, sheet and normal. Of five places
+/// directions of points are made (element_frames.h). Of other counts the directions at the centroid are taken; they stay
+/// constant in the element as those of the other files do.
 #pragma once
 
 #include <string>
@@ -28,7 +29,7 @@ struct TetgenFiles {
 
 /// Tetrahedra of 4 or 10 nodes, numbered from 0 or 1 as the first node is. Node attributes become point
 /// arrays "attribute 1" …, element attributes cell arrays of that name; directions cell arrays "fibre",
-/// "sheet", "normal". Which edge a fifth to tenth node halves is taken from where it lies.
+/// "sheet", "normal", or point arrays of these names. Which edge a fifth to tenth node halves is taken from where it lies.
 /// Marked triangles become the point array "surface" (marked_faces.h).
 /// @param surface_markers LoadRequest::surface_markers. @param notes gets what is to be said.
 /// @throws Error (bad input) naming file and line, (usage) for markers that are none.

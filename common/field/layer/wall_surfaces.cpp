@@ -15,6 +15,7 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/layer/part_rims.h"
+#include "common/field/layer/septum_side.h"
 #include "common/field/layer/surface_areas.h"
 #include "common/field/layer/tagged_surfaces.h"
 #include "common/field/layer/wall_border.h"
@@ -29,8 +30,7 @@ constexpr double kHasOpening = 0.05;   // mean normal of a surface that does not
 constexpr double kLevel = 0.02;        // bulge of what is flat or a saddle; a half sphere has 0.13
 constexpr double kFacesUp = 0.3;       // mean of normal times axis of what does not lie along the wall
 constexpr double kFacesOpening = 0.6;  // that of a base; at most 0.5 for the inside of half a sphere
-constexpr double kMost = 0.75;         // of a part's area that says what all of it is
-constexpr double kNearlyAll = 0.95;    // likewise, of a cavity that creases do not part
+constexpr double kMost = 0.75;         // of a rim that says what all of it is
 constexpr double kLeastConfidence = 0.9;
 constexpr double kRounder = 1.2;  // how much rounder the left ventricle should be than the next
 constexpr double kThicker = 1.3;  // or how much thicker its wall
@@ -378,38 +378,14 @@ class BorderReading {
   }
 
   void find_septum(std::vector<std::string>& grave, std::vector<std::string>& slight) {
-    enum class Behind : std::uint8_t { kUnknown, kFree, kLeft };
-    const WallCrossing crossing(mesh_, border_);
-    std::vector<Behind> behind(border_.triangles.size(), Behind::kUnknown);
-    double septum = 0.0, mixed = 0.0, right = 0.0;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (part_roles_[p] != BorderRole::kRight) continue;
-      double left = 0.0, free = 0.0;
-      for (const std::uint32_t t : parts_[p].triangles) {
-        const std::size_t met = crossing.from(t);
-        const BorderRole role = met < roles_.size() ? roles_[met] : BorderRole::kLeft;
-        if (role == BorderRole::kInner) behind[t] = Behind::kLeft;
-        if (role == BorderRole::kOuter || role == BorderRole::kRight) behind[t] = Behind::kFree;
-        if (behind[t] == Behind::kLeft) left += glm::length(border_.areas[t]);
-        if (behind[t] == Behind::kFree) free += glm::length(border_.areas[t]);
-      }
-      right += parts_[p].area;
-      // Where creases part septum and free wall, most of a part says what it is; the septum of a cavity of one part
-      // may be a small share of it.
-      const double most = is_parted(p) ? kMost : kNearlyAll;
-      const bool all_left = left > most * (left + free), all_free = !(left > (1.0 - most) * (left + free));
-      if (!all_left && !all_free) mixed += parts_[p].area;
-      for (const std::uint32_t t : parts_[p].triangles) {
-        if (all_left) behind[t] = Behind::kLeft;
-        if (all_free) behind[t] = Behind::kFree;
-      }
-    }
-    spread(behind, Behind::kUnknown);
-    for (std::size_t t = 0; t < behind.size(); ++t) {
-      if (roles_[t] != BorderRole::kRight || behind[t] != Behind::kLeft) continue;
-      roles_[t] = BorderRole::kSeptum;
-      septum += glm::length(border_.areas[t]);
-    }
+    std::vector<RightPart> right;
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+      if (part_roles_[p] == BorderRole::kRight)
+        right.push_back(
+            {.triangles = parts_[p].triangles, .area = parts_[p].area, .one_of_several = is_parted(p)});
+    const SeptumSide found = find_septum_side(mesh_, border_, roles_, right);
+    for (std::size_t t = 0; t < roles_.size(); ++t)
+      if (found.septum[t]) roles_[t] = BorderRole::kSeptum;
     const double first = roundness(cavities_[0]), second = roundness(cavities_[1]);
     if (first < kRounder * second && wall_before(cavities_[0]) < kThicker * wall_before(cavities_[1]))
       slight.push_back("which of the cavities is the left ventricle's: they are as round as " +
@@ -419,47 +395,10 @@ class BorderReading {
       grave.push_back(
           std::to_string(cavities_.size()) + " cavities" +
           " were found: the roundest one, or that of the thicker wall, is taken for the left ventricle's");
-    if (septum == 0.0) grave.emplace_back("no wall between the cavities was found: none has a septum");
-    if (mixed > 0.5 * right)
+    if (found.area == 0.0) grave.emplace_back("no wall between the cavities was found: none has a septum");
+    if (found.mixed)
       slight.emplace_back(
           "where the septum ends in the right ventricle: there is no crease, the way through the wall says so");
-  }
-
-  /// Fills what is not known from beside, within a part of the right ventricle, and takes single triangles for what
-  /// most of those beside them are.
-  template <typename Kind>
-  void spread(std::vector<Kind>& of, Kind unknown) const {
-    std::vector<std::vector<std::uint32_t>> beside(of.size());
-    for (const auto& [a, b] : border_.joints) {
-      if (roles_[a] != BorderRole::kRight || roles_[b] != BorderRole::kRight || part_of_[a] != part_of_[b])
-        continue;
-      beside[a].push_back(b);
-      beside[b].push_back(a);
-    }
-    std::vector<std::uint32_t> front;
-    for (std::size_t t = 0; t < of.size(); ++t)
-      if (of[t] != unknown) front.push_back(static_cast<std::uint32_t>(t));
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      const std::uint32_t from = front[i];  // `front` may move
-      for (const std::uint32_t t : beside[from]) {
-        if (of[t] != unknown) continue;
-        of[t] = of[from];
-        front.push_back(t);
-      }
-    }
-    constexpr int kRounds = 4;
-    for (int round = 0; round < kRounds; ++round) {
-      const std::vector<Kind> before = of;
-      for (std::size_t t = 0; t < of.size(); ++t) {
-        const auto others = std::count_if(beside[t].begin(), beside[t].end(),
-                                          [&](std::uint32_t b) { return before[b] != before[t]; });
-        if (2 * as_size(others) > beside[t].size()) {
-          const auto other = std::find_if(beside[t].begin(), beside[t].end(),
-                                          [&](std::uint32_t b) { return before[b] != before[t]; });
-          of[t] = before[*other];
-        }
-      }
-    }
   }
 
   const TetMesh& mesh_;

@@ -1,6 +1,7 @@
 // EX models with more than coordinates and fibres: other fields, groups, strings, places in elements.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "common/base/error.h"
 #include "loaders/cardiac/ex_mesh.h"
 #include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex_times.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {
@@ -172,6 +174,53 @@ TEST(ExFields, StringsAndPlacesInElementsAreLeftOutWithAWord) {
       node_field(2, "name", 1, "string") + "Node: 1\n1 0.5 0.5 0.5\n\"apex of heart\"\n");
   EXPECT_TRUE(says(model, "1 data point left out"));
   EXPECT_TRUE(says(model, "name (string)"));
+}
+
+// The pressure doubles with each file; its coordinates are there once, or in each.
+TEST(ExFields, NodesWithOtherValuesAreOtherTimes) {
+  const test::TempFolder folder;
+  const auto state = [](double factor, double shift) {
+    return kHead + nodes(node_field(2, "pressure", 1, "real"), 1, [=](int, const Vec3& x) {
+             return " " + std::to_string(factor * pressure(x) + shift) + "\n";
+           });
+  };
+  const auto first = folder.write("heart_2.exnode", state(1.0, 0.0)),
+             third = folder.write("heart_10.exnode", state(4.0, 0.0)),
+             second = folder.write("heart_5.exnode", state(2.0, 0.0)),
+             mesh = folder.write("heart.exelem", kHead + elements(element_field(2, "pressure", 1), 1));
+  const TimedModel timed = read_ex_files({third.string(), first.string(), second.string(), mesh.string()});
+  EXPECT_EQ(timed.times, (std::vector<double>{2.0, 5.0, 10.0}));
+  SampledModel model = sample(timed.model, 3, "heart");
+  expect_pressure(model);
+  const auto later = sample_later(timed, model.mesh, 3, ~std::uint64_t{0}, model.notes);
+  ASSERT_EQ(later.size(), 2U);
+  for (std::size_t t = 0; t < 2; ++t) {
+    ASSERT_EQ(later[t].size(), 1U) << "what stays is not there again";
+    EXPECT_EQ(later[t][0].name, "pressure");
+    const DataArray& before = *model.mesh.find("pressure", Association::kPoint);
+    for (std::size_t p = 0; p < before.tuples; ++p)
+      EXPECT_NEAR(later[t][0].at(p), (t == 0 ? 2.0 : 4.0) * before.at(p), 1e-4);
+  }
+  EXPECT_TRUE(says(model, "what changes: pressure"));
+
+  // A file with the same values says nothing new; names without numbers are counted; what moves is refused.
+  const auto again = folder.write("again.exnode", state(1.0, 0.0)),
+             other = folder.write("other.exnode", state(3.0, 1.0));
+  EXPECT_TRUE(read_ex_files({first.string(), again.string(), mesh.string()}).times.empty());
+  EXPECT_EQ(read_ex_files({first.string(), other.string(), mesh.string()}).times,
+            (std::vector<double>{0.0, 1.0}));
+  std::string moved = state(1.0, 0.0);
+  moved.replace(moved.find("Node: 3\n 2.0"), 12, "Node: 3\n 3.0");
+  const auto away = folder.write("heart_7.exnode", moved);
+  const TimedModel moving = read_ex_files({first.string(), away.string(), mesh.string()});
+  SampledModel still = sample(moving.model, 3, "heart");
+  try {
+    (void)sample_later(moving, still.mesh, 3, ~std::uint64_t{0}, still.notes);
+    ADD_FAILURE() << "a mesh that moves was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_NE(std::string(error.what()).find("other coordinates"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

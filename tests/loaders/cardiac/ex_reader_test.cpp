@@ -132,6 +132,7 @@ TEST(ExReader, MistakesAreNamedWithFileAndLine) {
       {replaced(nodes, "#Components=3", "#Components=99999999999"), elements},
       {nodes.substr(0, nodes.size() - 12), elements},
       {nodes, replaced(elements, "l.Lagrange*l.Lagrange*l.Lagrange", "l.simplex(2)*l.simplex*l.Lagrange")},
+      {nodes, replaced(elements, "Dimension=3", "Dimension=3, polygon(5;2)*polygon*line")},
       {nodes, replaced(elements, " 1 2 3 4 5 6 7 8", " 1 2 3 4 5 6 7 88")},
       {nodes, replaced(elements, " 1 2 3 4 5 6 7 8", " 1 2 3 4")},
       {nodes, replaced(elements, "Value indices:     1", "Value indices:     2")},

@@ -328,6 +328,76 @@ TEST(Tetgen, OfBasesTheDirectionsAtTheCentroidAreTaken) {
   }
 }
 
+// Fibres that turn along z: five frames an element say so within it, a direction at its centroid does not.
+TEST(Tetgen, OfFiveFramesAnElementPointsHaveTheirOwnDirections) {
+  constexpr int kSide = 3;
+  const auto angle = [](double z) { return 1.2 * z; };  // over a height of one
+  const auto point = [](int i, int j, int k) { return 1 + i + (kSide + 1) * (j + (kSide + 1) * k); };
+  std::string nodes, elements, frames;
+  std::vector<Vec3> places;
+  for (int k = 0; k <= kSide; ++k)
+    for (int j = 0; j <= kSide; ++j)
+      for (int i = 0; i <= kSide; ++i) {
+        places.push_back(Vec3(i, j, k) / double(kSide));
+        nodes += std::to_string(point(i, j, k)) + " " + std::to_string(places.back().x) + " " +
+                 std::to_string(places.back().y) + " " + std::to_string(places.back().z) + "\n";
+      }
+  int count = 0;
+  const double a = (5.0 + 3.0 * std::sqrt(5.0)) / 20.0, b = (5.0 - std::sqrt(5.0)) / 20.0;
+  for (int k = 0; k < kSide; ++k)
+    for (int j = 0; j < kSide; ++j)
+      for (int i = 0; i < kSide; ++i)
+        for (const auto& order : std::array<std::array<std::size_t, 3>, 6>{
+                 {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}}}) {
+          std::array<int, 3> at{i, j, k};
+          std::array<int, 4> corners{point(i, j, k)};
+          for (std::size_t c = 0; c < 3; ++c) {
+            ++at[order[c]];
+            corners[c + 1] = point(at[0], at[1], at[2]);
+          }
+          ++count;
+          elements += std::to_string(count);
+          frames += std::to_string(count);
+          for (const int corner : corners) elements += " " + std::to_string(corner);
+          elements += "\n";
+          for (int place = 0; place < 5; ++place) {
+            double z = 0.0;
+            for (int c = 0; c < 4; ++c)
+              z += (place == 0       ? 0.25
+                    : place == c + 1 ? a
+                                     : b) *
+                   places[std::size_t(corners[std::size_t(c)] - 1)].z;
+            // Signs are any.
+            const double sign = (count + place) % 3 == 0 ? -1.0 : 1.0, c = sign * std::cos(angle(z)),
+                         s = sign * std::sin(angle(z));
+            for (const double value : {c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0})
+              frames += " " + std::to_string(value);
+          }
+          frames += "\n";
+        }
+  const test::TempFolder folder;
+  const auto node = folder.write("a.node", std::to_string(places.size()) + " 3 0 0\n" + nodes);
+  folder.write("a.ele", std::to_string(count) + " 4 0\n" + elements);
+  folder.write("a.bases", std::to_string(count) + " 5\n" + frames);
+  Source source = open(node);
+  const DataSet mesh = source.read({"fibre", "sheet", "normal"}).at(0);
+  const DataArray* fibre = mesh.find("fibre", Association::kPoint);
+  const DataArray* sheet = mesh.find("sheet", Association::kPoint);
+  ASSERT_NE(fibre, nullptr);
+  ASSERT_NE(sheet, nullptr);
+  EXPECT_EQ(mesh.find("fibre", Association::kCell), nullptr);
+  double worst = 0.0;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const double phi = angle(places[p].z);
+    const double along = fibre->at(p, 0) * std::cos(phi) + fibre->at(p, 1) * std::sin(phi);
+    const double across = -sheet->at(p, 0) * std::sin(phi) + sheet->at(p, 1) * std::cos(phi);
+    worst = std::max(
+        {worst, std::acos(std::min(1.0, std::abs(along))), std::acos(std::min(1.0, std::abs(across)))});
+  }
+  // Fibres turn by 23 degrees within an element: means of centroids are off by 6 and more at the border.
+  EXPECT_LT(worst * 180.0 / 3.14159265358979, 1.5);
+}
+
 TEST(Tetgen, TheEllipsoidOpensWithItsFibres) {
   PALPATE_NEED_DATA(file, "cardiac/chaste-ellipsoid/ellipsoid_8225_elements_quad.node");
   Source source = open(file);
