@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <netcdf.h>
 #include <vtkInformation.h>
@@ -15,13 +16,14 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "loaders/hdf/hdf5_check.h"
+#include "loaders/hdf/netcdf_values.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/one_reader.h"
 
 namespace palpate {
 namespace {
 
-/// Attributes of variables.
+/// Attributes of the variables of a file.
 class Attributes {
  public:
   explicit Attributes(const std::string& file)
@@ -36,6 +38,12 @@ class Attributes {
   [[nodiscard]] std::string units_of(const std::string& variable) const {
     int id = 0;
     return opened_ && nc_inq_varid(file_, variable.c_str(), &id) == NC_NOERR ? text_of(id, "units") : "";
+  }
+  /// The array of a variable, as its attributes want its numbers taken.
+  [[nodiscard]] DataArray marked(const DataArray& array) const {
+    int id = 0;
+    if (!opened_ || nc_inq_varid(file_, array.name.c_str(), &id) != NC_NOERR) return array;
+    return NetcdfValues(file_, id).marked(array);
   }
   /// Whether a variable is the topology of a mesh (UGRID conventions, "Topology dimension").
   [[nodiscard]] bool of_mesh() const {
@@ -68,14 +76,14 @@ class NetcdfLoader : public OneReader {
   vtkSmartPointer<vtkAlgorithm> make_reader(const std::string& file, std::vector<std::string>&) override {
     check_netcdf(file);
     check_hdf5(file);
-    if (Attributes(file).of_mesh()) {
+    attributes_.emplace(file);
+    if (attributes_->of_mesh()) {
       throw input_error({file, "", "is a mesh by the UGRID conventions, which VTK 9.1 has no reader of",
                          "a grid by the CF conventions", "open it in ParaView and save it as .vtu"});
     }
     reader_ = vtkSmartPointer<vtkNetCDFCFReader>::New();
     reader_->SetFileName(file.c_str());
     reader_->SphericalCoordinatesOff();
-    reader_->ReplaceFillValueWithNanOn();
     return reader_;
   }
 
@@ -103,7 +111,7 @@ class NetcdfLoader : public OneReader {
     }
     if (!others.empty())
       notes.push_back("variables along other axes than " + chosen + " left out: " + others);
-    warn_of_units(file, chosen, notes);
+    warn_of_units(chosen, notes);
   }
 
   void select(const std::set<std::string>* wanted) override {
@@ -120,6 +128,10 @@ class NetcdfLoader : public OneReader {
     }
   }
 
+  void finish(DataSet& block) override {
+    for (DataArray& array : block.arrays) array = attributes_->marked(array);
+  }
+
  private:
   bool is_volume(const std::string& axes) {
     reader_->SetDimensions(axes.c_str());
@@ -132,13 +144,12 @@ class NetcdfLoader : public OneReader {
   }
 
   /// @param axes "(time, z, lat, lon)"
-  void warn_of_units(const std::string& file, const std::string& axes, std::vector<std::string>& notes) {
-    const Attributes of_file(file);
+  void warn_of_units(const std::string& axes, std::vector<std::string>& notes) {
     std::string names = axes;
     std::ranges::replace_if(
         names, [](char c) { return c == '(' || c == ')' || c == ','; }, ' ');
     for (const std::string_view name : words(names)) {
-      const std::string units = of_file.units_of(std::string(name));
+      const std::string units = attributes_->units_of(std::string(name));
       if (units.starts_with("degree")) {
         notes.push_back(
             "WARNING: axis '" + std::string(name) + "' is in degrees ('" + units +
@@ -153,6 +164,7 @@ class NetcdfLoader : public OneReader {
   }
 
   vtkSmartPointer<vtkNetCDFCFReader> reader_;
+  std::optional<Attributes> attributes_;
   std::vector<std::string> names_;  ///< of the variables along the axes that are read
 };
 

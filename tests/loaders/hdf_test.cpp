@@ -247,6 +247,7 @@ class ClassicFile {
     std::vector<std::pair<std::string, std::string>> words;  ///< attributes
     std::vector<double> values;
     std::vector<std::pair<std::string, double>> numbers = {};
+    bool is_short = false;  ///< 16 bits, else double
   };
   std::vector<std::pair<std::string, std::uint32_t>> dimensions;
   std::vector<Variable> variables;
@@ -257,21 +258,29 @@ class ClassicFile {
     std::size_t at = head.size();
     for (const Variable& v : variables) {
       begins.push_back(static_cast<std::uint32_t>(at));
-      at += 8 * v.values.size();
+      at += size_of(v);
     }
     std::string out = header(begins);
-    for (const Variable& v : variables)
-      for (const double value : v.values) out += raw(value, true);
+    for (const Variable& v : variables) {
+      const std::size_t end = out.size() + size_of(v);
+      for (const double value : v.values)
+        out += v.is_short ? raw(static_cast<std::int16_t>(value), true) : raw(value, true);
+      out.resize(end);
+    }
     return out;
   }
 
  private:
+  static std::size_t size_of(const Variable& v) {
+    return v.is_short ? (2 * v.values.size() + 3) / 4 * 4 : 8 * v.values.size();
+  }
   static std::string number(std::size_t value) { return raw(static_cast<std::uint32_t>(value), true); }
   static std::string name_of(const std::string& name) {
     return number(name.size()) + name + std::string((4 - name.size() % 4) % 4, '\0');
   }
   [[nodiscard]] std::string header(const std::vector<std::uint32_t>& begins) const {
-    constexpr std::size_t kDimension = 10, kVariable = 11, kAttribute = 12, kChar = 2, kDouble = 6;
+    constexpr std::size_t kDimension = 10, kVariable = 11, kAttribute = 12, kChar = 2, kShort = 3,
+                          kDouble = 6;
     std::string out = std::string("CDF\1", 4) + number(0) + number(kDimension) + number(dimensions.size());
     for (const auto& [name, length] : dimensions) out += name_of(name) + number(length);
     out += number(0) + number(0) + number(kVariable) + number(variables.size());
@@ -284,7 +293,7 @@ class ClassicFile {
       for (const auto& [name, text] : variable.words) out += name_of(name) + number(kChar) + name_of(text);
       for (const auto& [name, value] : variable.numbers)
         out += name_of(name) + number(kDouble) + number(1) + raw(value, true);
-      out += number(kDouble) + number(8 * variable.values.size()) + number(begins[v]);
+      out += number(variable.is_short ? kShort : kDouble) + number(size_of(variable)) + number(begins[v]);
     }
     return out;
   }
@@ -336,6 +345,81 @@ TEST(Netcdf, GridsWithTimesAreRead) {
     }
   }
   EXPECT_EQ(source.read({}).at(0).point_count(), lattice().size()) << "the grid alone";
+}
+
+// What stands for no value is none, packed or not, however the file says so; and whole numbers may be stored as if they
+// had a sign.
+TEST(Netcdf, WhatStandsForNoValueIsNone) {
+  struct Kind {
+    std::string name;
+    std::vector<std::pair<std::string, double>> numbers;
+    double stored;  ///< at one place
+    bool is_short;
+    bool none = true;
+  };
+  constexpr double kNeverShort = -32767.0, kNeverDouble = 9.9692099683868690e+36;
+  const std::vector<Kind> kinds{
+      {"fill of packed", {{"scale_factor", 0.5}, {"add_offset", 2.0}, {"_FillValue", -300.0}}, -300.0, true},
+      {"fill of shorts", {{"_FillValue", -300.0}}, -300.0, true},
+      {"missing", {{"missing_value", 1e20}}, 1e20, false},
+      {"missing of packed", {{"scale_factor", 0.5}, {"missing_value", -300.0}}, -300.0, true},
+      {"missing with offset alone", {{"add_offset", 2.0}, {"missing_value", -300.0}}, -300.0, true},
+      {"beyond valid_max", {{"scale_factor", 0.5}, {"valid_max", 200.0}}, 201.0, true},
+      {"below valid_min", {{"valid_min", -50.0}}, -50.5, false},
+      {"never written", {}, kNeverShort, true},
+      {"never written doubles", {}, kNeverDouble, false},
+      {"a value", {{"scale_factor", 0.5}, {"valid_max", 201.0}, {"_FillValue", -300.0}}, 201.0, true, false},
+      {"zero is no fill", {{"_FillValue", -999.0}}, 0.0, false, false},
+  };
+  const TempFolder folder;
+  for (const Kind& kind : kinds) {
+    ClassicFile file = ocean("m");
+    double scale = 1.0, offset = 0.0;
+    for (const auto& [name, value] : kind.numbers) {
+      if (name == "scale_factor") scale = value;
+      if (name == "add_offset") offset = value;
+    }
+    for (ClassicFile::Variable& variable : file.variables) {
+      if (variable.name != "u") continue;
+      variable.numbers = kind.numbers;
+      variable.is_short = kind.is_short;
+      for (std::size_t i = 0; i < variable.values.size(); ++i) variable.values[i] = static_cast<double>(i);
+      variable.values[7] = kind.stored;
+    }
+    Source source = Source::open({{folder.write("a.nc", file.bytes())}, {}});
+    const auto blocks = source.read({"u"});
+    const DataArray* const u = blocks.at(0).find("u", Association::kPoint);
+    ASSERT_NE(u, nullptr) << kind.name;
+    for (std::size_t p = 0; p < lattice().size(); ++p) {
+      if (p == 7 && kind.none) {
+        EXPECT_TRUE(std::isnan(u->at(p))) << kind.name << ": " << u->at(p);
+      } else {
+        const double stored = p == 7 ? kind.stored : static_cast<double>(p);
+        EXPECT_DOUBLE_EQ(u->at(p), scale * stored + offset) << kind.name << " at " << p;
+      }
+    }
+  }
+}
+
+TEST(Netcdf, NumbersWithoutASignAreNotNegative) {
+  ClassicFile file = ocean("m");
+  for (ClassicFile::Variable& variable : file.variables) {
+    if (variable.name != "u") continue;
+    variable.words = {{"_Unsigned", "true"}};
+    variable.numbers = {{"scale_factor", 0.5}, {"_FillValue", -1.0}};
+    variable.is_short = true;
+    variable.values[0] = -2.0;  // 65534
+    variable.values[1] = -1.0;  // 65535, the fill value
+    variable.values[2] = 40.0;
+  }
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.nc", file.bytes())}, {}});
+  const auto blocks = source.read({"u"});
+  const DataArray* const u = blocks.at(0).find("u", Association::kPoint);
+  ASSERT_NE(u, nullptr);
+  EXPECT_EQ(u->at(0), 32767.0);
+  EXPECT_TRUE(std::isnan(u->at(1)));
+  EXPECT_EQ(u->at(2), 20.0);
 }
 
 TEST(Netcdf, DegreesAndDaysAreWarnedOf) {

@@ -1,0 +1,143 @@
+#include "loaders/hdf/netcdf_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+
+#include <netcdf.h>
+
+namespace palpate {
+namespace {
+
+/// The numbers of an attribute, a few at most; none where there is no such, or it is text.
+std::vector<double> numbers(int file, int variable, const char* name) {
+  nc_type type = NC_NAT;
+  std::size_t count = 0;
+  constexpr std::size_t kMost = 64;
+  if (nc_inq_att(file, variable, name, &type, &count) != NC_NOERR || type == NC_CHAR || type == NC_STRING ||
+      count > kMost)
+    return {};
+  std::vector<double> out(count);
+  if (nc_get_att_double(file, variable, name, out.data()) != NC_NOERR) return {};
+  return out;
+}
+
+bool is_unsigned(int file, int variable) {
+  constexpr std::size_t kLongest = 16;
+  nc_type type = NC_NAT;
+  std::size_t length = 0;
+  if (nc_inq_att(file, variable, "_Unsigned", &type, &length) != NC_NOERR || type != NC_CHAR ||
+      length > kLongest)
+    return false;
+  std::string text(length, ' ');
+  if (nc_get_att_text(file, variable, "_Unsigned", text.data()) != NC_NOERR) return false;
+  return text.starts_with("true") || text.starts_with("True") || text.starts_with("TRUE");
+}
+
+/// What the library writes where nobody did; NaN: of bytes nothing stands for it.
+double never_written(nc_type type) {
+  switch (type) {
+    case NC_SHORT:
+      return NC_FILL_SHORT;
+    case NC_INT:
+      return NC_FILL_INT;
+    case NC_FLOAT:
+      return NC_FILL_FLOAT;
+    case NC_DOUBLE:
+      return NC_FILL_DOUBLE;
+    case NC_USHORT:
+      return NC_FILL_USHORT;
+    case NC_UINT:
+      return NC_FILL_UINT;
+    default:
+      return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// Of a signed type, the count of its numbers; 0 for others.
+double size_of(nc_type type) {
+  constexpr double kByte = 0x1p8, kShort = 0x1p16, kInt = 0x1p32;
+  if (type == NC_BYTE) return kByte;
+  if (type == NC_SHORT) return kShort;
+  return type == NC_INT ? kInt : 0.0;
+}
+
+}  // namespace
+
+NetcdfValues::NetcdfValues(int file, int variable)
+    : lowest_(-std::numeric_limits<double>::infinity()), highest_(std::numeric_limits<double>::infinity()) {
+  nc_type type = NC_NAT;
+  nc_inq_vartype(file, variable, &type);
+  if (const auto scale = numbers(file, variable, "scale_factor"); scale.size() == 1 && scale[0] != 0.0)
+    scale_ = scale[0];
+  if (const auto offset = numbers(file, variable, "add_offset"); offset.size() == 1) offset_ = offset[0];
+  const bool real = type == NC_FLOAT || type == NC_DOUBLE;
+  constexpr double kOfSingle = 1e-6, kOfDouble = 1e-12;
+  relative_ = type == NC_DOUBLE ? kOfDouble : type == NC_FLOAT ? kOfSingle : 0.0;
+
+  none_ = numbers(file, variable, "_FillValue");
+  if (none_.empty()) none_.push_back(never_written(type));
+  for (const double value : numbers(file, variable, "missing_value")) none_.push_back(value);
+  if (real) {
+    for (double& value : none_)
+      if (type == NC_FLOAT) value = static_cast<double>(static_cast<float>(value));
+  }
+  std::erase_if(none_, [](double value) { return std::isnan(value); });
+
+  if (const auto low = numbers(file, variable, "valid_min"); low.size() == 1) lowest_ = low[0];
+  if (const auto high = numbers(file, variable, "valid_max"); high.size() == 1) highest_ = high[0];
+  if (const auto range = numbers(file, variable, "valid_range"); range.size() == 2) {
+    lowest_ = range[0];
+    highest_ = range[1];
+  }
+  if (is_unsigned(file, variable)) {
+    around_ = size_of(type);
+    // The marks are those of numbers without a sign, too.
+    for (double* const mark : {&lowest_, &highest_})
+      if (std::isfinite(*mark) && *mark < 0.0) *mark += around_;
+    for (double& mark : none_)
+      if (mark < 0.0) mark += around_;
+  }
+}
+
+bool NetcdfValues::is_none(double stored) const noexcept {
+  constexpr double kOfWhole = 0.25;
+  const auto slack = [&](double mark) { return relative_ > 0.0 ? relative_ * std::abs(mark) : kOfWhole; };
+  if (std::isfinite(lowest_) && stored < lowest_ - slack(lowest_)) return true;
+  if (std::isfinite(highest_) && stored > highest_ + slack(highest_)) return true;
+  return std::any_of(none_.begin(), none_.end(),
+                     [&](double mark) { return std::abs(stored - mark) <= slack(mark); });
+}
+
+DataArray NetcdfValues::marked(const DataArray& array) const {
+  const std::size_t count = array.tuples * static_cast<std::size_t>(array.components);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto component = static_cast<int>(i % static_cast<std::size_t>(array.components));
+    const double value = array.at(i / static_cast<std::size_t>(array.components), component);
+    double stored = unscaled(value), meant = value;
+    if (around_ > 0.0 && stored < -0.5) {
+      stored += around_;
+      meant += scale_ * around_;
+    }
+    if (is_none(stored)) meant = std::numeric_limits<double>::quiet_NaN();
+    if (values.empty()) {
+      if (meant == value || std::isnan(value)) continue;
+      // The first that changes.
+      values.resize(count);
+      for (std::size_t before = 0; before < i; ++before)
+        values[before] = array.at(before / static_cast<std::size_t>(array.components),
+                                  static_cast<int>(before % static_cast<std::size_t>(array.components)));
+    }
+    values[i] = meant;
+  }
+  if (values.empty()) return array;
+  if (needs_double(array.type))
+    return make_array(array.name, array.association, array.components, std::span<const double>(values));
+  const std::vector<float> single(values.begin(), values.end());
+  return make_array(array.name, array.association, array.components, std::span<const float>(single));
+}
+
+}  // namespace palpate
