@@ -33,6 +33,8 @@
 #include "common/load/helper/serve.h"
 #include "common/load/volume_block.h"
 #include "loaders/hdf/hdf5_check.h"
+#include "loaders/vtk/memory_text.h"
+#include "loaders/xdmf/xdmf_items.h"
 #include "loaders/xdmf/xdmf_text.h"
 
 namespace palpate {
@@ -217,6 +219,7 @@ class XdmfLoader : public Loader {
     for (const std::string& name : text.hdf5)
       check_hdf5((request.files.front().parent_path() / name).string());
     FileInfo info;
+    if (const auto plain = with_plain_items(file_, info.notes)) plain_ = memory_.write(*plain);
     guarded([&] {
       read_document();
       for (const auto& [time, grids] : steps_) {
@@ -262,7 +265,8 @@ class XdmfLoader : public Loader {
   void read_document() {
     steps_.clear();
     reader_ = XdmfReader::New();
-    domain_ = shared_dynamic_cast<XdmfDomain>(reader_->read(std::filesystem::absolute(file_).string()));
+    domain_ = shared_dynamic_cast<XdmfDomain>(
+        reader_->read(plain_.empty() ? std::filesystem::absolute(file_).string() : plain_));
     if (!domain_) throw Unusable{"has no domain"};
     collect(*domain_, std::nullopt);
     if (steps_.size() > 1) steps_.erase(std::nullopt);  // the mesh by itself, beside its times
@@ -346,6 +350,8 @@ class XdmfLoader : public Loader {
   }
 
   std::string file_;
+  MemoryText memory_;
+  std::string plain_;  ///< name of a text that stands for that of the file; empty: none does
   shared_ptr<XdmfReader> reader_;
   shared_ptr<XdmfDomain> domain_;
   std::map<std::optional<double>, std::vector<Grid>> steps_;  ///< by their times, rising

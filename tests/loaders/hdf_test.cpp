@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "common/base/error.h"
 #include "common/load/load.h"
 #include "tests/loaders/hdf5_file.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -36,17 +36,6 @@ bool says(const std::vector<std::string>& notes, const std::string& words) {
     if (note.find(words) != std::string::npos) return true;
   }
   return false;
-}
-
-std::string refusal(const std::filesystem::path& file) {
-  try {
-    (void)Source::open({{file}, {}});
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    return error.what();
-  }
-  ADD_FAILURE() << file << " was accepted";
-  return {};
 }
 
 // --- CGNS -------------------------------------------------------------------------------------------------

@@ -151,5 +151,89 @@ TEST(Xdmf, LeadsNowhereElse) {
   EXPECT_NE(look_at_xdmf("<!DOCTYPE x [<!ENTITY a SYSTEM \"b\">]>").problem, "");
 }
 
+/// An image of 4 x 3 x 2 points whose attribute u has the values of `item`.
+std::string image(const std::string& values) {
+  return document(
+      "<Grid Name=\"g\" GridType=\"Uniform\"><Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"2 3 4\"/>"
+      "<Geometry GeometryType=\"ORIGIN_DXDYDZ\">" +
+      item("3", "0 0 0") + item("3", "1 1 1") +
+      "</Geometry><Attribute Name=\"p\" AttributeType=\"Scalar\" Center=\"Node\">" +
+      heavy("2 3 4", "a.h5:/p") +
+      "</Attribute><Attribute Name=\"u\" AttributeType=\"Vector\" Center=\"Node\">" + values +
+      "</Attribute></Grid>");
+}
+std::string slab(const std::string& place, const std::string& of, const std::string& counts) {
+  return "<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"" + counts + "\">" +
+         item("3 5", place, true) + of + "</DataItem>";
+}
+
+/// Writes a.h5: `all` of 3 x 2 x 3 x 4 x 3 numbers in order, p of as many as there are points.
+void write_numbers(const TempFolder& folder) {
+  const Hdf5File file;
+  std::vector<double> all, few;
+  for (int i = 0; i < 216; ++i) all.push_back(i);
+  for (int i = 0; i < 24; ++i) few.push_back(1000.0 + i);
+  file.set("/all", all, {3, 2, 3, 4, 3});
+  file.set("/p", few, {2, 3, 4});
+  std::ofstream(folder.path("a.h5"), std::ios::binary) << file.bytes();
+}
+
+// libxdmf counts the axes of a slab from the last one on, and puts what is joined one behind the other.
+TEST(Xdmf, SlabsAndJoinedScalarsAreWhatTheFormatMeans) {
+  const TempFolder folder;
+  write_numbers(folder);
+  const std::string all = heavy("3 2 3 4 3", "a.h5:/all");
+  std::vector<std::pair<std::string, std::vector<double>>> cases;
+  for (int time = 0; time < 3; ++time) {
+    std::vector<double> expected;
+    for (int i = 0; i < 72; ++i) expected.push_back(72.0 * time + i);
+    cases.emplace_back(slab(std::to_string(time) + " 0 0 0 0 1 1 1 1 1 1 2 3 4 3", all, "2 3 4 3"), expected);
+  }
+  std::vector<double> joined, swapped;
+  for (int p = 0; p < 24; ++p) {
+    for (const double value : {3.0 * p + 72.0, 1000.0 + p, 3.0 * p + 2.0}) joined.push_back(value);
+    for (int c = 2; c >= 0; --c) swapped.push_back(3.0 * p + c);
+  }
+  const auto one = [&](int time, int component) {
+    return slab(std::to_string(time) + " 0 0 0 " + std::to_string(component) + " 1 1 1 1 1 1 2 3 4 1", all,
+                "2 3 4");
+  };
+  const auto join = [&](const std::string& a, const std::string& b, const std::string& c) {
+    return "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, $2)\" Dimensions=\"2 3 4 3\">" + a + b +
+           c + "</DataItem>";
+  };
+  cases.emplace_back(join(one(1, 0), heavy("2 3 4", "a.h5:/p"), one(0, 2)), joined);
+  cases.emplace_back(join(one(0, 2), one(0, 1), one(0, 0)), swapped);
+  for (const auto& [values, expected] : cases) {
+    Source source = Source::open({{folder.write("a.xdmf", image(values))}, {}});
+    const auto blocks = source.read({"u", "p"});
+    const DataArray* const u = blocks.at(0).find("u", Association::kPoint);
+    const DataArray* const p = blocks[0].find("p", Association::kPoint);
+    ASSERT_TRUE(u != nullptr && p != nullptr);
+    ASSERT_EQ(u->tuples * 3, expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_EQ(u->at(i / 3, static_cast<int>(i % 3)), expected[i]) << values << " at " << i;
+    EXPECT_EQ(p->at(5), 1005.0);
+  }
+}
+
+TEST(Xdmf, OtherFunctionsCostTheirAttributeAndAWord) {
+  const TempFolder folder;
+  write_numbers(folder);
+  const auto path = folder.write(
+      "a.xdmf", image("<DataItem ItemType=\"Function\" Function=\"2 * $0\" Dimensions=\"2 3 4 3\">" +
+                      heavy("2 3 4", "a.h5:/p") + "</DataItem>"));
+  Source source = Source::open({{path}, {}});
+  ASSERT_EQ(source.info().notes.size(), 1U);
+  EXPECT_NE(source.info().notes[0].find("attribute 'u' left out: line 2 is the function '2 * $0'"),
+            std::string::npos)
+      << source.info().notes[0];
+  ASSERT_EQ(source.info().blocks.at(0).arrays.size(), 1U);
+  EXPECT_EQ(source.info().blocks[0].arrays[0].name, "p");
+  const std::string beyond = refusal(folder.write(
+      "b.xdmf", image(slab("3 0 0 0 0 1 1 1 1 1 1 2 3 4 3", heavy("3 2 3 4 3", "a.h5:/all"), "2 3 4 3"))));
+  EXPECT_NE(beyond.find("HyperSlab beyond its array along axis 1"), std::string::npos) << beyond;
+}
+
 }  // namespace
 }  // namespace palpate::test
