@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -233,6 +234,11 @@ SurfaceTriangles read_ply(SurfaceText& text) {
   std::vector<std::uint32_t> corners;
   for (const PlyElement& element : elements) {
     const bool vertices = element.name == "vertex", faces = element.name == "face";
+    for (const char* const axis : {"x", "y", "z"}) {
+      const bool there = std::ranges::any_of(
+          element.properties, [&](const PlyProperty& p) { return p.name == axis && !p.count; });
+      if (vertices && !there) text.refuse(std::string("has vertices without ") + axis, "x, y and z");
+    }
     for (std::uint64_t n = 0; n < element.count; ++n) {
       Vec3 x{0.0};
       for (const PlyProperty& property : element.properties) {
@@ -244,10 +250,12 @@ SurfaceTriangles read_ply(SurfaceText& text) {
         corners.clear();
         for (std::size_t i = 0; i < floor_size(count); ++i) {
           const double value = numbers.next(property.type);
-          if (vertices && property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
+          if (vertices && !property.count && property.name.size() == 1 && property.name[0] >= 'x' &&
+              property.name[0] <= 'z')
             x[property.name[0] - 'x'] = value;
           if (!outline) continue;
-          if (!(value >= 0.0 && value < static_cast<double>(surface.points.size())))
+          if (!(value >= 0.0 && value < static_cast<double>(surface.points.size()) &&
+                std::trunc(value) == value))
             text.refuse("names a vertex that is not there", "faces after their vertices");
           corners.push_back(static_cast<std::uint32_t>(value));
         }
@@ -308,6 +316,10 @@ SurfaceTriangles read_surface(const std::filesystem::path& file, Progress* progr
   }
   if (surface.triangles.empty())
     throw input_error({file.string(), "", "holds no triangle", "a surface (.stl, .ply, .obj or .vtp)", ""});
+  const auto lost = std::ranges::find_if_not(surface.points, [](const Vec3& x) { return is_finite(x); });
+  if (lost != surface.points.end())
+    throw input_error({file.string(), "point " + std::to_string(lost - surface.points.begin()),
+                       "is nowhere (NaN or infinite)", "finite coordinates", "the file may be damaged"});
   return surface;
 }
 

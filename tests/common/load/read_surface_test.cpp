@@ -126,6 +126,19 @@ TEST(ReadSurface, RefusesWhatIsDamaged) {
                 "end_header\n3 0 1 2\n");
   (void)refused("c.ply", "ply\nformat xml 1.0\nend_header\n");
   (void)refused("d.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n");
+  EXPECT_NE(refused("nowhere.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n").find("point 2: is nowhere"),
+            std::string::npos);
+  EXPECT_NE(
+      refused("flat.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nelement face 1\n"
+              "property list uchar int vertex_indices\nend_header\n0 0\n1 0\n0 1\n3 0 1 2\n")
+          .find("vertices without z"),
+      std::string::npos);
+  (void)refused(
+      "half.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar float vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+      "3 0 1 1.5\n");
   (void)refusal_of(folder.path("not there.stl"));
 }
 
