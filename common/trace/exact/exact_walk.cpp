@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint32_t kNoVertex = std::numeric_limits<std::uint32_t>::max();
 // Coordinates are stored with 2^-53 of their size; that much is uncertain of every point.
 constexpr double kRoundingOfPoint = 2.0;
+constexpr double kNearRest = 16.0;  // resolutions of the values: slower is hardly told from rest
 
 }  // namespace
 
@@ -138,6 +139,8 @@ PieceOutcome ExactWalk::fast_piece() {
 }
 
 void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double arc, double local_error) {
+  // Slow as it is, the values at the vertices leave some of its speed open, in any direction.
+  if (end_.speed < kNearRest * cell_.resolution) local_error += cell_.resolution * time;
   begin_ = end_;
   const Vec3 before = direction_;
   b_ = max(b, Pack4{});
