@@ -12,6 +12,7 @@
 #include "apps/grid/written_type.h"
 #include "common/base/clock.h"
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -24,6 +25,7 @@
 #include "common/field/grid/image_resample.h"
 #include "common/load/volume_block.h"
 #include "common/scene/origin_of.h"
+#include "common/scene/volume_source.h"
 
 namespace palpate {
 namespace {
@@ -38,18 +40,34 @@ void check_request(const Document& options) {
 
 /// The voxels in `--box`, all of them without one, in their type.
 DataSet cropped(const DataSet& block, const Document& options) {
-  const auto& grid = std::get<UniformTopology>(block.topology);
+  const auto* uneven = std::get_if<RectilinearTopology>(&block.topology);
+  const UnevenLattice lattice = uneven != nullptr
+                                    ? uneven_lattice(*uneven)
+                                    : UnevenLattice{std::get<UniformTopology>(block.topology), nullptr};
+  const UniformTopology& grid = lattice.mean;
   IndexBox part{Index3(0), grid.points - 1};
   if (!options.slice.box.empty()) {
-    const auto found = points_in(grid, parse_box(options.slice.box, "--box"));
+    const auto found = points_in(grid, parse_box(options.slice.box, "--box"), lattice.lines.get());
     if (!found) throw usage_error("--box " + options.slice.box + ": no voxel of the volume lies in it");
     part = *found;
   }
   DataSet result = block;
-  result.topology = part_of(grid, part);
+  if (uneven != nullptr) {
+    RectilinearTopology kept;
+    for (int a = 0; a < 3; ++a) {
+      const std::vector<double>& x = uneven->coordinates[as_size(a)];
+      kept.coordinates[as_size(a)].assign(x.begin() + part.first[a], x.begin() + part.last[a] + 1);
+    }
+    result.topology = std::move(kept);
+  } else {
+    result.topology = part_of(grid, part);
+  }
   result.visible.clear();
   result.arrays = {values_of(grid, block.arrays.front(), part)};
-  return result;
+  std::vector<DataSet> results;
+  results.push_back(std::move(result));
+  take_lattices(results);
+  return std::move(results.front());
 }
 
 /// What `--clip` and `--lens` cut away of voxels, as pictures of them do: lenses that cut nothing are left
@@ -83,6 +101,13 @@ ExitCode write_part(const Document& options, const VerbContext& context) {
   const DataSet block =
       cropped(colors ? *colors : load_volume_block(input, &context.progress, &resampling), options);
   for (const std::string& note : resampling.notes()) context.console.note(note);
+  if (std::holds_alternative<RectilinearTopology>(block.topology)) {
+    throw input_error(
+        {input.title(), "", "has voxels at uneven steps there",
+         "a part whose steps are even: files of images have one step an axis",
+         "--box chooses one; --resample 128 takes values at so many points along the longest edge, and "
+         "says how far that is from them"});
+  }
   const Stopwatch watch;
   LatticeSummary summary;
   summary.lattice = std::get<UniformTopology>(block.topology);

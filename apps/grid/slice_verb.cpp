@@ -197,16 +197,16 @@ struct WrittenSlice {
 /// Writes a slice as voxels in the type of the data. Where it lies on the data's own voxels, and where these name
 /// parts of the image, it takes their numbers; elsewhere it interpolates, and rounds where the type is of whole numbers.
 WrittenSlice write_slice(const Document& options, const VerbContext& context, Input& input,
-                         const UniformTopology& grid, const DataArray& values, double lowest,
+                         const UnevenLattice& grid, const DataArray& values, double lowest,
                          const UniformTopology& lattice) {
   ImageOrigin origin = origin_of(input);
   constexpr int kLabelIntent = 1002;  // of nifti1.h
   const bool whole = is_whole(values.type), colors = values.components > 1;
   const double none = whole ? lowest : std::numeric_limits<double>::quiet_NaN();
-  const NearestPoints nearest = nearest_points(grid, lattice);
-  const bool labels =
-      whole && !colors && !nearest.exact &&
-      ((origin.header && origin.header->intent == kLabelIntent) || looks_like_labels(values, grid.points));
+  const NearestPoints nearest = nearest_points(grid.mean, lattice, grid.lines.get());
+  const bool labels = whole && !colors && !nearest.exact &&
+                      ((origin.header && origin.header->intent == kLabelIntent) ||
+                       looks_like_labels(values, grid.mean.points));
   WrittenSlice slice{.outside = nearest.outside, .missing = 0, .lowest = whole};
   DataArray written;
   if (!values.sparse && (nearest.exact || labels)) {
@@ -222,8 +222,8 @@ WrittenSlice write_slice(const Document& options, const VerbContext& context, In
     const auto components = as_size(values.components);
     std::vector<double> numbers(count_of(lattice.points) * components);
     for (std::size_t c = 0; c < components; ++c) {
-      const std::vector<double> part =
-          values_on(grid, values, static_cast<int>(c), lattice, options.common.threads);
+      const std::vector<double> part = values_on(grid.mean, values, static_cast<int>(c), lattice,
+                                                 options.common.threads, grid.lines.get());
       for (std::size_t i = 0; i < part.size(); ++i) {
         const bool beyond = std::isnan(part[i]);
         slice.missing += c == 0 && beyond && !whole ? 1 : 0;
@@ -285,18 +285,26 @@ ExitCode run_slice(const Document& options, const VerbContext& context) {
   Resampling resampling{.asked = options.volume.resample, .threads = options.common.threads};
   const DataSet block = load_volume_block(input, &context.progress, &resampling);
   for (const std::string& note : resampling.notes()) context.console.note(note);
-  const auto& grid = std::get<UniformTopology>(block.topology);
+  const auto* uneven = std::get_if<RectilinearTopology>(&block.topology);
+  const UnevenLattice grid = uneven != nullptr
+                                 ? uneven_lattice(*uneven)
+                                 : UnevenLattice{std::get<UniformTopology>(block.topology), nullptr};
+  if (grid.lines && options.slice.spacing <= 0.0)
+    context.console.note(
+        "voxels at uneven steps: the slice has their mean one, with the values at its points; "
+        "--spacing sets another");
   const DataArray& values = block.arrays.front();
   const Stopwatch watch;
   LatticeSummary summary;
-  summary.lattice = lattice_of(grid, options, bounds_of(grid));
+  summary.lattice = lattice_of(grid.mean, options, bounds_of(grid.mean));
   const Greys greys = greys_of(values, with_window_of(input, options.slice), options.common.threads);
   const std::vector<double> contour_values = parse_contours(options.slice.contours);
   const bool as_lines = !contour_values.empty();
   const bool as_voxels = !as_lines && !is_picture(options.output.file);
   const float filler = as_lines ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(greys.lowest);
   ResampledImage slice;
-  if (!as_voxels) slice = resample(grid, values, 0, summary.lattice, filler, options.common.threads);
+  if (!as_voxels)
+    slice = resample(grid.mean, values, 0, summary.lattice, filler, options.common.threads, grid.lines.get());
   WrittenSlice written{.outside = slice.outside, .missing = 0, .lowest = true};
   context.progress.begin("writing " + options.output.file.filename().string(), 0);
   context.progress.check();

@@ -41,18 +41,13 @@ struct Voxels {
   std::shared_ptr<const ScalarField> field;  ///< of data that were resampled, on their own grid
 };
 
-bool is_image(const std::vector<DataSet>& blocks) {
-  return blocks.size() == 1 && std::holds_alternative<UniformTopology>(blocks.front().topology);
-}
-
 /// Has `voxels` lie on an image, where it is asked for and where they have to.
 void take_resampled(Voxels& voxels, Resampling& resampling, Progress* progress) {
-  const bool image = is_image(voxels.blocks);
-  if (image && resampling.asked.empty()) return;
+  if (is_one_lattice(voxels.blocks) && resampling.asked.empty()) return;
   if (resampling.asked.empty()) resampling.asked = resampling.otherwise;
   if (resampling.asked.empty()) {
     throw input_error(
-        {voxels.file, "", "is not one uniform grid", "one: images, and grids whose points lie evenly",
+        {voxels.file, "", "is not one grid along straight axes", "an image, or a rectilinear grid",
          "--resample 128 takes its values at so many points along the longest edge, and says how far "
          "that is from them"});
   }

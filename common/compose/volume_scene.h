@@ -61,10 +61,10 @@ inline constexpr const char* kOwnColorsNote =
 [[nodiscard]] std::shared_ptr<const VolumeImage> with_own_colors(std::shared_ptr<const VolumeImage> image,
                                                                  const DataArray& colors);
 
-/// How data that are no image are read as one.
+/// How data that are neither an image nor a rectilinear grid are read as an image.
 struct Resampling {
-  std::string asked;      ///< as `--resample`; empty: an image alone is read
-  std::string otherwise;  ///< becomes `asked` where that is empty and data are no image
+  std::string asked;      ///< as `--resample`; empty: only what lies along straight axes is read
+  std::string otherwise;  ///< becomes `asked` where that is empty and data do not
   int threads = 0;
   std::vector<TakenScalar> taken;  ///< what reading has resampled, added to what is there
 
@@ -74,12 +74,12 @@ struct Resampling {
 
 /// Reads the voxels of the field that the input's spec names, with their own colours where it is the magnitude
 /// of some.
-/// @param resampling null: an image alone is read.
+/// @param resampling null: only what lies along straight axes is read.
 /// @throws Error, Cancelled.
 [[nodiscard]] std::shared_ptr<const VolumeImage> load_volume(Input& input, Progress* progress,
                                                              Resampling* resampling = nullptr);
 
-/// Reads the same as one uniform block with one point array of one number: where a voxel is blanked, NaN.
+/// Reads the same as one uniform or rectilinear block with one point array of one number: where a voxel is blanked, NaN.
 /// @throws Error, Cancelled.
 [[nodiscard]] DataSet load_volume_block(Input& input, Progress* progress, Resampling* resampling = nullptr);
 

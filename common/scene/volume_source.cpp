@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/field/grid/lattice_lines.h"
 
 namespace palpate {
 namespace {
@@ -30,21 +33,10 @@ DataArray single_component(const DataArray& array, int component) {
 constexpr double kRounding = 1e-3;
 
 std::optional<UniformTopology> lattice_of(const RectilinearTopology& grid) {
-  UniformTopology lattice;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<double>& x = grid.coordinates[as_size(axis)];
-    if (x.empty()) return std::nullopt;
-    const double step = x.size() > 1 ? (x.back() - x.front()) / static_cast<double>(x.size() - 1) : 1.0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      if (!(std::abs(x.front() + step * static_cast<double>(i) - x[i]) <= kRounding * std::abs(step)))
-        return std::nullopt;
-    }
-    lattice.points[axis] = static_cast<int>(x.size());
-    lattice.origin[axis] = x.front();
-    lattice.axes[axis] = Vec3{0.0};
-    lattice.axes[axis][axis] = step;
-  }
-  return lattice;
+  const UnevenLattice lattice = uneven_lattice(grid, kRounding);
+  const Index3& n = lattice.mean.points;
+  if (lattice.lines || std::min({n.x, n.y, n.z}) < 1) return std::nullopt;
+  return lattice.mean;
 }
 
 std::optional<UniformTopology> lattice_of(const StructuredTopology& grid) {
@@ -74,7 +66,58 @@ std::optional<UniformTopology> lattice_of(const StructuredTopology& grid) {
   return lattice;
 }
 
+/// An image whose cells have the values: these stand at the middles of the cells.
+UniformTopology middles_of(UniformTopology place) {
+  for (int axis = 0; axis < 3; ++axis) {
+    // A flat grid has its cells in its plane.
+    if (place.points[axis] < 2) continue;
+    place.origin += 0.5 * place.axes[axis];
+    --place.points[axis];
+  }
+  return place;
+}
+
+/// The same of a rectilinear grid. An axis of one cell keeps both of its ends, with the value of the cell at either.
+RectilinearTopology middles_of(const RectilinearTopology& grid, DataArray& values,
+                               std::vector<std::uint8_t>& visible) {
+  RectilinearTopology place;
+  Index3 cells{1}, points{1};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::vector<double>& x = grid.coordinates[axis];
+    if (x.size() < 3) place.coordinates[axis] = x;
+    for (std::size_t i = 1; x.size() >= 3 && i < x.size(); ++i)
+      place.coordinates[axis].push_back(0.5 * (x[i - 1] + x[i]));
+    const int a = static_cast<int>(axis);
+    points[a] = static_cast<int>(place.coordinates[axis].size());
+    cells[a] = x.size() == 2 ? 1 : points[a];
+  }
+  if (points == cells) return place;
+  const std::size_t size = byte_size(values.type) * as_size(values.components);
+  auto bytes = std::make_shared<std::vector<std::byte>>(count_of(points) * size);
+  std::vector<std::uint8_t> seen(visible.empty() ? 0 : count_of(points));
+  std::size_t to = 0;
+  for (int k = 0; k < points.z; ++k) {
+    for (int j = 0; j < points.y; ++j) {
+      for (int i = 0; i < points.x; ++i, ++to) {
+        const std::size_t from = index_in(cells, glm::min(Index3(i, j, k), cells - 1));
+        std::memcpy(bytes->data() + to * size, values.bytes.data() + from * size, size);
+        if (!seen.empty()) seen[to] = visible[from];
+      }
+    }
+  }
+  values.tuples = to;
+  values.bytes = std::as_const(*bytes);
+  values.owner = std::move(bytes);
+  visible = std::move(seen);
+  return place;
+}
+
 }  // namespace
+
+bool is_one_lattice(const std::vector<DataSet>& blocks) {
+  return blocks.size() == 1 && (std::holds_alternative<UniformTopology>(blocks.front().topology) ||
+                                std::holds_alternative<RectilinearTopology>(blocks.front().topology));
+}
 
 void take_lattices(std::vector<DataSet>& blocks) {
   for (DataSet& block : blocks) {
@@ -89,10 +132,8 @@ void take_lattices(std::vector<DataSet>& blocks) {
 
 DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& choice,
                       const std::string& file) {
-  const auto* topology =
-      blocks.size() == 1 ? std::get_if<UniformTopology>(&blocks.front().topology) : nullptr;
-  if (topology == nullptr) {
-    throw input_error({file, "", "is not one uniform grid", "one: images, and grids whose points lie evenly",
+  if (!is_one_lattice(blocks)) {
+    throw input_error({file, "", "is not one grid along straight axes", "an image, or a rectilinear grid",
                        "make an image of it, by 'Resample To Image' in ParaView for one"});
   }
   const DataSet& block = blocks.front();
@@ -101,21 +142,22 @@ DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& ch
 
   DataSet source;
   source.name = block.name;
-  UniformTopology place = *topology;
   DataArray values = array->components == 1 ? *array : single_component(*array, choice.component);
   if (choice.association == Association::kCell) {
-    for (int axis = 0; axis < 3; ++axis) {
-      // A flat grid has its cells in its plane.
-      if (place.points[axis] < 2) continue;
-      place.origin += 0.5 * place.axes[axis];
-      --place.points[axis];
+    // What is hidden is no voxel.
+    source.visible = block.hidden_cells;
+    for (std::uint8_t& visible : source.visible) visible = visible == 0 ? 1 : 0;
+    if (const auto* grid = std::get_if<RectilinearTopology>(&block.topology)) {
+      source.topology = middles_of(*grid, values, source.visible);
+    } else {
+      source.topology = middles_of(std::get<UniformTopology>(block.topology));
     }
     values.association = Association::kPoint;
   } else {
+    source.topology = block.topology;
     source.visible = block.visible;
     source.hidden_cells = block.hidden_cells;
   }
-  source.topology = place;
   source.arrays.push_back(std::move(values));
   return source;
 }

@@ -1,4 +1,4 @@
-/// What a picture of a volume is made from: one uniform block with one number a point.
+/// What a picture of a volume is made from: one block along straight axes with one number a point.
 #pragma once
 
 #include <string>
@@ -13,10 +13,13 @@ namespace palpate {
 /// those of a lattice, to a thousandth of a step. Their arrays stay as they are.
 void take_lattices(std::vector<DataSet>& blocks);
 
-/// The uniform block of `blocks` with `choice` as a point array of one component, its only one. Numbers of an
+/// Whether the data is one image or rectilinear grid: what volumes are drawn from as it is.
+[[nodiscard]] bool is_one_lattice(const std::vector<DataSet>& blocks);
+
+/// The uniform or rectilinear block of `blocks` with `choice` as a point array of one component, its only one. Numbers of an
 /// array of one component stay where they are; of cells they stand at the middles of the cells, where they
-/// are voxels; magnitudes are computed, in single precision.
-/// @throws Error (bad input) with `file` where the data is not one uniform block with that array.
+/// are voxels, hidden ones not visible; magnitudes are computed, in single precision.
+/// @throws Error (bad input) with `file` where the data is no such block with that array.
 [[nodiscard]] DataSet volume_source(const std::vector<DataSet>& blocks, const ScalarChoice& choice,
                                     const std::string& file);
 

@@ -17,7 +17,7 @@ float blended_number(float own, vec3 g) {
   vec3 x = scene_from_grid * (g - field.grid_from_scene[3].xyz);
   float s = (1.0 - border_place(blended, x)) / shapes.circles[blended].w;
   vec3 points = vec3(textureSize(coarse_voxels, 0));
-  vec3 coarse = g * (points - 1.0) / max(field.points - 1.0, 1.0);
+  vec3 coarse = lattice(g) * (points - 1.0) / max(field.points - 1.0, 1.0);
   float outside = texture(coarse_voxels, (coarse + 0.5) / points).x;
   // Not by the sum where either has no share: it may be NaN.
   return s >= 1.0 ? own : s <= 0.0 ? outside : mix(outside, own, s * s * (3.0 - 2.0 * s));

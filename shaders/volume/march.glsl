@@ -20,10 +20,13 @@ float value_at(vec3 g) {
 // @param map where that of the transfer function begins, along z
 float end_of_empty(Ray ray, float t, float map) {
   const float kBrickCells = 8.0;
-  vec3 brick = clamp(floor(point_at(ray, t) / kBrickCells), vec3(0.0), field.bricks - 1.0);
+  vec3 brick = clamp(floor(lattice(point_at(ray, t)) / kBrickCells), vec3(0.0), field.bricks - 1.0);
   float far = float(texelFetch(empty_bricks, ivec3(brick + vec3(0.0, 0.0, map)), 0).x);
   // The nearest brick that is not empty begins `far` bricks away: up to there all are empty.
   vec3 wall = kBrickCells * (brick + mix(vec3(1.0 - far), vec3(far), greaterThan(ray.speed, vec3(0.0))));
+#ifdef UNEVEN
+  wall = place_of_wall(wall);
+#endif
   vec3 leave = (wall - ray.start) * ray.pace;
   return far > 0.0 ? min(leave.x, min(leave.y, leave.z)) : t;
 }
@@ -40,7 +43,7 @@ vec4 short_stretch(float front, float back, float first_layer, float stretch) {
 // The colour of a stretch about g: where the part has those of the voxels, opacities stay those of the table.
 vec3 painted(vec4 seen, Part part, vec3 g) {
 #ifdef COLORED
-  if (part.content == kVoxelColors) return seen.a * texture(colors, (g + 0.5) / field.points).rgb;
+  if (part.content == kVoxelColors) return seen.a * texture(colors, (lattice(g) + 0.5) / field.points).rgb;
 #endif
   return seen.rgb;
 }
@@ -63,7 +66,9 @@ float layer_for(float samples, Ray ray) {
 #ifdef FAR
 #include "volume/far.glsl"
 #endif
-#ifdef SLABS
+#ifdef UNEVEN
+#include "volume/uneven_march.glsl"
+#elif defined(SLABS)
 #include "volume/slab_march.glsl"
 #else
 // Samples at whole n, between which stretches have the length of a layer.

@@ -47,7 +47,12 @@ void march_regions(Ray ray, Part part, float from, float to, inout vec4 gathered
   float t = from;
   Sample front = sample_at(point_at(ray, t));
   while (t < to && gathered.a <= volume.opaque) {
-    float n = floor(t / d + 1e-3);
+#ifdef UNEVEN
+    float at = t, inside = leaps ? end_of_empty(ray, t, float(transfer.first_brick)) : t;
+    float next = min(max(uneven_stop(ray, t, kDenser * part.samples), inside), to);
+    if (isnan(front.entry.x)) front = sample_at(point_at(ray, t + 2.0 * wall_room(t)));
+#else
+    float n = floor(t / d + 1e-3), at = n;
     // The last sample that is still in empty bricks.
     float inside = leaps ? floor(end_of_empty(ray, t, float(transfer.first_brick)) / d) : n;
 #ifdef FAR
@@ -55,9 +60,10 @@ void march_regions(Ray ray, Part part, float from, float to, inout vec4 gathered
 #else
     float next = min(max(n + 1.0, inside) * d, to);
 #endif
+#endif
     Sample back = sample_at(point_at(ray, next));
     vec4 seen = vec4(0.0);
-    if (!(inside > n)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.first_layer), next - t);
+    if (!(inside > at)) seen = stretch_by_regions(front.entry, back.entry, float(transfer.first_layer), next - t);
     seen.rgb = painted(seen, part, point_at(ray, 0.5 * (t + next)));
 #ifdef SHADED
     seen = looked_at(seen, ray.direction, part, point_at(ray, 0.5 * (t + next)), 0.5 * (front.slope + back.slope));

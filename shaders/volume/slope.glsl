@@ -3,10 +3,19 @@ float value_at(vec3 g);
 
 // In table coordinates a voxel.
 vec3 slope_at(vec3 g) {
+#ifdef UNEVEN
+  vec3 before, behind;
+  steps_beside(g, before, behind);
+  vec2 one = vec2(1.0, 0.0);
+  return vec3(value_at(g + one.xyy * behind) - value_at(g - one.xyy * before),
+              value_at(g + one.yxy * behind) - value_at(g - one.yxy * before),
+              value_at(g + one.yyx * behind) - value_at(g - one.yyx * before)) / (before + behind);
+#else
   vec2 step = vec2(1.0, 0.0);
   return 0.5 * vec3(value_at(g + step.xyy) - value_at(g - step.xyy),
                     value_at(g + step.yxy) - value_at(g - step.yxy),
                     value_at(g + step.yyx) - value_at(g - step.yyx));
+#endif
 }
 
 // In table coordinates per N.

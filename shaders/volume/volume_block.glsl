@@ -1,5 +1,6 @@
 // The volume, its tables and its bricks (common/render/volume/volume_block.h).
-// Grid coordinates g: whole numbers at the points. Table coordinate: of a number that the image stores, in
+// Grid coordinates g: whole numbers at the points; at uneven steps (UNEVEN) mean coordinates m stand in their place, but
+// where voxels are looked up (volume/lines.glsl). Table coordinate: of a number that the image stores, in
 // [0, 1] from the middle of the first entry to that of the last one, but for half a texel at either end.
 #ifndef FIELDS
 #define FIELDS 1  // scalars of the scene, each on a grid of its own
@@ -19,6 +20,8 @@ struct Field {
   float rows_a_slope;  // row coordinate of region tables a table coordinate of values per N
   float first_row;  // its row coordinate
   float reference_lengths;  // a unit of N
+  ivec4 lines;  // where the table of each axis begins; -1: even steps
+  ivec4 buckets;  // of these tables
 };
 struct Transfer {
   int of_field;
@@ -48,6 +51,7 @@ int present = 0;  // the field that is looked up: that of the context, or of a l
 #endif
 
 #include "volume/shape_block.glsl"
+#include "volume/lines.glsl"
 #include "volume/voxels.glsl"
 layout(binding = 1) uniform sampler2DArray tables;   // associated colour and opacity: front entry, back entry, layer
 layout(binding = 2) uniform usampler3D empty_bricks; // distances in bricks, one map after another along z

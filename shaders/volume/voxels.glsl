@@ -1,5 +1,5 @@
 // The voxels, whole or in bricks (common/render/volume/voxels/voxel_bricks.h), and their numbers at any place.
-// Needs the uniform block of volume/volume_block.glsl.
+// Needs the uniform block of volume/volume_block.glsl and volume/lines.glsl.
 layout(binding = 0) uniform sampler3D voxels;  // of the volume, or the pool of bricks
 
 #ifdef BRICKED  // cells of a brick an axis
@@ -35,7 +35,7 @@ layout(binding = 13) uniform sampler3D field_voxels_2;
 layout(binding = 14) uniform sampler3D field_voxels_3;
 #endif
 
-float number_at(vec3 g) {
+float lattice_number(vec3 g) {
   if (present == 0) return first_number_at(g);
   vec3 place = (g + 0.5) / field.points;
 #if FIELDS > 3
@@ -47,5 +47,8 @@ float number_at(vec3 g) {
   return texture(field_voxels_1, place).x;
 }
 #else
-float number_at(vec3 g) { return first_number_at(g); }
+float lattice_number(vec3 g) { return first_number_at(g); }
 #endif
+
+// Number at a place.
+float number_at(vec3 m) { return lattice_number(lattice(m)); }

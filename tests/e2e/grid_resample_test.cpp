@@ -1,4 +1,5 @@
-// `grid` on rectilinear and curvilinear data: taken on an image where --resample asks for it, with the error of that.
+// `grid` on rectilinear data as it is, and on curvilinear data: taken on an image where --resample asks for it, with the
+// error of that.
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -54,11 +55,40 @@ class GridResample : public ExplorerTest {
 };
 
 TEST_F(GridResample, WithoutItTheWayOutIsNamed) {
-  write("a.vtr", false, linear);
-  const ProgramResult refused = run({"render", "a.vtr", "--out", "a.png", "--size", "32x32"});
+  write("a.vts", true, linear);
+  const ProgramResult refused = run({"render", "a.vts", "--out", "a.png", "--size", "32x32"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_NE(refused.err.find("--resample 128"), std::string::npos) << refused.err;
-  EXPECT_EQ(run({"slice", "a.vtr", "--out", "a.png", "--resample", "1"}).exit_code, 2);
+  EXPECT_EQ(run({"slice", "a.vts", "--out", "a.png", "--resample", "1"}).exit_code, 2);
+}
+
+TEST_F(GridResample, RectilinearGridsNeedNoneAndGiveTheirValuesAtTheirPlaces) {
+  write("a.vtr", false, linear);
+  const Json picture = json({"render", "a.vtr", "--out", "a.png", "--size", "32x32"});
+  EXPECT_FALSE(picture.contains("resampled") && !picture["resampled"].empty()) << picture.dump();
+  const ProgramResult result =
+      run({"slice", "a.vtr", "--plane", "0,0,1,0.3", "--spacing", "0.25", "--out", "slice.nrrd"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::ostringstream text;
+  text << std::ifstream(folder_.path("slice.nrrd"), std::ios::binary).rdbuf();
+  const std::string bytes = text.str();
+  ASSERT_NE(bytes.find("type: double"), std::string::npos) << bytes.substr(0, 400);
+  std::size_t at = bytes.find("\n\n") + 2;
+  ASSERT_EQ(bytes.size(), at + 25 * sizeof(double));
+  for (int j = 0; j < 5; ++j) {
+    for (int i = 0; i < 5; ++i, at += sizeof(double)) {
+      double value = 0.0;
+      std::memcpy(&value, bytes.data() + at, sizeof(double));
+      EXPECT_NEAR(value, linear(0.25 * i, 0.25 * j, 0.3), 1e-12);
+    }
+  }
+  // Files of images have one step an axis: a part of uneven ones is refused, one of even ones is not.
+  const ProgramResult uneven = run({"clip", "a.vtr", "--box", "0,0,0,1,1,1", "--out", "part.nrrd"});
+  EXPECT_EQ(uneven.exit_code, 3);
+  EXPECT_NE(uneven.err.find("uneven steps"), std::string::npos) << uneven.err;
+  const std::string cell =
+      "0,0,0," + exact_number(place(1)) + "," + exact_number(place(1)) + "," + exact_number(place(1));
+  EXPECT_EQ(run({"clip", "a.vtr", "--box", cell, "--out", "part.nrrd"}).exit_code, 0);
 }
 
 TEST_F(GridResample, LinearFieldsAreExactAndTheErrorOfOthersIsTrue) {

@@ -100,7 +100,7 @@ std::optional<UniformTopology> plane_lattice(const UniformTopology& image, const
   return lattice;
 }
 
-std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) {
+std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box, const LatticeLines* lines) {
   const GridFromData grid(image.axes, image.origin);
   Box reach;
   for (unsigned i = 0; i < 8; ++i) {
@@ -108,6 +108,7 @@ std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box) 
         grid.point({(i & 1U) != 0 ? box.upper.x : box.lower.x, (i & 2U) != 0 ? box.upper.y : box.lower.y,
                     (i & 4U) != 0 ? box.upper.z : box.lower.z}));
   }
+  if (lines != nullptr) reach = {lines->grid(reach.lower), lines->grid(reach.upper)};
   IndexBox part;
   for (int axis = 0; axis < 3; ++axis) {
     const double last = image.points[axis] - 1;
@@ -148,7 +149,7 @@ DataArray values_of(const UniformTopology& image, const DataArray& values, const
 }
 
 std::vector<double> values_on(const UniformTopology& image, const DataArray& values, int component,
-                              const UniformTopology& lattice, int threads) {
+                              const UniformTopology& lattice, int threads, const LatticeLines* lines) {
   const Index3 n = image.points, m = lattice.points;
   PALPATE_CHECK(values.tuples == count_of(n) && component >= 0 && component < values.components);
   const GridFromData grid(image.axes, image.origin);
@@ -157,6 +158,7 @@ std::vector<double> values_on(const UniformTopology& image, const DataArray& val
                   grid.direction(lattice.axes[2]));
   const auto at = [&](const Index3& p) { return values.at(index_in(n, p), component); };
   const auto sample = [&](Vec3 g) {
+    if (lines != nullptr) g = lines->grid(g);
     Index3 low{0};
     Vec3 part{0.0};
     for (int axis = 0; axis < 3; ++axis) {
@@ -196,16 +198,18 @@ std::vector<double> values_on(const UniformTopology& image, const DataArray& val
 }
 
 ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
-                        const UniformTopology& lattice, float filler, int threads) {
+                        const UniformTopology& lattice, float filler, int threads,
+                        const LatticeLines* lines) {
   ResampledImage result;
-  for (const double value : values_on(image, values, component, lattice, threads)) {
+  for (const double value : values_on(image, values, component, lattice, threads, lines)) {
     result.outside += std::isnan(value) ? 1 : 0;
     result.values.push_back(std::isnan(value) ? filler : static_cast<float>(value));
   }
   return result;
 }
 
-NearestPoints nearest_points(const UniformTopology& image, const UniformTopology& lattice) {
+NearestPoints nearest_points(const UniformTopology& image, const UniformTopology& lattice,
+                             const LatticeLines* lines) {
   const GridFromData grid(image.axes, image.origin);
   const Vec3 start = grid.point(lattice.origin);
   const Mat3 step(grid.direction(lattice.axes[0]), grid.direction(lattice.axes[1]),
@@ -216,7 +220,8 @@ NearestPoints nearest_points(const UniformTopology& image, const UniformTopology
   for (int k = 0; k < m.z; ++k) {
     for (int j = 0; j < m.y; ++j) {
       for (int i = 0; i < m.x; ++i) {
-        const Vec3 g = start + step * Vec3(i, j, k);
+        const Vec3 mean = start + step * Vec3(i, j, k);
+        const Vec3 g = lines != nullptr ? lines->grid(mean) : mean;
         Index3 point{0};
         bool inside = true, exact = true;
         for (int axis = 0; axis < 3; ++axis) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/grid/lattice_lines.h"
 #include "common/math/vec.h"
 
 namespace palpate {
@@ -35,8 +36,10 @@ struct IndexBox {
   [[nodiscard]] Index3 points() const noexcept { return last - first + 1; }
 };
 /// The smallest part of an image that holds all its points in `box`: exactly those where axes are parallel.
+/// @param lines of `image`, whose steps are mean ones then; null: they are even.
 /// @return nothing where the image has none there.
-[[nodiscard]] std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box);
+[[nodiscard]] std::optional<IndexBox> points_in(const UniformTopology& image, const Box& box,
+                                                const LatticeLines* lines = nullptr);
 /// The lattice of that part. @pre it lies in the image.
 [[nodiscard]] UniformTopology part_of(const UniformTopology& image, const IndexBox& part) noexcept;
 
@@ -49,9 +52,10 @@ struct ResampledImage {
   std::size_t outside = 0;    ///< points beyond the image, or with a voxel about them that has no value
 };
 /// `values` at the points of `lattice`, computed in double precision.
-/// @param filler where there is no value. @pre one finite grid; values.tuples are its points; component
+/// @param filler where there is no value. @param lines as of points_in(). @pre one finite grid; values.tuples are its points; component
 /// exists. The result does not depend on the number of threads (0: all cores).
 [[nodiscard]] ResampledImage resample(const UniformTopology& image, const DataArray& values, int component,
-                                      const UniformTopology& lattice, float filler, int threads);
+                                      const UniformTopology& lattice, float filler, int threads,
+                                      const LatticeLines* lines = nullptr);
 
 }  // namespace palpate

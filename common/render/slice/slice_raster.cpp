@@ -37,7 +37,7 @@ struct SparseReader {
 /// The same number everywhere in a voxel, as labels are.
 enum class Between : std::uint8_t { kLinear, kNearest };
 
-/// Values of an image at places in grid coordinates.
+/// Values of an image at places in mean coordinates.
 template <typename Numbers>
 class Sampler {
  public:
@@ -51,10 +51,12 @@ class Sampler {
         last_cell_(glm::max(image.points - 2, Index3(0))),
         steps_{1, as_size(image.points.x), as_size(image.points.x) * as_size(image.points.y)},
         scale_(image.scale),
-        offset_(image.offset) {}
+        offset_(image.offset),
+        lines_(image.lines.get()) {}
 
   /// NaN outside, and where a voxel that counts has no value.
-  [[nodiscard]] double operator()(const Vec3& g) const noexcept {
+  [[nodiscard]] double operator()(const Vec3& mean) const noexcept {
+    const Vec3 g = lines_ != nullptr ? lines_->grid(mean) : mean;
     std::array<double, 3> part{};
     std::size_t at = 0;
     std::array<std::size_t, 3> beside{};
@@ -91,6 +93,7 @@ class Sampler {
   Index3 last_, last_cell_;
   std::array<std::size_t, 3> steps_;
   double scale_, offset_;
+  const LatticeLines* lines_;
 };
 
 /// The lattice of the pixels' middles, and of the planes behind each.
@@ -116,10 +119,9 @@ Pixels pixels_of(const VolumeImage& image, const SliceView& slice, const Camera&
                low = std::max(-0.5 * slice.slab, middle - half),
                high = std::min(0.5 * slice.slab, middle + half);
   if (!(low < high)) return pixels;
-  constexpr double kMost = 1e6;
-  const double wanted = std::ceil(2.0 * (high - low) / image.step_along(back) - kGridRounding);
-  pixels.planes =
-      static_cast<int>(std::clamp(wanted, 1.0, slice.most_planes > 0 ? slice.most_planes : kMost));
+  const double most = image.lines ? 4096.0 : 1e6;
+  const double wanted = std::ceil(2.0 * (high - low) / image.finest_step_along(back) - kGridRounding);
+  pixels.planes = static_cast<int>(std::clamp(wanted, 1.0, slice.most_planes > 0 ? slice.most_planes : most));
   pixels.back = (high - low) / pixels.planes * back;
   pixels.first += low * back + 0.5 * pixels.back;
   return pixels;
@@ -151,8 +153,8 @@ template <typename Numbers>
 void sample_values(const VolumeImage& image, Numbers numbers, const Pixels& pixels, SlabRule rule, int width,
                    int height, int threads, std::vector<double>& values) {
   const Sampler<Numbers> sample(image, numbers);
-  const Vec3 first = image.grid_point(pixels.first), right = image.grid_direction(pixels.right),
-             down = image.grid_direction(pixels.down), back = image.grid_direction(pixels.back);
+  const Vec3 first = image.mean_point(pixels.first), right = image.mean_direction(pixels.right),
+             down = image.mean_direction(pixels.down), back = image.mean_direction(pixels.back);
   parallel_for(as_size(height), threads, [&](std::size_t from, std::size_t to) {
     for (std::size_t row = from; row < to; ++row) {
       const Vec3 start = first + static_cast<double>(row) * down;
@@ -197,16 +199,17 @@ std::uint8_t byte_of_part(double part) { return static_cast<std::uint8_t>(std::l
 /// Grey becomes as bright a shade of the colour of the point that is nearest to the middle of the slab.
 void color_picture(const VolumeImage& image, const Pixels& pixels, int threads, Image& picture) {
   const Vec3 middle = pixels.first + 0.5 * (pixels.planes - 1) * pixels.back;
-  const Vec3 first = image.grid_point(middle), right = image.grid_direction(pixels.right),
-             down = image.grid_direction(pixels.down);
+  const Vec3 first = image.mean_point(middle), right = image.mean_direction(pixels.right),
+             down = image.mean_direction(pixels.down);
   parallel_for(as_size(picture.height), threads, [&](std::size_t from, std::size_t to) {
     for (std::size_t row = from; row < to; ++row) {
       for (int x = 0; x < picture.width; ++x) {
         std::uint8_t* const pixel = picture.rgba.data() + 4 * (row * as_size(picture.width) + as_size(x));
         if (pixel[3] == 0) continue;
-        const Index3 at = glm::clamp(
-            Index3(glm::round(first + static_cast<double>(row) * down + static_cast<double>(x) * right)),
-            Index3(0), image.points - 1);
+        const Index3 at =
+            glm::clamp(Index3(glm::round(image.grid_of_mean(first + static_cast<double>(row) * down +
+                                                            static_cast<double>(x) * right))),
+                       Index3(0), image.points - 1);
         const auto& color =
             (*image.colors)[as_size(at.x) + as_size(image.points.x) *
                                                 (as_size(at.y) + as_size(image.points.y) * as_size(at.z))];

@@ -11,6 +11,7 @@ namespace palpate::volume_shader {
 
 // Blocks.
 inline constexpr std::uint32_t kFrameBlock = 0, kVolumeBlock = 1, kShapeBlock = 2;
+inline constexpr std::uint32_t kAxisLines = 5;  ///< a storage buffer
 
 // Textures. Those of slabs and of the context are never in one program.
 inline constexpr std::uint32_t kVoxels = 0, kTables = 1, kEmptyBricks = 2, kOpaqueDepth = 3, kTiles = 4,

@@ -6,7 +6,9 @@
 #include <cstdint>
 
 #include "common/base/check.h"
+#include "common/base/index.h"
 #include "common/math/power_of_two.h"
+#include "common/render/volume/voxels/axis_tables.h"
 #include "common/render/volume/voxels/region_table.h"
 
 namespace palpate {
@@ -14,7 +16,7 @@ namespace {
 
 // std140 starts an array of structs at the next 16 bytes.
 static_assert(offsetof(VolumeBlock, transfers) == 48 && sizeof(TransferBlock) == 16 &&
-              sizeof(FieldBlock) == 144);
+              sizeof(FieldBlock) == 176);
 
 // Opacity beyond which less than a 512th of the light gets through.
 constexpr float kOpaque = 1.0F - 1.0F / 512.0F;
@@ -38,8 +40,9 @@ struct Spacings {
   }
 };
 
+// @param first_line where the tables of the field's axes begin; then, where the next ones do.
 FieldBlock make_field_block(const VolumeView& view, std::size_t field, const SceneFrame& frame,
-                            const Index3& bricks) {
+                            const Index3& bricks, std::int32_t& first_line) {
   const VolumeImage& image = *image_of(view, field);
   FieldBlock block;
   // g = axes^-1 (x_X - origin), x_X = center + 2^e x_N. The exponent first: spacings may be tiny.
@@ -58,6 +61,13 @@ FieldBlock make_field_block(const VolumeView& view, std::size_t field, const Sce
   block.entries_a_number = static_cast<float>((entries - 1.0) / entries * unit / (range.upper - range.lower));
   block.points = Vec3f(image.points);
   block.first_entry = static_cast<float>(0.5 / entries);
+  const AxisTables tables = axis_tables(image);
+  for (int a = 0; a < 3; ++a) {
+    const auto axis = as_size(a);
+    block.lines[axis] = tables.buckets[axis] > 0 ? first_line + tables.first[axis] : -1;
+    block.buckets[axis] = tables.buckets[axis];
+  }
+  first_line += tables.size;
   constexpr float kNoSampling = 1e30F;
   block.bricks = Vec3f(bricks);
   block.samples_to_leap = view.skip_empty ? 0.0F : kNoSampling;
@@ -169,8 +179,10 @@ VolumeBlock make_volume_block(const VolumeView& view, const SceneFrame& frame,
   PALPATE_CHECK(view.image != nullptr && bricks.size() >= field_count(view) &&
                 field_count(view) <= kMostFields);
   VolumeBlock block;
+  std::int32_t first_line = 0;
   for (std::size_t field = 0; field < field_count(view); ++field) {
-    if (shows_field(view, field)) block.fields[field] = make_field_block(view, field, frame, bricks[field]);
+    if (shows_field(view, field))
+      block.fields[field] = make_field_block(view, field, frame, bricks[field], first_line);
   }
   const StepLengths steps = step_lengths(view);
   const double to_scene = power_of_two(-frame.exponent);

@@ -72,6 +72,9 @@ struct FieldBlock {
   float first_row = 0.0F;
   float reference_lengths = 0.0F;  ///< a unit of N
   float unused = 0.0F;
+  std::array<std::int32_t, 4>
+      lines{};  ///< where the table of each axis begins (axis_tables.h); -1: even steps
+  std::array<std::int32_t, 4> buckets{};  ///< of these tables
 };
 
 /// Between which t on its rays a picture sees the volume of the context, and how far samples may be apart

@@ -126,7 +126,7 @@ struct VolumePass::State {
 
   [[nodiscard]] bool caches_slabs() const {
     return shown.cache_slabs && !shown.shadows && !context && layers == nullptr && !has_regions(shown) &&
-           !samples_less_far(shown) && !is_colored(variant);
+           !samples_less_far(shown) && !is_colored(variant) && !has_uneven_steps(shown);
   }
 
   // Whether this picture can use what is kept, or begins to keep it.

@@ -17,6 +17,7 @@
 #include "common/render/gl/context.h"
 #include "common/render/volume/table/preintegration.h"
 #include "common/render/volume/volume_bindings.h"
+#include "common/render/volume/voxels/axis_tables.h"
 #include "common/render/volume/voxels/coarse_image.h"
 #include "common/render/volume/voxels/voxel_texture.h"
 
@@ -89,6 +90,7 @@ void VolumeTextures::update(const VolumeView& view, const BrickSight& sight, con
   }
   const VolumeView shown = drawn(view);
   regions_ = has_regions(shown);
+  update_lines(shown);
   field_count_ = field_count(shown);
   field_bricks_.assign(1, bricks());
   for (std::size_t field = 1; field < field_count_; ++field)
@@ -116,6 +118,7 @@ void VolumeTextures::bind(bool colors) const {
   glBindTextureUnit(volume_shader::kEmptyBricks, empty_bricks_.name());
   if (regions_) glBindTextureUnit(volume_shader::kRegionTables, region_tables_.name());
   fields_.bind();
+  if (lines_) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, volume_shader::kAxisLines, lines_.name());
   if (colors) glBindTextureUnit(volume_shader::kColors, colors_->name());
 }
 
@@ -126,6 +129,7 @@ std::vector<std::string> VolumeTextures::shader_defines() const {
   if (bricks_) defines.push_back("BRICKED " + std::to_string(bricks_->layout().cells));
   if (field_count_ > 1) defines.push_back("FIELDS " + std::to_string(field_count_));
   if (regions_) defines.emplace_back("REGIONS");
+  if (lines_) defines.push_back("UNEVEN " + std::to_string(line_halvings_));
   return defines;
 }
 
@@ -297,6 +301,22 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
 double VolumeTextures::fewest_samples_to_leap() const noexcept {
   constexpr double kManyGaps = 0.5, kFew = 1.0;
   return gaps_ < kManyGaps ? kFew : 0.0;
+}
+
+// One after another, those of the fields that are shown, as make_volume_block() counts them.
+void VolumeTextures::update_lines(const VolumeView& view) {
+  std::vector<std::shared_ptr<const VolumeImage>> images;
+  for (std::size_t field = 0; field < field_count(view); ++field) {
+    if (shows_field(view, field)) images.push_back(image_of(view, field));
+  }
+  if (images == lined_) return;
+  std::vector<float> lines;
+  line_halvings_ = 1;
+  for (const auto& image : images)
+    line_halvings_ = std::max(line_halvings_, append_axis_tables(*image, lines));
+  lines_.reset();
+  if (!lines.empty()) lines_ = make_buffer(std::span<const float>(lines));
+  lined_ = std::move(images);
 }
 
 void VolumeTextures::update_colors(const VolumeView& view) {

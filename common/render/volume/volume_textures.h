@@ -116,6 +116,7 @@ class VolumeTextures {
   void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
+  void update_lines(const VolumeView& view);
   void update_tables(const VolumeView& view);
   void allocate_tables(const VolumeView& view);
   void fill_table(const VolumeView& view, const std::vector<OpticalEntry>& entries, EntryRange changed,
@@ -142,6 +143,9 @@ class VolumeTextures {
   std::size_t field_count_ = 1;  ///< up to the last one that is shown
   std::vector<Index3> field_bricks_;
   std::shared_ptr<const GlTexture> colors_;
+  int line_halvings_ = 1;                                  ///< as append_axis_tables() says
+  GlBuffer lines_;                                         ///< of axes of uneven steps; none: all are even
+  std::vector<std::shared_ptr<const VolumeImage>> lined_;  ///< the images that it is made from
   GlTexture tables_, region_tables_, empty_bricks_;
   std::shared_ptr<const VolumeImage> image_;
   FieldBricks bricks_of_image_;

@@ -66,9 +66,17 @@ bool has_colored_parts(const VolumeView& view) noexcept {
                                      [](const Lens& lens) { return lens.colored && lens.field == 0; });
 }
 
-bool samples_less_far(const VolumeView& view) noexcept {
+bool samples_less_far(const VolumeView& view) {
   constexpr double kFewest = 2.0;  // samples are joined by powers of two
-  return view.far_sampling >= kFewest;
+  return view.far_sampling >= kFewest && !has_uneven_steps(view);
+}
+
+bool has_uneven_steps(const VolumeView& view) {
+  for (std::size_t field = 0; field < field_count(view); ++field) {
+    if (shows_field(view, field) && image_of(view, field) != nullptr && image_of(view, field)->lines)
+      return true;
+  }
+  return false;
 }
 
 bool is_cut(const VolumeView& view) {
@@ -136,7 +144,8 @@ bool blends_values(const VolumeView& view) {
 }
 
 bool asks_tiles(const VolumeView& view) {
-  return view.skip_empty && !has_magnified_parts(view) && !blends_values(view) && field_count(view) == 1;
+  return view.skip_empty && !has_magnified_parts(view) && !blends_values(view) && field_count(view) == 1 &&
+         !has_uneven_steps(view);
 }
 
 double opacity_length_of(const VolumeView& view) noexcept {

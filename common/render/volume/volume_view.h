@@ -170,8 +170,12 @@ inline constexpr std::size_t kMostTransfers = 9;
 /// Whether some part is drawn as lines are, or fades.
 [[nodiscard]] bool has_illustration(const VolumeView& view) noexcept;
 
+/// Whether the voxels of some field that is shown lie at uneven steps. Rays ask no tiles then, keep no slabs, and
+/// join no samples far away.
+[[nodiscard]] bool has_uneven_steps(const VolumeView& view);
+
 /// Whether samples far from the viewer are fewer.
-[[nodiscard]] bool samples_less_far(const VolumeView& view) noexcept;
+[[nodiscard]] bool samples_less_far(const VolumeView& view);
 
 /// Whether some plane cuts.
 [[nodiscard]] bool is_cut(const VolumeView& view);

@@ -31,7 +31,7 @@ const Setting kVolumeRows[] = {
      .place = kVolumeAt<&VolumeOptions::resample>,
      .help =
          "take the values at N points along the longest edge of the data, or so many an axis, and say how far "
-         "that is from them; grids that are no images are shown in no other way",
+         "that is from them; curvilinear grids and meshes are shown in no other way",
      .value = "N|N,N,N",
      .heading = "Input",
      .groups = {Group::kView, Group::kSlice},

@@ -193,8 +193,8 @@ bool PaneControl::handle(const InputEvent& event, const PictureArea& picture, co
     const double voxels = std::trunc(turned_);
     turned_ -= voxels;
     const Vec3& back = camera.axes[2];
-    panes.cross =
-        within(volume.image->bounds(), panes.cross - voxels * volume.image->step_along(back) * back);
+    panes.cross = within(volume.image->bounds(),
+                         panes.cross + volume.image->way_along(panes.cross, back, -voxels) * back);
   }
   return true;
 }
@@ -235,7 +235,8 @@ bool PaneControl::run(Command command, VolumeView& volume) {
   const auto step = [&](SlicePlane plane, double sign) {
     const Vec3 normal = normal_of(volume.panes, plane);
     volume.panes.cross =
-        within(volume.image->bounds(), volume.panes.cross + sign * volume.image->step_along(normal) * normal);
+        within(volume.image->bounds(),
+               volume.panes.cross + volume.image->way_along(volume.panes.cross, normal, sign) * normal);
     return true;
   };
   switch (command) {

@@ -91,12 +91,36 @@ TEST(VolumeSource, GridsWhosePointsLieEvenlyAreLattices) {
   EXPECT_TRUE(std::holds_alternative<RectilinearTopology>(blocks[4].topology));
 }
 
+TEST(VolumeSource, ARectilinearBlockKeepsItsCoordinates) {
+  DataSet given = block(Association::kPoint, 1);
+  given.topology = RectilinearTopology{{std::vector<double>{0, 1, 3}, {0, 1, 2, 3}, {4, 3, 2, 1, -4}}};
+  const DataSet source = volume_source({given}, {"a", Association::kPoint, 0}, "f");
+  EXPECT_EQ(std::get<RectilinearTopology>(source.topology).coordinates,
+            std::get<RectilinearTopology>(given.topology).coordinates);
+  EXPECT_EQ(source.arrays[0].bytes.data(), given.arrays[0].bytes.data());
+}
+
+TEST(VolumeSource, CellsOfARectilinearBlockStandAtTheirMiddlesAndOneAloneAtBothItsEnds) {
+  DataSet given;
+  given.topology = RectilinearTopology{{std::vector<double>{0, 1, 3, 9}, {5, 2}, {0, 4, 5}}};
+  given.arrays = {
+      make_array("a", Association::kCell, 1, std::span<const float>(std::vector<float>{1, 2, 3, 4, 5, 6}))};
+  given.hidden_cells = {0, 1, 0, 0, 0, 0};
+  const DataSet source = volume_source({given}, {"a", Association::kCell, 0}, "f");
+  const RectilinearTopology wanted{{std::vector<double>{0.5, 2, 6}, {5, 2}, {2, 4.5}}};
+  EXPECT_EQ(std::get<RectilinearTopology>(source.topology).coordinates, wanted.coordinates);
+  ASSERT_EQ(source.arrays[0].tuples, 12U);
+  constexpr std::array<double, 12> kValues{1, 2, 3, 1, 2, 3, 4, 5, 6, 4, 5, 6};
+  for (std::size_t i = 0; i < kValues.size(); ++i) EXPECT_EQ(source.arrays[0].at(i), kValues[i]) << i;
+  EXPECT_EQ(source.visible, (std::vector<std::uint8_t>{1, 0, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1}));
+}
+
 TEST(VolumeSource, OtherGridsAndSeveralBlocksAreRefused) {
-  DataSet rectilinear = block(Association::kPoint, 1);
-  rectilinear.topology = RectilinearTopology{{std::vector<double>{0, 1, 3}, {0, 1, 2, 3}, {0, 1, 2, 3, 4}}};
+  DataSet curved = block(Association::kPoint, 1);
+  curved.topology = StructuredTopology{};
   const DataSet uniform = block(Association::kPoint, 1);
   for (const std::vector<DataSet>& blocks :
-       {std::vector<DataSet>{rectilinear}, {uniform, uniform}, std::vector<DataSet>{}}) {
+       {std::vector<DataSet>{curved}, {uniform, uniform}, std::vector<DataSet>{}}) {
     try {
       (void)volume_source(blocks, {"a", Association::kPoint, 0}, "f.vtr");
       ADD_FAILURE() << "accepted";

@@ -72,11 +72,7 @@ std::vector<std::size_t> bricks_in_sight(const VolumeView& view, const std::vect
   const VolumeImage& image = *view.image;
   const bool everywhere = has_magnified_parts(view);
   const std::array<glm::dvec4, 4> sides = sides_of(sight.clip_from_scene);
-  Mat3 half = image.axes;  // data units
-  for (int a = 0; a < 3; ++a) half[a] *= 0.5 * (layout.points[a] - 1) + kReach;
   const double scale = std::ldexp(1.0, -sight.frame.exponent);
-  std::array<double, 4> reach{};
-  for (std::size_t s = 0; s < sides.size(); ++s) reach[s] = scale * reach_along(half, Vec3(sides[s]));
 
   struct Seen {
     bool focus;
@@ -84,22 +80,20 @@ std::vector<std::size_t> bricks_in_sight(const VolumeView& view, const std::vect
     std::size_t brick;
   };
   std::vector<Seen> seen;
-  const Vec3 middle = 0.5 * Vec3(layout.points - 1);
   std::size_t brick = 0;
   for (int z = 0; z < layout.bricks.z; ++z) {
     for (int y = 0; y < layout.bricks.y; ++y) {
       for (int x = 0; x < layout.bricks.x; ++x, ++brick) {
         if (!needed[brick]) continue;
-        const Vec3 center =
-            image.origin + image.axes * (static_cast<double>(layout.cells) * Vec3(x, y, z) + middle);
-        const glm::dvec4 place(sight.frame.scene_from_data(center), 1.0);
+        const PointsPlace at = place_of_points(image, layout.cells * Index3(x, y, z), layout.points, kReach);
+        const glm::dvec4 place(sight.frame.scene_from_data(at.center), 1.0);
         bool inside = true;
         for (std::size_t s = 0; s < sides.size(); ++s)
-          inside = inside && glm::dot(sides[s], place) >= -reach[s];
+          inside = inside && glm::dot(sides[s], place) >= -scale * reach_along(at.half, Vec3(sides[s]));
         if (!inside && !everywhere) continue;
         const glm::dvec4 clip = glm::dmat4(sight.clip_from_scene) * place;
         const bool focus = std::any_of(view.lenses.begin(), view.lenses.end(), [&](const Lens& lens) {
-          return may_show(lens, center, half, clip, sight.aspect);
+          return may_show(lens, at.center, at.half, clip, sight.aspect);
         });
         seen.push_back({focus, clip.z, brick});
       }

@@ -192,6 +192,19 @@ void own_numbers(VolumeImage& image, std::vector<float> values) {
   image.owner = std::move(numbers);
 }
 
+// Lines of the coarse points, which lie evenly in g between the same ends.
+std::shared_ptr<const LatticeLines> coarse_lines(const VolumeImage& fine, const Index3& points) {
+  if (!fine.lines) return nullptr;
+  auto lines = std::make_shared<LatticeLines>();
+  for (int a = 0; a < 3; ++a) {
+    if (fine.lines->at[as_size(a)].empty()) continue;
+    const double ratio = (fine.points[a] - 1.0) / std::max(1, points[a] - 1);
+    for (int i = 0; i < points[a]; ++i)
+      lines->at[as_size(a)].push_back(fine.mean_of_grid(Vec3(i * ratio))[a] / ratio);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int level) {
@@ -204,6 +217,7 @@ std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int le
       coarse->sparse = halved(*coarse->sparse);
       coarse->points = coarse->sparse->points();
     }
+    coarse->lines = coarse_lines(image, coarse->points);
     return coarse;
   }
   Numbers numbers;
@@ -222,6 +236,7 @@ std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int le
   }
   coarse->points = {static_cast<int>(numbers.points[0]), static_cast<int>(numbers.points[1]),
                     static_cast<int>(numbers.points[2])};
+  coarse->lines = coarse_lines(image, coarse->points);
   own_numbers(*coarse, std::move(numbers.values));
   return coarse;
 }

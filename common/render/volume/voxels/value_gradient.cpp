@@ -25,6 +25,13 @@ class PointGradients {
     // Powers of two keep tiny spacings from vanishing.
     const double unit = power_of_two(binary_exponent(image.bounds().diagonal()));
     to_data_ = glm::transpose(glm::inverse(image.axes / unit)) / unit;
+    for (int a = 0; image.lines && a < 3; ++a) {
+      std::vector<double>& per_step = per_step_[as_size(a)];
+      for (int i = 0; i < image.points[a]; ++i) {
+        const Vec3 before(i - 1), after(i + 1);
+        per_step.push_back(1.0 / (image.mean_of_grid(after)[a] - image.mean_of_grid(before)[a]));
+      }
+    }
   }
 
   // (1) at x, y, z. NaN where a value lacks.
@@ -40,7 +47,8 @@ class PointGradients {
       Index3 before = place, after = place;
       before[a] = std::max(0, place[a] - 1);
       after[a] = std::min(image_.points[a] - 1, place[a] + 1);
-      d[a] = 0.5 * (read(after) - read(before));
+      const std::vector<double>& per_step = per_step_[as_size(a)];
+      d[a] = (per_step.empty() ? 0.5 : per_step[as_size(place[a])]) * (read(after) - read(before));
     }
     return to_data_ * d;
   }
@@ -48,6 +56,8 @@ class PointGradients {
  private:
   const VolumeImage& image_;
   Mat3 to_data_{1.0};
+  std::array<std::vector<double>, 3>
+      per_step_;  ///< of uneven steps: 1 / m from the point before to that behind
 };
 
 // Range of the components of gradients, and the largest magnitude.

@@ -153,15 +153,30 @@ double VolumeImage::number(std::size_t index) const noexcept {
   }
 }
 
-Vec3 VolumeImage::grid_direction(const Vec3& along) const noexcept {
+Vec3 VolumeImage::mean_direction(const Vec3& along) const noexcept {
   // Powers of two keep tiny spacings from vanishing.
   const double unit = power_of_two(binary_exponent(bounds().diagonal()));
   return glm::inverse(axes / unit) * (along / unit);
 }
 
 double VolumeImage::step_along(const Vec3& direction) const noexcept {
-  const Vec3 g = glm::abs(grid_direction(direction));
+  const Vec3 m = glm::abs(mean_direction(direction));
+  return 1.0 / std::max({m.x, m.y, m.z});
+}
+
+double VolumeImage::finest_step_along(const Vec3& direction) const noexcept {
+  Vec3 g = glm::abs(mean_direction(direction));
+  for (int a = 0; lines && a < 3; ++a) g[a] /= lines->finest(a);
   return 1.0 / std::max({g.x, g.y, g.z});
+}
+
+double VolumeImage::way_along(const Vec3& place, const Vec3& direction, double steps) const noexcept {
+  const Vec3 along = mean_direction(direction), m = mean_point(place);
+  const Vec3 size = glm::abs(along);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  Vec3 to = grid_of_mean(m);
+  to[axis] += along[axis] > 0.0 ? steps : -steps;
+  return (mean_of_grid(to)[axis] - m[axis]) / along[axis];
 }
 
 double VolumeImage::value_at(const Vec3& place) const noexcept {
@@ -228,25 +243,29 @@ Box VolumeImage::bounds() const noexcept {
 
 std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block, const std::string& array,
                                                      const std::string& file, int component) {
-  const auto* grid = std::get_if<UniformTopology>(&block.topology);
-  if (grid == nullptr) {
+  const auto* even = std::get_if<UniformTopology>(&block.topology);
+  const auto* uneven = std::get_if<RectilinearTopology>(&block.topology);
+  if (even == nullptr && uneven == nullptr) {
     throw input_error(
-        {file, block.name, "is not a uniform grid", "a volume of evenly spaced voxels", "resample it first"});
+        {file, block.name, "is no grid along straight axes", "a volume of voxels", "resample it first"});
   }
   check_block(block, 0, 1, file);
+  const UnevenLattice lattice = uneven != nullptr ? uneven_lattice(*uneven) : UnevenLattice{*even, nullptr};
+  const UniformTopology& grid = lattice.mean;
   const DataArray* values = block.find(array, Association::kPoint);
   if (values == nullptr) throw problem(file, array, "is not there", "an array of point values");
   if (component < 0 || component >= values->components) {
     throw usage_error("array " + array + " has no component " + std::to_string(component) +
                       "; the last one is " + std::to_string(values->components - 1));
   }
-  if (!is_finite(grid->origin) || !spans_space(grid->axes)) {
+  if (!is_finite(grid.origin) || !spans_space(grid.axes)) {
     throw problem(file, array, "has a grid without volume", "three spacings that are not zero");
   }
   auto image = std::make_shared<VolumeImage>();
-  image->points = grid->points;
-  image->origin = grid->origin;
-  image->axes = grid->axes;
+  image->points = grid.points;
+  image->origin = grid.origin;
+  image->axes = grid.axes;
+  image->lines = lattice.lines;
   image->stored = values->type;
   if (values->tuples != image->point_count() || values->tuples == 0) {
     throw problem(file, array, "has " + std::to_string(values->tuples) + " values",

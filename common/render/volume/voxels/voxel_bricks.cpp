@@ -120,11 +120,10 @@ bool meets_planes(const VolumeView& view, std::size_t brick, const BrickLayout& 
   // What is enlarged is seen elsewhere.
   if (has_magnified_parts(view)) return true;
   const VolumeImage& image = *view.image;
-  const Vec3 half = 0.5 * Vec3(layout.points) + 1.0;
-  const Vec3 middle = image.origin + image.axes * (Vec3(first_point(brick, layout)) + half);
+  const PointsPlace at = place_of_points(image, first_point(brick, layout), layout.points, 1.5);
   return std::any_of(view.cuts.begin(), view.cuts.end(), [&](const CuttingPlane& cut) {
-    const Vec3 along = glm::transpose(image.axes) * cut.kept.outward;
-    return std::abs(glm::dot(cut.kept.outward, middle) - cut.kept.offset) <= glm::dot(glm::abs(along), half);
+    const Vec3 reach = glm::abs(glm::transpose(at.half) * cut.kept.outward);
+    return std::abs(glm::dot(cut.kept.outward, at.center) - cut.kept.offset) <= reach.x + reach.y + reach.z;
   });
 }
 
@@ -175,6 +174,15 @@ void put_number(std::byte* to, ScalarType type, double number) {
 }
 
 }  // namespace
+
+PointsPlace place_of_points(const VolumeImage& image, const Index3& first, const Index3& points,
+                            double beyond) {
+  const Vec3 from = image.mean_of_grid(Vec3(first) - beyond),
+             to = image.mean_of_grid(Vec3(first + points) - 1.0 + beyond);
+  PointsPlace place{image.origin + image.axes * (0.5 * (from + to)), image.axes};
+  for (int a = 0; a < 3; ++a) place.half[a] *= 0.5 * (to[a] - from[a]);
+  return place;
+}
 
 BrickLayout brick_layout(const VolumeImage& image, int cells) {
   PALPATE_CHECK(cells > 0 && cells % kBrickCells == 0);

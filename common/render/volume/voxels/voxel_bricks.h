@@ -40,6 +40,15 @@ struct BrickLayout {
 /// @pre cells is a positive multiple of kBrickCells.
 [[nodiscard]] BrickLayout brick_layout(const VolumeImage& image, int cells);
 
+/// A box along the axes of an image, in data coordinates: the columns of `half` are its half edges.
+struct PointsPlace {
+  Vec3 center{0.0};
+  Mat3 half{1.0};
+};
+/// That of so many points from `first` on, and so many voxels beyond them on every side.
+[[nodiscard]] PointsPlace place_of_points(const VolumeImage& image, const Index3& first, const Index3& points,
+                                          double beyond);
+
 /// For each brick, x fastest, whether it must stand in the pool for the picture of `view`.
 /// @param ranges brick_ranges(*view.image).
 [[nodiscard]] std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,

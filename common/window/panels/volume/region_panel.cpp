@@ -30,14 +30,19 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
     box.upper[axis] = ends[1];
     region.put(box);
   }
-  const auto part = points_in({.points = image.points, .origin = image.origin, .axes = image.axes}, box);
+  const auto part =
+      points_in({.points = image.points, .origin = image.origin, .axes = image.axes}, box, image.lines.get());
   if (part) {
     const Index3 n = part->points();
     ImGui::Text("%d x %d x %d voxels", n.x, n.y, n.z);
   } else {
     ImGui::TextDisabled("no voxel lies in it");
   }
-  ImGui::BeginDisabled(!part);
+  if (image.lines) {
+    ImGui::TextDisabled("uneven steps: no crop");
+    hint("files of images have one step an axis; grid clip --resample writes one");
+  }
+  ImGui::BeginDisabled(!part || image.lines);
   constexpr std::array kEndings{".nii.gz", ".nrrd", ".vti"};
   ImGui::TextUnformatted("crop to");
   for (const char* ending : kEndings) {
