@@ -354,17 +354,21 @@ std::shared_ptr<const BareHeart> load_bare_heart(Input& input, const std::string
   if (heart->mesh.triangles.empty() && heart->branches.empty())
     throw input_error({file, "", "has no cells that can be drawn", "volume cells, triangles or lines", ""});
   const DataArray* const directions = shell ? block.find(fibre.array, fibre.association) : nullptr;
-  if (directions != nullptr && directions->components == 3)
+  const bool tree = heart->mesh.triangles.empty();
+  if (directions != nullptr && directions->components == 3 && !tree)
     add_strokes(
         *heart, [&](std::size_t t) { return shell_fibre(*heart, *directions, t); }, progress);
   const std::string triangles = counted(heart->mesh.triangles.size(), "triangle");
   std::string reason = why.empty() ? "there are no fibres" : why;
   if (shell) reason = "there is no wall";
-  heart->notes.insert(heart->notes.begin(),
-                      reason + "; there are no layers to trace or feel, and " +
-                          (shell ? "the shell" : "the border of the mesh") + ", " + triangles +
-                          (heart->branches.empty() ? "" : " and " + counted(heart->branches.size(), "line")) +
-                          ", is drawn");
+  heart->notes.insert(
+      heart->notes.begin(),
+      reason + "; there are no layers to trace or feel, and " +
+          (tree ? "the mesh's own lines, " + counted(heart->branches.size(), "line") + ", are"
+                : (shell ? "the shell, " : "the border of the mesh, ") + triangles +
+                      (heart->branches.empty() ? "" : " and " + counted(heart->branches.size(), "line")) +
+                      ", is") +
+          " drawn");
   return heart;
 }
 

@@ -46,9 +46,10 @@ DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& option
   drawn.field = scene.array->name;
   drawn.lines = scene.lines->size();
   drawn.points = 2 * drawn.lines;
-  drawn.what = counted(heart.mesh.triangles.size(), "triangle");
+  const bool tree = heart.mesh.triangles.empty();
+  if (!tree) drawn.what = counted(heart.mesh.triangles.size(), "triangle");
   if (!heart.strokes.empty()) drawn.what += ", " + counted(heart.strokes.size(), "stroke");
-  if (!heart.branches.empty()) drawn.what += ", " + counted(heart.branches.size(), "line");
+  if (!heart.branches.empty()) drawn.what += (tree ? "" : ", ") + counted(heart.branches.size(), "line");
   SceneView& view = drawn.view;
   view.style.color_by = ColorBy::kArray;
   view.style.array = scene.array;
@@ -58,7 +59,8 @@ DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& option
   view.lines = std::move(scene.lines);
   view.bounds = heart.bounds;
   view.title = input.title();
-  view.subtitle = scene.array->name.empty() ? "surface" : "surface, " + scene.array->name;
+  view.subtitle = tree ? "lines" : "surface";
+  if (!scene.array->name.empty()) view.subtitle += ", " + scene.array->name;
   if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
   view.units = units_of(input);

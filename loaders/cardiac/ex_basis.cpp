@@ -152,7 +152,7 @@ Interpolated interpolate(const std::array<Basis, 3>& basis, const double* parame
           const Vec3 slope{along[0].slope[i] * along[1].value[j] * along[2].value[k],
                            along[0].value[i] * along[1].slope[j] * along[2].value[k],
                            along[0].value[i] * along[1].value[j] * along[2].slope[k]};
-          sum.value += p * (value * linked.value);
+          sum.value += p * along[0].value[i] * along[1].value[j] * along[2].value[k] * linked.value;
           sum.slope += p * (slope * linked.value + value * linked.slope);
         }
       }

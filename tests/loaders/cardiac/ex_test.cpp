@@ -245,7 +245,7 @@ TEST(ExElement, ASamplingThatMemoryCannotHoldIsRefusedWithItsSize) {
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kBadInput);
-    for (const char* word : {"a.exelem", "1 element, sampled 99 x 99 x 99", "2 GB", "--refine"})
+    for (const char* word : {"a.exelem", "1 element, sampled as 99 x 99 x 99", "2 GB", "--refine"})
       EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
   }
 }
