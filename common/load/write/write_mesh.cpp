@@ -1,14 +1,18 @@
 #include "common/load/write/write_mesh.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <string>
+#include <string_view>
+
+#include <zlib.h>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/load/load.h"
-#include "common/load/write/vtp_appendix.h"
 #include "common/load/write/write_tractogram.h"
 #include "common/math/vec_text.h"
 
@@ -17,17 +21,60 @@ namespace {
 
 constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
 
-/// VTK XML, UnstructuredGrid, raw appended data.
+/// Appended data packed by zlib in blocks (https://docs.vtk.org, "VTK XML formats"): before each array stand the counts of
+/// blocks, of bytes in a block and in the last one where that is not full, and the packed bytes of each.
+class PackedArrays {
+ public:
+  /// The element of an array. @param type "Float64".
+  template <typename T>
+  [[nodiscard]] std::string declare(const char* type, std::string_view name, int components,
+                                    const std::vector<T>& values) {
+    std::string text = appendix_text(type, name, components);
+    pack(std::as_bytes(std::span(values)));
+    return text;
+  }
+  void write(OutputFile& file) const { file.write(bytes_); }
+
+ private:
+  static constexpr std::size_t kBlock = std::size_t{1} << 20;
+
+  [[nodiscard]] std::string appendix_text(const char* type, std::string_view name, int components) const {
+    return std::string("<DataArray type=\"") + type + "\" Name=\"" + std::string(name) +
+           "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
+           std::to_string(bytes_.size()) + "\"/>\n";
+  }
+  void pack(std::span<const std::byte> array) {
+    const std::uint64_t blocks = (array.size() + kBlock - 1) / kBlock;
+    std::vector<std::uint64_t> head{blocks, kBlock, array.size() % kBlock};
+    std::string packed;
+    for (std::size_t first = 0; first < array.size(); first += kBlock) {
+      const auto block = array.subspan(first, std::min(kBlock, array.size() - first));
+      uLongf size = compressBound(static_cast<uLong>(block.size()));
+      const std::size_t before = packed.size();
+      packed.resize(before + size);
+      const int result = compress2(reinterpret_cast<Bytef*>(packed.data() + before), &size,
+                                   reinterpret_cast<const Bytef*>(block.data()),
+                                   static_cast<uLong>(block.size()), Z_BEST_SPEED);
+      PALPATE_CHECK(result == Z_OK);  // the room is what zlib asks for
+      packed.resize(before + size);
+      head.push_back(size);
+    }
+    bytes_.append(reinterpret_cast<const char*>(head.data()), head.size() * sizeof(std::uint64_t));
+    bytes_ += packed;
+  }
+
+  std::string bytes_;
+};
+
+/// VTK XML, UnstructuredGrid, packed appended data.
 void write_vtu(OutputFile& file, std::span<const Vec3> points,
                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
                const std::optional<Vec3>& long_axis) {
-  const std::uint64_t per_point = points.size() * sizeof(double);
-  const std::uint64_t per_cell = cells.size() * sizeof(std::int64_t);
-  VtpAppendix appendix;
+  PackedArrays arrays;
   std::string head =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
   if (long_axis)
     head += std::string("<FieldData>\n<DataArray type=\"Float64\" Name=\"") + kLongAxisArray +
             "\" NumberOfComponents=\"3\" NumberOfTuples=\"1\" format=\"ascii\">" +
@@ -38,35 +85,26 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
   const auto declare = [&](bool of_cells) {
     for (const MeshColumn& column : columns)
       if (column.of_cells == of_cells)
-        head += appendix.declare("Float64", column.name, static_cast<int>(column.components),
-                                 column.values.size() * sizeof(double));
+        head += arrays.declare("Float64", column.name, static_cast<int>(column.components), column.values);
   };
   declare(false);
   head += "</PointData>\n<CellData>\n";
   declare(true);
-  head += "</CellData>\n<Points>\n" + appendix.declare("Float64", "Points", 3, 3 * per_point);
-  head += "</Points>\n<Cells>\n" + appendix.declare("Int64", "connectivity", 1, 4 * per_cell);
-  head += appendix.declare("Int64", "offsets", 1, per_cell);
-  head += appendix.declare("UInt8", "types", 1, cells.size());
+  std::vector<double> x;
+  x.reserve(3 * points.size());
+  for (const Vec3& point : points) x.insert(x.end(), {point.x, point.y, point.z});
+  head += "</CellData>\n<Points>\n" + arrays.declare("Float64", "Points", 3, x) + "</Points>\n<Cells>\n";
+  std::vector<std::int64_t> numbers;
+  numbers.reserve(4 * cells.size());
+  for (const auto& cell : cells) numbers.insert(numbers.end(), cell.begin(), cell.end());
+  head += arrays.declare("Int64", "connectivity", 1, numbers);
+  numbers.clear();
+  for (std::size_t c = 1; c <= cells.size(); ++c) numbers.push_back(static_cast<std::int64_t>(4 * c));
+  head += arrays.declare("Int64", "offsets", 1, numbers);
+  head += arrays.declare("UInt8", "types", 1, std::vector<std::uint8_t>(cells.size(), kTetrahedron));
   head += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   file.write(head);
-  for (const bool of_cells : {false, true}) {
-    for (const MeshColumn& column : columns) {
-      if (column.of_cells != of_cells) continue;
-      file.write_number(std::uint64_t{column.values.size() * sizeof(double)});
-      for (const double value : column.values) file.write_number(value);
-    }
-  }
-  file.write_number(3 * per_point);
-  for (const Vec3& x : points)
-    for (int axis = 0; axis < 3; ++axis) file.write_number(x[axis]);
-  file.write_number(4 * per_cell);
-  for (const auto& cell : cells)
-    for (const std::uint32_t p : cell) file.write_number(static_cast<std::int64_t>(p));
-  file.write_number(per_cell);
-  for (std::size_t c = 1; c <= cells.size(); ++c) file.write_number(static_cast<std::int64_t>(4 * c));
-  file.write_number(static_cast<std::uint64_t>(cells.size()));
-  for (std::size_t c = 0; c < cells.size(); ++c) file.write_number(kTetrahedron);
+  arrays.write(file);
   file.write("\n</AppendedData>\n</VTKFile>\n");
 }
 

@@ -27,7 +27,7 @@ struct MeshColumn {
 /// @throws Error (usage, or work failed where the folder cannot be written).
 void check_mesh_output(const std::filesystem::path& path, bool overwrite);
 
-/// .vtu is VTK XML with raw appended data; .csv has the header x,y,z and the names of the columns, several
+/// .vtu is VTK XML with appended data that zlib has packed; .csv has the header x,y,z and the names of the columns, several
 /// numbers a point as name_1, name_2, …; it has no cells, and no numbers of them.
 /// @param long_axis of a heart, from apex to base: .vtu keeps it as the field data kLongAxisArray.
 /// @throws Error as check_mesh_output(); (work failed) where the disk refuses.
