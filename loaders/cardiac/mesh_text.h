@@ -33,7 +33,7 @@ inline constexpr std::uint8_t kVtkQuadraticTetrahedron = 24;
 struct Directions {
   std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
   std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
-  std::vector<double> further;               ///< the numbers of all places of a row but the first, as they stand
+  std::vector<double> further;  ///< the numbers of all places of a row but the first, as they stand
 };
 /// Adds those of an element: its fibre, or fibre and sheet, or all three.
 void append_directions(std::span<const Vec3> vectors, Directions& directions);

@@ -11,10 +11,10 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/files/memory_text.h"
 #include "common/base/index.h"
 #include "common/load/helper/chosen_loader.h"
 #include "loaders/cfd/cfd_check.h"
-#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/one_reader.h"
 
 namespace palpate {

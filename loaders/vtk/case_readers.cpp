@@ -16,6 +16,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include "common/base/error.h"
+#include "common/base/files/memory_text.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
@@ -25,7 +26,6 @@
 #include "loaders/vtk/ensight/ensight_times.h"
 #include "loaders/vtk/foam/foam_case.h"
 #include "loaders/vtk/foam/foam_collated.h"
-#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"

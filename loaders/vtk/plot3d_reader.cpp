@@ -11,11 +11,11 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/files/memory_text.h"
 #include "common/base/json.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
-#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/plot3d_values.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"

@@ -20,9 +20,9 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/files/memory_text.h"
 #include "common/base/text.h"
 #include "common/load/find_format.h"
-#include "loaders/vtk/memory_text.h"
 #include "loaders/vtk/parallel_index.h"
 
 namespace palpate {

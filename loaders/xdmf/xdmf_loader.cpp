@@ -28,12 +28,12 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/files/memory_text.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/helper/serve.h"
 #include "common/load/volume_block.h"
 #include "loaders/hdf/hdf5_check.h"
-#include "loaders/vtk/memory_text.h"
 #include "loaders/xdmf/xdmf_items.h"
 #include "loaders/xdmf/xdmf_text.h"
 

@@ -40,7 +40,7 @@ RegionActions edit_region(RegionControl& region, const VolumeImage& image) {
   }
   if (image.lines) {
     ImGui::TextDisabled("uneven steps: no crop");
-    hint("files of images have one step an axis; grid clip --resample writes one");
+    hint("files of images have one step an axis; clip --resample writes one");
   }
   ImGui::BeginDisabled(!part || image.lines);
   constexpr std::array kEndings{".nii.gz", ".nrrd", ".vti"};

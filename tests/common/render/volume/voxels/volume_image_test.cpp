@@ -100,8 +100,7 @@ TEST(VolumeImage, RefusesWhatIsNoVolume) {
   grid.axes[2] = Vec3(0.0, 0.0, 1.0);
   grid.points.x = 3;
   EXPECT_NE(refusal(block), "no error");
-  block.topology =
-      RectilinearTopology{{std::vector<double>{0, 1}, std::vector<double>{0, 1}, std::vector<double>{0, 1}}};
+  block.topology = UnstructuredTopology{};
   EXPECT_NE(refusal(block).find("no grid along straight axes"), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-/// Text for VTK's readers that is in no file.
+/// Text for readers that want a file.
 #pragma once
 
 #include <string>
