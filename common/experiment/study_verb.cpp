@@ -349,13 +349,18 @@ void StudyWork::run() {
                         " is a file, and no participant; name a device, mouse or simulated");
   }
   if (!options_.hand.replay.empty()) throw usage_error("study run replays no recording; study replay does");
+  const StereoView stereo = stereo_of(options_.view);
+  if (stereo.mode == StereoMode::kAnaglyph || stereo.mode == StereoMode::kAnaglyphGrey)
+    context_.console.note(
+        "an anaglyph changes the colours of which the tasks speak: red line and blue dot are seen as others, in grey they are not "
+        "told from displayed lines; all other modes of --stereo keep them");
   const StudyLock session = folder.hold(StudyLock::Kind::kShared, "study run");
   const auto seat = seated(folder);
   const StudyParticipant& who = seat.first;
   ParticipantWindowOptions window;
   window.touch = window_touch(modes_of(context_.explorer.kind), options_, context_);
   window.device = options_.hand.device;
-  window.stereo = stereo_of(options_.view);
+  window.stereo = stereo;
   window.tell = [this](const std::string& what) { context_.console.note(what); };
   window.stop_requested = [this] { return context_.progress.cancelled(); };
   if (window.touch.tracker)

@@ -149,6 +149,7 @@ TEST_F(FlowStudy, RefusesWhatMakesNoSense) {
   refused({"study", "run", "s", "--device", "replay:path.csv"}, 2, "is a file");
   refused({"study", "run", "s", "--device", "hands:hands.csv"}, 2, "is a file");
   refused({"study", "run", "s", "--participant", "P03"}, 2, "P01 to P02");
+  refused({"study", "run", "s", "--participant", "P03", "--stereo", "anaglyph-grey"}, 2, "red line");
   EXPECT_FALSE(std::filesystem::exists(folder_.path("s/participants.tsv"))) << "nobody is entered by that";
   refused({"study", "simulate", "s", "--participant", "P09"}, 2, "P09");
   refused({"study", "replay", "s"}, 2, "no such trial");
