@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/flow/study/path_task.h"
+#include "common/base/index.h"
 #include "common/base/json.h"
 #include "common/cli/explorer.h"
 #include "common/experiment/study_verb.h"
@@ -103,10 +104,14 @@ TEST(StudyWithoutForce, FindsNoEffect) {
   constexpr int kShared = 25;
   StudyTasks tasks;
   std::map<std::string, std::vector<double>> found;
+  std::size_t not_defined = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     if (seed % kShared == 0) tasks = shared_stimuli(static_cast<std::uint64_t>(1000 + seed));
     const auto values = p_values(tasks, static_cast<std::uint64_t>(1 + seed), 0.0);
-    ASSERT_EQ(values.size(), 16U) << "two tests of two subjects in four tasks";
+    // Two tests of two subjects in four tasks. Where its four paths lead nearly everybody astray who is not guided, a
+    // task has too few participants left, and nothing is tested.
+    ASSERT_LE(values.size(), 16U);
+    not_defined += 16U - values.size();
     for (const auto& [subject, p] : values) {
       EXPECT_GT(p, 1e-5) << subject.first << " " << subject.second << ", seed " << 1 + seed;
       found[subject.first + ", " + subject.second].push_back(p);
@@ -115,6 +120,8 @@ TEST(StudyWithoutForce, FindsNoEffect) {
         std::cout << seed + 1 << "\t" << subject.first << "\t" << subject.second << "\t" << p << std::endl;
     }
   }
+  EXPECT_LE(not_defined, as_size(seeds) / 10);
+  if (asked != nullptr) std::cout << not_defined << " p values are not defined\n";
   for (const auto& [subject, p] : found) {
     const UniformityTest test = uniformity_test(p);
     const auto below = [&p](double most) {
