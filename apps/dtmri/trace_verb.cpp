@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
 #include "common/scene/tensor/tensor_spec.h"
+#include "common/trace/tract/tract_errors.h"
 
 namespace palpate {
 namespace {
@@ -78,8 +80,11 @@ std::string summary_text(const TractSummary& summary) {
           short_number(result.step) + ", " + std::string(name_of(summary.options.measure)) + " from " +
           short_number(summary.options.cutoff) + ", turns to " + short_number(result.max_angle) +
           " degrees a step, length to " + short_number(result.max_length) + "\n";
-  text +=
-      "  error      at most " + short_number(result.error_max) + " by its own estimate (sum of the steps')\n";
+  text += "  " + errors_text(summary.errors) + " by their own estimate (sum of the steps')";
+  if (summary.errors.within)
+    text += ", " + std::to_string(*summary.errors.within) + " of " +
+            counted(result.lines.line_count(), "line") + " within the tolerance";
+  text += "\n";
   text += "  seconds    load " + short_number(summary.seconds_load) + ", prepare " +
           short_number(summary.seconds_prepare) + ", trace " + short_number(result.seconds) + " (" +
           counted(static_cast<std::uint64_t>(summary.threads), "thread") + ")\n";
@@ -153,6 +158,9 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.seconds_prepare = seconds_regions + prepare.seconds();
 
   summary.result = trace_tracts(*field, seeds, summary.options, &context.progress);
+  const bool controlled = summary.options.integrator == Integrator::kDp54;
+  summary.errors = tract_errors(summary.result, field->bounds().diagonal(),
+                                controlled ? std::optional(summary.options.tolerance) : std::nullopt);
   summary.advice = advice_for(summary);
   summary.failure = failure_of(summary);
   if (!summary.failure.empty()) {

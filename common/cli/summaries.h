@@ -20,6 +20,7 @@
 #include "common/render/volume/volume_view.h"
 #include "common/scene/input.h"
 #include "common/servo/servo_loop.h"
+#include "common/trace/line_errors.h"
 #include "common/trace/trace.h"
 #include "common/trace/tract/trace_tracts.h"
 #include "common/trace/tract/tract_orientation.h"
@@ -53,6 +54,7 @@ struct TractSummary {
   std::size_t seeds = 0;
   TractOptions options;
   TractResult result;  ///< lines included
+  LineErrors errors;
   int threads = 0;
   double seconds_load = 0.0;
   double seconds_prepare = 0.0;  ///< field, regions and seeds

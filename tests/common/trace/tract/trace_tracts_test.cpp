@@ -11,6 +11,8 @@
 
 #include "common/base/error.h"
 #include "common/trace/tract/tensor_source.h"
+#include "common/trace/tract/tract_errors.h"
+#include "common/trace/tract/tract_errors.h"
 #include "tests/common/trace/tract/tensor_images.h"
 
 namespace palpate {
@@ -174,6 +176,28 @@ TEST(TraceTracts, StatesAnErrorOfTheTrueSize) {
     EXPECT_GT(stated, 0.3 * made);
     EXPECT_LT(stated, 4.0 * made);
   }
+}
+
+TEST(TractErrors, CountLinesThatKeepTheToleranceAndThoseThatAreNotHeld) {
+  TractResult result;
+  result.lines.of_points = {{.name = "error", .values = {}}};
+  const auto add = [&](float back, float front) {  // a line of 10 to either side of its seed
+    for (const float x : {-10.0F, 0.0F, 10.0F}) result.lines.points.emplace_back(x, 0.0F, 0.0F);
+    for (const float error : {back, 0.0F, front}) result.lines.of_points[0].values.push_back(error);
+    result.lines.starts.push_back(result.lines.points.size());
+    result.seeds.push_back(static_cast<std::uint32_t>(7 + result.seeds.size()));
+  };
+  add(0.5F, 1.0F);
+  add(0.5F, 1.5F);
+  add(20.0F, 0.0F);
+  const LineErrors errors = tract_errors(result, 100.0, 0.1);
+  EXPECT_EQ(errors.within, std::optional<std::size_t>(1));
+  EXPECT_EQ(errors.held, 2U);
+  EXPECT_EQ(errors.unheld_seeds, std::vector<std::uint32_t>{9});
+  EXPECT_FLOAT_EQ(static_cast<float>(errors.worst), 1.5F);
+  EXPECT_FLOAT_EQ(static_cast<float>(errors.median), 1.0F);
+  EXPECT_FLOAT_EQ(static_cast<float>(errors.max), 20.0F);
+  EXPECT_EQ(tract_errors(result, 100.0).within, std::nullopt);
 }
 
 /// A bundle of helices in noise-free tissue, and seeds all over it.
