@@ -12,7 +12,6 @@
 #include "common/base/error.h"
 #include "common/trace/tract/tensor_source.h"
 #include "common/trace/tract/tract_errors.h"
-#include "common/trace/tract/tract_errors.h"
 #include "tests/common/trace/tract/tensor_images.h"
 
 namespace palpate {
