@@ -81,7 +81,7 @@ class FaceSteps {
 
  private:
   static constexpr double kAll = 10.0,
-                          kFew = 40.0;  ///< of (1); bundles of closed forms keep their tolerance by them
+                          kFew = 40.0;  ///< of (1); the built-in bundles keep their tolerance by them
   static constexpr double kKept = 0.9;
   static constexpr double kMissed = 20.0;  ///< an end that misses its face
   static constexpr double kSafety = 0.9;   ///< as StepControl's

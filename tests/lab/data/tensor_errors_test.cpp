@@ -74,9 +74,12 @@ TEST(TensorReport, HasOnlyWhatConcernsTensors) {
   report.sections = {fit_errors_section(fit()), tract_errors_section(tracts())};
   report.stability = fit_error_cases(fit());
   for (StabilityCase& c : tract_error_cases(tracts())) {
-    // A tolerance that is missed is said to be.
-    const bool keeps = c.row.name.starts_with("tolerance") ? c.row.measured <= 1.0 : true;
-    EXPECT_EQ(c.row.holds, keeps) << c.row.name << " " << c.row.measured;
+    // A tolerance or a stated error that is missed is said to be: of the few lines of a quick run, in large voxels, 95 % are
+    // all of them.
+    const bool of_few = c.row.name.starts_with("tolerance") || c.row.name.starts_with("stated error");
+    constexpr double kOfFew = 2.0;
+    EXPECT_EQ(c.row.holds, of_few ? c.row.measured <= 1.0 : true) << c.row.name << " " << c.row.measured;
+    if (of_few) EXPECT_LT(c.row.measured, kOfFew) << c.row.name;
     report.stability.push_back(c);
   }
   const std::string page = report_page(report), json = report_json(report);
