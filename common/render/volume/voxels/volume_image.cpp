@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <mutex>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/parallel.h"
 #include "common/base/read_as.h"
 #include "common/field/data_set_check.h"
 #include "common/field/grid/sparse/sparse_statistics.h"
@@ -46,20 +49,46 @@ void set_range(VolumeImage& image, double lowest, double highest) {
   image.highest = image.offset + image.scale * highest;
 }
 
-void find_range(VolumeImage& image) {
+struct FiniteRange {
   double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  const std::size_t count = image.point_count();
-  image.all_finite = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double v = image.number(i);
-    if (!std::isfinite(v)) {
-      image.all_finite = false;
-      continue;
+  bool all_finite = true;
+};
+
+template <typename T>
+FiniteRange range_of_numbers(std::span<const std::byte> bytes, std::size_t first, std::size_t last) {
+  T lowest = std::numeric_limits<T>::max(), highest = std::numeric_limits<T>::lowest();
+  bool all = true, some = false;
+  for (std::size_t i = first; i < last; ++i) {
+    const T v = read_as<T>(bytes, i);
+    if constexpr (std::is_floating_point_v<T>) {
+      if (!std::isfinite(v)) {
+        all = false;
+        continue;
+      }
     }
+    some = true;
     lowest = std::min(lowest, v);
     highest = std::max(highest, v);
   }
-  set_range(image, lowest, highest);
+  if (!some) return {.all_finite = all};
+  return {static_cast<double>(lowest), static_cast<double>(highest), all};
+}
+
+void find_range(VolumeImage& image) {
+  FiniteRange range;
+  std::mutex joining;
+  parallel_for(image.point_count(), 0, [&](std::size_t first, std::size_t last) {
+    const FiniteRange part =
+        image.type == ScalarType::kUint8    ? range_of_numbers<std::uint8_t>(image.bytes, first, last)
+        : image.type == ScalarType::kUint16 ? range_of_numbers<std::uint16_t>(image.bytes, first, last)
+                                            : range_of_numbers<float>(image.bytes, first, last);
+    const std::lock_guard lock(joining);
+    range.lowest = std::min(range.lowest, part.lowest);
+    range.highest = std::max(range.highest, part.highest);
+    range.all_finite = range.all_finite && part.all_finite;
+  });
+  image.all_finite = range.all_finite;
+  set_range(image, range.lowest, range.highest);
 }
 
 // Single precision as it is, or scaled, where the GPU would lose it.
@@ -97,10 +126,15 @@ void own(VolumeImage& image, std::vector<T> numbers, ScalarType type) {
 // Signed numbers as unsigned ones, in the same order.
 template <typename Signed, typename Unsigned>
 void shift_signed(VolumeImage& image, const DataArray& array, ScalarType type) {
-  constexpr double kLowest = std::numeric_limits<Signed>::min();
-  std::vector<Unsigned> numbers(array.tuples);
-  for (std::size_t i = 0; i < array.tuples; ++i) numbers[i] = static_cast<Unsigned>(array.at(i) - kLowest);
-  own(image, std::move(numbers), type);
+  constexpr auto kLowest = std::numeric_limits<Signed>::min();
+  const std::shared_ptr<Unsigned[]> numbers(new Unsigned[array.tuples]);
+  parallel_for(array.tuples, 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      numbers[i] = static_cast<Unsigned>(read_as<Signed>(array.bytes, i) - kLowest);
+  });
+  image.bytes = std::as_bytes(std::span<const Unsigned>(numbers.get(), array.tuples));
+  image.owner = numbers;
+  image.type = type;
   image.offset = kLowest;
 }
 

@@ -100,7 +100,7 @@ TEST(VolumeImage, RefusesWhatIsNoVolume) {
   grid.axes[2] = Vec3(0.0, 0.0, 1.0);
   grid.points.x = 3;
   EXPECT_NE(refusal(block), "no error");
-  block.topology = UnstructuredTopology{};
+  block.topology = StructuredTopology{};
   EXPECT_NE(refusal(block).find("no grid along straight axes"), std::string::npos);
 }
 
