@@ -79,7 +79,9 @@ TEST(TensorReport, HasOnlyWhatConcernsTensors) {
     const bool of_few = c.row.name.starts_with("tolerance") || c.row.name.starts_with("stated error");
     constexpr double kOfFew = 2.0;
     EXPECT_EQ(c.row.holds, of_few ? c.row.measured <= 1.0 : true) << c.row.name << " " << c.row.measured;
-    if (of_few) EXPECT_LT(c.row.measured, kOfFew) << c.row.name;
+    if (of_few) {
+      EXPECT_LT(c.row.measured, kOfFew) << c.row.name;
+    }
     report.stability.push_back(c);
   }
   const std::string page = report_page(report), json = report_json(report);
