@@ -122,7 +122,9 @@ TEST(StudyWithoutForce, FindsNoEffect) {
   }
   EXPECT_LE(not_defined, as_size(seeds) / 10);
   if (asked != nullptr) std::cout << not_defined << " p values are not defined\n";
-  for (const auto& [subject, p] : found) {
+  for (const auto& one : found) {
+    const std::string& subject = one.first;
+    const std::vector<double>& p = one.second;
     const UniformityTest test = uniformity_test(p);
     const auto below = [&p](double most) {
       return std::ranges::count_if(p, [&](double x) { return x <= most; });
