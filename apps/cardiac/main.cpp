@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
                   {{"cardiac render heart.exelem.gz --layer 0.5 --out heart.png", "helix angle on a layer"},
                    {"cardiac render --example ventricle --cut 0,1,0,0 --camera 0,20,0,1 --out half.png",
                     "cut open"},
-                   {"cardiac render heart.exelem.gz --path path.csv --mode fiber --out touched.png",
+                   {"cardiac render heart.exelem.gz --path path.csv --mode fibre --out touched.png",
                     "with the forces on a hand along that path"}}),
               report_verb("measure what mesh and step cost in volume, layers, angles, fibres and touch",
                           {Group::kInput, Group::kLayer},

@@ -155,8 +155,27 @@ void ProbeTrail::describe(const TouchChoice& choice, double force_cap, bool on_d
 void ProbeTrail::note_line() {
   noted_.reset();
   if (drawing_ && readout_.held) drawing_->note();
-  if (!readout_.held || !curve_ || curve_->number() == 0 || curve_->line().points.size() < 2) return;
-  noted_ = NotedLine{curve_->line(), forces_along(curve_->line(), haptic_forces_)};
+  if (!readout_.held || (curve_ && curve_->number() == 0)) return;
+  noted_ = followed();
+}
+
+std::optional<ProbeTrail::NotedLine> ProbeTrail::followed() const {
+  if (curve_) {
+    if (curve_->line().points.size() < 2) return std::nullopt;
+    return NotedLine{curve_->line(), forces_along(curve_->line(), haptic_forces_)};
+  }
+  if (!data_.has_wall() || path_->pieces().empty()) return std::nullopt;
+  const std::size_t first = path_->pieces().back();
+  NotedLine way;
+  way.line.end = End::kStoppedByRule;
+  double arc = 0.0;
+  for (std::size_t i = first; i < path_->size(); ++i) {
+    if (i > first) arc += glm::distance(path_->positions()[i - 1], path_->positions()[i]);
+    way.line.points.push_back({.position = path_->positions()[i], .arc = arc});
+    way.forces.push_back(path_->forces()[i]);
+  }
+  if (way.line.points.size() < 2) return std::nullopt;
+  return way;
 }
 
 void ProbeTrail::forget_note() {
@@ -170,8 +189,8 @@ ProbeTrail::Keeping ProbeTrail::keep_line() {
     path_ = drawing_->path();
     return Keeping::kKept;
   }
-  if (!curve_ || curve_->line().points.size() < 2) return Keeping::kNothing;
-  return keep(curve_->line(), forces_along(curve_->line(), haptic_forces_));
+  auto line = followed();
+  return line ? keep(line->line, std::move(line->forces)) : Keeping::kNothing;
 }
 
 ProbeTrail::Keeping ProbeTrail::keep_noted_line() {

@@ -85,6 +85,9 @@ class ProbeTrail {
     std::vector<double> forces;
   };
   Keeping keep(const Line& line, std::vector<double> forces);
+  /// The streamline that is followed, or the way of the hand on a wall since it last took hold there; none of fewer
+  /// than two points.
+  [[nodiscard]] std::optional<NotedLine> followed() const;
   void read_step(const HandStep& step);
   void draw_path(const HandStep& step, bool on_line, StrokeUse stroke);
 

@@ -408,7 +408,7 @@ std::optional<Sniffed> known_other(const FileHead& head) {
   if (head.ending == ".tt")
     return Sniffed{{}, "a tiny-track file of DSI Studio", "save its tracts as .trk.gz or .tck there"};
   if (head.ending == ".fib" || head.ending == ".fz")
-    return Sniffed{{}, "a fiber file of DSI Studio", "save its directions as NIfTI there"};
+    return Sniffed{{}, "a fibre file of DSI Studio", "save its directions as NIfTI there"};
   if (is_gzip(text)) return Sniffed{{}, "a gzip file", "unpack it first"};
   return {};
 }

@@ -105,7 +105,7 @@ TEST_F(Cardiac, MapsAnglesUnderEveryConventionThatHasThem) {
 
 TEST_F(Cardiac, FeelsLayersGroovesAndFriction) {
   const std::string path = path_through_the_wall();
-  for (const char* mode : {"fiber", "layer", "friction"}) {
+  for (const char* mode : {"fibre", "layer", "friction"}) {
     const Json felt = json({"probe", "--example", "ventricle", "--path", path, "--mode", mode, "--out",
                             std::string(mode) + ".csv"});
     EXPECT_EQ(felt["mode"], mode);

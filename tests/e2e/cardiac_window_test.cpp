@@ -214,7 +214,7 @@ class CardiacDog : public CardiacWindow {
 };
 
 TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
-  grab_by_mouse("fiber");
+  grab_by_mouse("fibre");
   window_.touch.record.clear();
   const WindowResult start = run_until(kGrabbed);
   ASSERT_TRUE(start.probe.held) << start.message;
@@ -252,8 +252,19 @@ TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
     move(kGrabbed + kRest * n, area_.left + shown.x + 0.7 * aside, area_.top + shown.y + 0.7 * aside);
   }
   window_.touch.record = folder_.path("run.txt");
-  const WindowResult result = run_until(kGrabbed + kRest * kSteps + 40);
+  window_.picture_folder = folder_.path();
+  constexpr int kThere = kGrabbed + kRest * kSteps + 20;
+  at(kThere, {.kind = InputKind::kKeyDown, .key = 'K'});
+  at(kThere + 1, {.kind = InputKind::kKeyUp, .key = 'K'});
+  at(kThere + 10, {.kind = InputKind::kKeyDown, .key = 'E', .modifiers = kModifierControl});
+  at(kThere + 11, {.kind = InputKind::kKeyUp, .key = 'E', .modifiers = kModifierControl});
+  const WindowResult result = run_until(kThere + 20);
   EXPECT_EQ(result.probe.state, HoldState::kHeld);
+  // What was followed is kept with its force, and saved.
+  EXPECT_NE(result.log.find("kept line 1"), std::string::npos) << result.log;
+  ASSERT_TRUE(result.view.probe->drawn_lines);
+  EXPECT_EQ(result.view.probe->drawn_lines->size(), 1U);
+  EXPECT_NE(read_file(folder_.path("followed.vtp")).find("\"force\""), std::string::npos) << result.log;
   EXPECT_EQ(result.probe.popped, 0) << "it stays on its layer, around the wall";
   EXPECT_NEAR(layer_of(result), 0.875, 1e-12);
   EXPECT_LT(glm::distance(result.probe.proxy, fibre.back()), 3.0)

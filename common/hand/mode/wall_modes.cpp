@@ -37,7 +37,7 @@ HapticChain make_wall(const HapticScene& scene, Links links) {
 
 }  // namespace
 
-HapticChain make_fiber(const HapticScene& scene) { return make_wall(scene, Links::kGroove); }
+HapticChain make_fibre(const HapticScene& scene) { return make_wall(scene, Links::kGroove); }
 HapticChain make_layer(const HapticScene& scene) { return make_wall(scene, Links::kLayer); }
 HapticChain make_friction(const HapticScene& scene) { return make_wall(scene, Links::kFriction); }
 

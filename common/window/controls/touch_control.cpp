@@ -259,6 +259,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       return std::string("grabbed: the mouse moves the probe, the wheel along the view; ") +
              (session_.data().has_flow()      ? "K keeps the line, G lets go"
               : session_.data().has_tensors() ? "K keeps the tract, G lets go"
+              : session_.data().has_wall()    ? "K keeps the way along the wall, G lets go"
               : session_.hand().takes_hold()  ? "its button takes hold, G lets go"
                                               : "G lets go");
     case Command::kLockX:
@@ -277,6 +278,7 @@ std::optional<std::string> TouchControl::run(Command command, const PictureArea&
       switch (kept) {
         case ProbeTrail::Keeping::kNothing:
           if (session_.data().has_tensors()) return "no tract is drawn: press G, then drag along one";
+          if (session_.data().has_wall()) return "there is no way along the wall: press G, then drag on it";
           return grabbed_ ? "no line is followed here: move the probe to where the lines are"
                           : "no line is followed: grab the probe (G) and move it on to one";
         case ProbeTrail::Keeping::kAlready:

@@ -132,7 +132,7 @@ bool concerns(Command command, const PanelState& state) {
   switch (command) {
     case Command::kKeepLine:
     case Command::kSaveLines:
-      return flow || (touch && state.touch->data().has_tensors());
+      return flow || (touch && (state.touch->data().has_tensors() || state.touch->data().has_wall()));
     case Command::kLocalLines:
       return flow;
     case Command::kGrab:

@@ -169,7 +169,8 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (const std::string note = session.limits().note(session.choice().settings); !note.empty())
     ImGui::TextWrapped("%s", note.c_str());
 
-  if (session.data().has_flow() || tensors) {
+  const bool lines = session.data().has_flow() || session.data().has_wall() || tensors;
+  if (lines) {
     actions.keep = button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
     ImGui::SameLine();
   }
@@ -179,7 +180,7 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   if (clears) session.trail().clear_path();
   if (session.data().scalar() && !session.data().has_flow() && view.volume)
     edit_notes(session, *view.volume, marking, actions);
-  if (!session.data().has_flow() && !tensors) return actions;
+  if (!lines) return actions;
   ImGui::BeginDisabled(session.trail().drawn_lines().entries().empty() && session.trail().drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());

@@ -76,7 +76,7 @@ TEST(HapticModes, TheDefaultsAndTheirOrderAreWhatUsersHaveInTheirFingers) {
             "streamline isotropic direct transverse vortex density isosurface linear free ");
   EXPECT_EQ(names(FieldKind::kScalar), "grid plane-widget isosurface density linear free ");
   EXPECT_EQ(names(FieldKind::kTensor), "anisotropy anisotropy-point free ");
-  EXPECT_EQ(names(FieldKind::kFibre), "fiber layer friction free ");
+  EXPECT_EQ(names(FieldKind::kFibre), "fibre layer friction free ");
 }
 
 // The chain comes from its line of text, as a recording's does.
