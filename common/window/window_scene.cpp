@@ -48,9 +48,11 @@ void ExplorerWindow::adopt(SceneState scene) {
   bool overtaken = false;
   if (new_input) {
     plot_.forget();
-    // What is so of the input at all waits behind a button; what comes up later is a banner.
+    // What is so of the input at all waits behind a button; what warns, or comes up later, is a banner.
     state_.closed_notes = {scene_->notes.begin(), scene_->notes.end()};
     state_.closed_notes.insert(scene_->volume_notes.begin(), scene_->volume_notes.end());
+    std::erase_if(state_.closed_notes,
+                  [](const std::string& note) { return note.find("WARNING") != std::string::npos; });
     state_.closed_notes.erase(scene_->memory_note);  // lines are missing
     for (const auto* notes : {&scene_->notes, &scene_->volume_notes}) {
       for (const std::string& note : *notes) state_.log.add(note, false);

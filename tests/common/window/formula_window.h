@@ -65,10 +65,12 @@ class FormulaModel : public WindowModel {
   bool hurries = false;          ///< the flow is faster the later it is
   bool one_time = false;         ///< there are no others
   std::vector<std::filesystem::path> files_of_scene;
+  std::vector<std::string> notes;
 
  private:
   SceneState scene_of(const std::string& name, const Document& document) const {
     SceneState scene = make(name, document);
+    scene.notes.insert(scene.notes.end(), notes.begin(), notes.end());
     if (!files_of_scene.empty()) {
       auto info = std::make_shared<SceneInfo>(*scene.info);
       info->files.files = files_of_scene;

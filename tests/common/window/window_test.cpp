@@ -287,5 +287,16 @@ TEST_F(WindowTest, ScreenshotSaysHowItWasMade) {
   std::filesystem::remove(options_.screenshot);
 }
 
+// What warns of a new input lies over the picture until it is closed; other words wait behind a button.
+TEST_F(WindowTest, AWarningIsABannerFromTheBeginning) {
+  options_.frames = 12;
+  at_control(4, {.kind = InputKind::kMove}, "1 note");
+  model_.notes = {"a word on the data", "WARNING: the axes are wrong; turn them"};
+  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>())
+      << "the other one alone is behind it";
+  model_.notes = {"a word on the data", "another one"};
+  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"1 note"}) << "two are";
+}
+
 }  // namespace
 }  // namespace palpate::test
