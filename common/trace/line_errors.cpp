@@ -1,6 +1,7 @@
 #include "common/trace/line_errors.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/quantile.h"
 #include "common/base/text.h"
@@ -23,12 +24,16 @@ LineErrors line_errors(std::span<const Line> lines, double diagonal, std::option
       errors.unheld_seeds.push_back(line.seed);
     }
   }
+  summarise(std::move(held), errors);
+  return errors;
+}
+
+void summarise(std::vector<double> held, LineErrors& errors) {
   errors.held = held.size();
-  if (held.empty()) return errors;
+  if (held.empty()) return;
   errors.median = quantile(held, 0.5);
   errors.p95 = quantile(held, 0.95);
   errors.worst = held.back();
-  return errors;
 }
 
 std::string errors_text(const LineErrors& errors) {

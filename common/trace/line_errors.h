@@ -33,6 +33,9 @@ struct LineErrors {
 [[nodiscard]] LineErrors line_errors(std::span<const Line> lines, double diagonal,
                                      std::optional<double> tolerance = std::nullopt);
 
+/// Number, median, 95 % and worst of the errors of held lines, into `errors`.
+void summarise(std::vector<double> held, LineErrors& errors);
+
 /// "error median 1e-07, 95 % 3e-07, worst 2e-06, 3 lines not held"
 [[nodiscard]] std::string errors_text(const LineErrors& errors);
 

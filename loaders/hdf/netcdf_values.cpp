@@ -4,23 +4,30 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <string_view>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <netcdf.h>
 
 namespace palpate {
 namespace {
 
+struct Numbers {
+  std::vector<double> values;
+  bool real = false;  ///< with a point, as the attribute is stored
+};
+
 /// The numbers of an attribute, a few at most; none where there is no such, or it is text.
-std::vector<double> numbers(int file, int variable, const char* name) {
+Numbers numbers(int file, int variable, const char* name) {
   nc_type type = NC_NAT;
   std::size_t count = 0;
   constexpr std::size_t kMost = 64;
   if (nc_inq_att(file, variable, name, &type, &count) != NC_NOERR || type == NC_CHAR || type == NC_STRING ||
       count > kMost)
     return {};
-  std::vector<double> out(count);
-  if (nc_get_att_double(file, variable, name, out.data()) != NC_NOERR) return {};
+  Numbers out{std::vector<double>(count), type == NC_FLOAT || type == NC_DOUBLE};
+  if (nc_get_att_double(file, variable, name, out.values.data()) != NC_NOERR) return {};
   return out;
 }
 
@@ -70,28 +77,40 @@ NetcdfValues::NetcdfValues(int file, int variable)
     : lowest_(-std::numeric_limits<double>::infinity()), highest_(std::numeric_limits<double>::infinity()) {
   nc_type type = NC_NAT;
   nc_inq_vartype(file, variable, &type);
-  if (const auto scale = numbers(file, variable, "scale_factor"); scale.size() == 1 && scale[0] != 0.0)
+  if (const auto scale = numbers(file, variable, "scale_factor").values; scale.size() == 1 && scale[0] != 0.0)
     scale_ = scale[0];
-  if (const auto offset = numbers(file, variable, "add_offset"); offset.size() == 1) offset_ = offset[0];
+  if (const auto offset = numbers(file, variable, "add_offset").values; offset.size() == 1)
+    offset_ = offset[0];
   const bool real = type == NC_FLOAT || type == NC_DOUBLE;
   constexpr double kOfSingle = 1e-6, kOfDouble = 1e-12;
   relative_ = type == NC_DOUBLE ? kOfDouble : type == NC_FLOAT ? kOfSingle : 0.0;
 
-  none_ = numbers(file, variable, "_FillValue");
+  none_ = numbers(file, variable, "_FillValue").values;
   if (none_.empty()) none_.push_back(never_written(type));
-  for (const double value : numbers(file, variable, "missing_value")) none_.push_back(value);
+  // Of a packed variable what has a point is of the numbers that are meant, not of those that are stored.
+  const auto stored = [&](const Numbers& of, double value) {
+    return of.real && !real ? unscaled(value) : value;
+  };
+  const Numbers missing = numbers(file, variable, "missing_value");
+  for (const double value : missing.values) {
+    none_.push_back(value);
+    if (missing.real && !real) none_.push_back(unscaled(value));
+  }
   if (real) {
     for (double& value : none_)
       if (type == NC_FLOAT) value = static_cast<double>(static_cast<float>(value));
   }
   std::erase_if(none_, [](double value) { return std::isnan(value); });
 
-  if (const auto low = numbers(file, variable, "valid_min"); low.size() == 1) lowest_ = low[0];
-  if (const auto high = numbers(file, variable, "valid_max"); high.size() == 1) highest_ = high[0];
-  if (const auto range = numbers(file, variable, "valid_range"); range.size() == 2) {
-    lowest_ = range[0];
-    highest_ = range[1];
+  const Numbers low = numbers(file, variable, "valid_min"), high = numbers(file, variable, "valid_max"),
+                range = numbers(file, variable, "valid_range");
+  if (low.values.size() == 1) lowest_ = stored(low, low.values[0]);
+  if (high.values.size() == 1) highest_ = stored(high, high.values[0]);
+  if (range.values.size() == 2) {
+    lowest_ = stored(range, range.values[0]);
+    highest_ = stored(range, range.values[1]);
   }
+  if (scale_ < 0.0 && !real && (low.real || high.real || range.real)) std::swap(lowest_, highest_);
   if (is_unsigned(file, variable)) {
     around_ = size_of(type);
     // The marks are those of numbers without a sign, too.

@@ -8,7 +8,8 @@
 
 namespace palpate {
 
-/// Numbers of one variable that stand for none, and those that were stored without a sign. "NetCDF Users Guide",
+/// Numbers of one variable that stand for none, and those that were stored without a sign. Limits with a point, of a variable
+/// that is packed as whole numbers, are of the numbers that are meant. "NetCDF Users Guide",
 /// attribute conventions; CF conventions, 2.5.1 and 8.1.
 class NetcdfValues {
  public:

@@ -236,7 +236,8 @@ class ClassicFile {
     std::vector<std::pair<std::string, std::string>> words;  ///< attributes
     std::vector<double> values;
     std::vector<std::pair<std::string, double>> numbers = {};
-    bool is_short = false;  ///< 16 bits, else double
+    bool is_short = false;     ///< 16 bits, else double
+    bool real_limits = false;  ///< attributes of shorts are doubles
   };
   std::vector<std::pair<std::string, std::uint32_t>> dimensions;
   std::vector<Variable> variables;
@@ -280,8 +281,13 @@ class ClassicFile {
       const std::size_t attributes = variable.words.size() + variable.numbers.size();
       out += number(attributes > 0 ? kAttribute : 0) + number(attributes);
       for (const auto& [name, text] : variable.words) out += name_of(name) + number(kChar) + name_of(text);
-      for (const auto& [name, value] : variable.numbers)
-        out += name_of(name) + number(kDouble) + number(1) + raw(value, true);
+      for (const auto& [name, value] : variable.numbers) {
+        const bool packed =
+            variable.is_short && !variable.real_limits && name != "scale_factor" && name != "add_offset";
+        out +=
+            name_of(name) + number(packed ? kShort : kDouble) + number(1) +
+            (packed ? raw(static_cast<std::int16_t>(value), true) + std::string(2, '\0') : raw(value, true));
+      }
       out += number(variable.is_short ? kShort : kDouble) + number(size_of(variable)) + number(begins[v]);
     }
     return out;
@@ -345,6 +351,7 @@ TEST(Netcdf, WhatStandsForNoValueIsNone) {
     double stored;  ///< at one place
     bool is_short;
     bool none = true;
+    bool real_limits = false;
   };
   constexpr double kNeverShort = -32767.0, kNeverDouble = 9.9692099683868690e+36;
   const std::vector<Kind> kinds{
@@ -358,6 +365,15 @@ TEST(Netcdf, WhatStandsForNoValueIsNone) {
       {"never written", {}, kNeverShort, true},
       {"never written doubles", {}, kNeverDouble, false},
       {"a value", {{"scale_factor", 0.5}, {"valid_max", 201.0}, {"_FillValue", -300.0}}, 201.0, true, false},
+      {"beyond what is meant", {{"scale_factor", 0.01}, {"valid_max", 0.5}}, 51.0, true, true, true},
+      {"within what is meant", {{"scale_factor", 0.01}, {"valid_max", 0.5}}, 50.0, true, false, true},
+      {"missing as it is meant",
+       {{"scale_factor", 0.5}, {"missing_value", -150.0}},
+       -300.0,
+       true,
+       true,
+       true},
+      {"a limit of a falling scale", {{"scale_factor", -0.01}, {"valid_min", -0.5}}, 51.0, true, true, true},
       {"zero is no fill", {{"_FillValue", -999.0}}, 0.0, false, false},
   };
   const TempFolder folder;
@@ -372,6 +388,7 @@ TEST(Netcdf, WhatStandsForNoValueIsNone) {
       if (variable.name != "u") continue;
       variable.numbers = kind.numbers;
       variable.is_short = kind.is_short;
+      variable.real_limits = kind.real_limits;
       for (std::size_t i = 0; i < variable.values.size(); ++i) variable.values[i] = static_cast<double>(i);
       variable.values[7] = kind.stored;
     }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/base/index.h"
-#include "common/base/quantile.h"
 
 namespace palpate {
 
@@ -36,11 +36,7 @@ LineErrors tract_errors(const TractResult& result, double diagonal, std::optiona
     if (of_line.front() <= kSlack * *tolerance * before && of_line.back() <= kSlack * *tolerance * after)
       ++*errors.within;
   }
-  errors.held = held.size();
-  if (held.empty()) return errors;
-  errors.median = quantile(held, 0.5);
-  errors.p95 = quantile(held, 0.95);
-  errors.worst = held.back();
+  summarise(std::move(held), errors);
   return errors;
 }
 
