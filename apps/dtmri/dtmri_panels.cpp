@@ -49,7 +49,8 @@ void edit_text(const char* label, const char* setting_name, TypedText& typed, st
 
 /// Along which axes directions are, and which volumes and voxels are fitted: a change reads the image again.
 void draw_reading(ReadingTexts& texts, TensorSpec& reading) {
-  if (!section("AXES AND FIT")) return;
+  const bool plain = reading == TensorSpec{};
+  if (!section("AXES AND FIT", plain, {"vectors", "flip", "permute", "mask", "leave-out"})) return;
   edit_word("vectors", "axes of directions", reading.vectors);
   const auto choose_turn = [](const char* label, const char* name, std::string& turn,
                               const std::vector<std::string>& words) {
@@ -172,7 +173,7 @@ void draw_tract_appearance(TractView& appearance) {
 
 /// A length that may stand for a choice by the program, which zero does.
 void edit_length(const char* setting_name, double& value, double most) {
-  slider(setting(setting_name).label().c_str(), value, 0.0, most, value > 0.0 ? "%.4g" : "auto");
+  slider(label_of(setting(setting_name)).c_str(), value, 0.0, most, value > 0.0 ? "%.4g" : "auto");
   explain(setting_name);
 }
 

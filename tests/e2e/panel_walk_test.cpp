@@ -310,7 +310,9 @@ TEST_F(PanelWalk, EveryControlOfFlowIsInTheSessionAndThePictureAgain) {
   const std::vector<std::string> abc{"--example", "abc"};
   walk(flow, abc, {"--seeds", "random:4", "--ticks", "auto"});
   for (const HapticMode& mode : modes_of(FieldKind::kVector))
-    walk(flow, abc, {"--seeds", "random:4", "--mode", mode.name, "--volume", "speed", "--resample", "16"});
+    walk(flow, abc,
+         {"--seeds", "random:4", "--stiffness", "300", "--mode", mode.name, "--volume", "speed", "--resample",
+          "16"});
   walk(flow, abc, {"--seeds", "random:4", "--integrator", "rk4", "--range", "0,2"});
   walk(flow, abc, {"--fixture", "plane:0,0,1,3", "--carry", "5", "--event-force", "0.2"});
   walk(flow, {moving_flow()}, {"--seeds", "point:0.5,0,0", "--lines", "pathlines"});
@@ -321,7 +323,8 @@ TEST_F(PanelWalk, EveryControlOfGridIsInTheSessionAndThePictureAgain) {
   const std::vector<std::string> lobb{"--example", "marschner-lobb"};
   walk(grid, lobb, {"--layout", "4", "--slab", "0.1"});
   walk(grid, lobb, {"--layout", "2"});
-  for (const HapticMode& mode : modes_of(FieldKind::kScalar)) walk(grid, lobb, {"--mode", mode.name});
+  for (const HapticMode& mode : modes_of(FieldKind::kScalar))
+    walk(grid, lobb, {"--stiffness", "300", "--mode", mode.name});
   walk(grid, lobb, {"--lens", "sphere:0,0,0,0.5"});
   walk(grid, {patient_image("a.nrrd")}, {"--layout", "4", "--field", "scalars," + patient_image("b.nrrd")});
 }
@@ -331,8 +334,9 @@ TEST_F(PanelWalk, EveryControlOfDtmriIsInTheSessionAndThePictureAgain) {
   const std::vector<std::string> helix{"--example", "helix"};
   walk(dtmri, helix,
        {"--seeds", "point:20,0,0", "--glyphs", "ellipsoid", "--underlay", patient_image("t1.nrrd")});
-  walk(dtmri, helix, {"--seeds", "point:20,0,0", "--layout", "4"});
-  for (const HapticMode& mode : modes_of(FieldKind::kTensor)) walk(dtmri, helix, {"--mode", mode.name});
+  walk(dtmri, helix, {"--seeds", "point:20,0,0", "--layout", "4", "--flip", "k"});
+  for (const HapticMode& mode : modes_of(FieldKind::kTensor))
+    walk(dtmri, helix, {"--stiffness", "300", "--mode", mode.name});
 }
 
 TEST_F(PanelWalk, EveryControlOfCardiacIsInTheSessionAndThePictureAgain) {
@@ -341,7 +345,7 @@ TEST_F(PanelWalk, EveryControlOfCardiacIsInTheSessionAndThePictureAgain) {
   walk(cardiac, ventricle, {"--seeds", "random:4"});
   walk(cardiac, ventricle, {"--seeds", "random:4", "--cut", "1,0,0,0"});
   for (const HapticMode& mode : modes_of(FieldKind::kFibre))
-    walk(cardiac, ventricle, {"--seeds", "random:4", "--mode", mode.name});
+    walk(cardiac, ventricle, {"--seeds", "random:4", "--stiffness", "300", "--mode", mode.name});
 }
 
 // After the walks above, in the same run.

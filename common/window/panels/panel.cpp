@@ -147,13 +147,16 @@ void draw_panel(std::span<const PanelPart> parts, PanelState& state, SceneView& 
   if (state.scene != nullptr) {
     draw_input(*state.scene, actions);
     draw_recent(state, actions);
-    if (state.touch != nullptr && state.touch->available()) {
-      if (section("TOUCH"))
-        actions.touch = draw_touch_panel(*state.touch, state.grabbed, state.lines_file, view, state.marking);
-    }
+    const bool touch = state.touch != nullptr && state.touch->available();
+    if (touch) actions.touch = draw_acts(*state.touch, state.grabbed);
     PanelContext on{state, *state.scene, view, actions, layout.picture};
     for (const PanelPart& part : parts) part(on);
-    if (state.touch != nullptr && state.touch->available()) draw_fixture_panel(*state.touch, state.fixture);
+    if (touch) {
+      if (section("TOUCH"))
+        draw_touch_panel(*state.touch, state.lines_file, view, state.marking, actions.touch);
+      draw_force_panel(*state.touch, state.grabbed);
+      draw_fixture_panel(*state.touch, state.fixture);
+    }
     draw_appearance(view, actions);
     for (const auto* notes : {&state.scene->notes, &state.scene->volume_notes}) {
       for (const std::string& note : *notes) {

@@ -25,12 +25,16 @@ struct Drawn {
   std::vector<DrawnControl> last, now;
   std::set<std::string, std::less<>> settings_last, settings_now;
   std::map<std::string, std::string, std::less<>> section_of;  ///< of each setting, as it was drawn last
-  std::map<std::string, bool, std::less<>> folded;             ///< by section
-  std::string section;                                         ///< that is being drawn
-  std::string target;                                          ///< setting that is being gone to; empty: none
-  bool in_sight = false;                                       ///< it has been scrolled to
-  std::string marked;                                          ///< setting that was gone to last
-  double marked_until = 0.0;                                   ///< [s] of Dear ImGui's clock
+  struct Fold {
+    bool folded = false;
+    bool chosen = false;  ///< by a click or a search, after which it stays
+  };
+  std::map<std::string, Fold, std::less<>> folds;  ///< by section
+  std::string section;                             ///< that is being drawn
+  std::string target;                              ///< setting that is being gone to; empty: none
+  bool in_sight = false;                           ///< it has been scrolled to
+  std::string marked;                              ///< setting that was gone to last
+  double marked_until = 0.0;                       ///< [s] of Dear ImGui's clock
   std::string reset;
 };
 Drawn& drawn() {
@@ -48,15 +52,6 @@ struct NextFrame {
     return returned;
   }
 };
-
-/// Labels of panels begin small, but for abbreviations.
-std::string label_of(const Setting& row) {
-  std::string label = row.label();
-  const auto is_capital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
-  if (label.size() < 2 || !is_capital(label[1]))
-    label.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(label.front())));
-  return label;
-}
 
 const Range& reach_of(const Setting& row) {
   const Range& reach = std::isfinite(row.slider.upper) ? row.slider : row.range;
@@ -139,6 +134,14 @@ bool resets(const char* setting_name) {
 
 }  // namespace
 
+std::string label_of(const Setting& row) {
+  std::string label = row.label();
+  const auto is_capital = [](char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; };
+  if (label.size() < 2 || !is_capital(label[1]))
+    label.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(label.front())));
+  return label;
+}
+
 void note_control(const char* label, const ImVec2& corner, const ImVec2& size) {
   std::string name(label);
   for (const char* end : {"##", "  ("}) {
@@ -168,8 +171,8 @@ std::optional<std::string> place_of_setting(std::string_view name) {
   const Drawn& all = drawn();
   const auto known = all.section_of.find(name);
   if (known == all.section_of.end()) return std::nullopt;
-  const auto folded = all.folded.find(known->second);
-  const bool hidden = folded != all.folded.end() && folded->second;
+  const auto fold = all.folds.find(known->second);
+  const bool hidden = fold != all.folds.end() && fold->second.folded;
   if (!hidden && !all.settings_last.contains(name)) return std::nullopt;
   return known->second.empty() ? "panel" : known->second;
 }
@@ -317,23 +320,29 @@ void center_next_window() {
   ImGui::SetNextWindowPos({0.5F * window.x, 0.5F * window.y}, ImGuiCond_Always, {0.5F, 0.5F});
 }
 
-bool section(const char* name, bool folded_at_first, std::initializer_list<const char*> settings) {
+bool section(const char* name, bool folded_unasked, std::initializer_list<const char*> settings) {
   Drawn& all = drawn();
   all.section = name;
-  const auto [entry, first] = all.folded.try_emplace(name, folded_at_first);
-  bool& folded = entry->second;
+  const auto [entry, first] = all.folds.try_emplace(name);
+  auto& [folded, chosen] = entry->second;
   if (first) {
     for (const char* setting : settings) all.section_of.try_emplace(setting, name);
   }
+  if (!chosen) folded = folded_unasked;
   if (const auto target = all.section_of.find(all.target);
-      target != all.section_of.end() && target->second == name)
+      target != all.section_of.end() && target->second == name) {
     folded = false;
+    chosen = true;
+  }
   ImGui::Spacing();
   constexpr float kShare = 0.6F;  // of the row: there may be a button in the rest
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const float em = ImGui::GetFontSize();
   const ImVec2 size{kShare * ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
-  if (ImGui::InvisibleButton((std::string("##part ") + name).c_str(), size)) folded = !folded;
+  if (ImGui::InvisibleButton((std::string("##part ") + name).c_str(), size)) {
+    folded = !folded;
+    chosen = true;
+  }
   note_control(name);
   const ImU32 ink = ImGui::GetColorU32(ImGui::IsItemHovered() ? ImGuiCol_Text : ImGuiCol_TextDisabled);
   ImDrawList& list = *ImGui::GetWindowDrawList();

@@ -53,6 +53,9 @@ struct DrawnControl {
 void begin_controls();
 /// @}
 
+/// The label of a setting in a panel: it begins small, but for abbreviations.
+[[nodiscard]] std::string label_of(const Setting& row);
+
 /// What the control that was drawn last is for, shown while the mouse is over it. printf's format.
 void hint(const char* format, ...) IM_FMTARGS(1);
 
@@ -104,7 +107,7 @@ inline constexpr double kMillimetres = 1e3;
 void center_next_window();
 
 /// The heading of a part of the panel; a click folds and unfolds the part.
-/// @param folded at first @param settings of one that is folded at first, which a search finds before they are drawn
+/// @param folded whether it is, until it is clicked @param settings of one that is folded, which a search finds before they are drawn
 /// @return whether its controls are to be drawn.
 [[nodiscard]] bool section(const char* name, bool folded = false,
                            std::initializer_list<const char*> settings = {});

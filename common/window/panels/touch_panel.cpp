@@ -35,7 +35,17 @@ void choose_mode(TouchChoice& choice, const std::vector<HapticMode>& modes) {
   ImGui::EndCombo();
 }
 
-void edit_settings(TouchChoice& choice, std::string_view mode, bool flow) {
+bool forces_changed(const TouchChoice& choice) {
+  const ChainSettings &now = choice.settings, plain;
+  return choice.ticks || now.stiffness != plain.stiffness ||
+         now.streamline.release_distance != plain.streamline.release_distance ||
+         now.streamline.speed_force != plain.streamline.speed_force ||
+         now.drag.threshold != plain.drag.threshold ||
+         now.force_field.strength != plain.force_field.strength ||
+         now.force_field.damping != plain.force_field.damping || now.ticks.stiffness != plain.ticks.stiffness;
+}
+
+void edit_forces(TouchChoice& choice, std::string_view mode, bool flow) {
   ChainSettings& settings = choice.settings;
   edit_setting("stiffness", settings.stiffness);
   if (flow) {
@@ -97,6 +107,10 @@ void choose_appearances(TouchChoice& choice, float half, bool flow, const char* 
   edit_setting("local-lines", choice.local);
 }
 
+bool has_lines(const ProbeSession& session) {
+  return session.data().has_flow() || session.data().has_wall() || session.data().has_tensors();
+}
+
 /// Rows of its own height, however many are kept: nothing below them moves.
 void list_kept(ProbeSession& session) {
   constexpr float kRows = 3.0F;
@@ -126,32 +140,39 @@ void list_kept(ProbeSession& session) {
 
 }  // namespace
 
-TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file, SceneView& view,
-                              bool marking) {
+TouchActions draw_acts(ProbeSession& session, bool grabbed) {
   TouchActions actions;
-  if (!session.available()) return actions;
-  const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float half_width = 0.5F * (ImGui::GetContentRegionAvail().x - gap);
-  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
-  const ImVec2 size{half_width, 0.0F};
-
+  const ImVec2 half{0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x), 0.0F};
+  const bool tensors = session.data().has_tensors();
+  const char* grab = tensors ? "Draw tracts  (G)" : "Grab  (G)";
+  const char* let_go = tensors ? "Stop drawing  (G)" : "Let go  (G)";
+  actions.grab = button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), half);
+  ImGui::SameLine();
+  if (session.readout().servo.armed) {
+    if (button("Force off  (F12)", half)) session.servo().force_off();
+  } else if (button("Force on again", half)) {
+    session.servo().arm();
+  }
+  if (has_lines(session)) {
+    actions.keep = button(tensors ? "Keep tract  (K)" : "Keep line  (K)", half);
+    if (tensors || session.planes()) ImGui::SameLine();
+  }
+  if (tensors || session.planes()) actions.undo = button("Undo  (Ctrl+Z)", half);
   if (session.servo().replaying()) {
     const std::string verdict = session.servo().replay_verdict();
     ImGui::TextWrapped("%s", verdict.empty() ? "replaying" : verdict.c_str());
   }
+  return actions;
+}
+
+void draw_touch_panel(ProbeSession& session, std::string& file, SceneView& view, bool marking,
+                      TouchActions& actions) {
+  const float half_width = 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
+  const ImVec2 size{half_width, 0.0F};
   const bool tensors = session.data().has_tensors();
-  const char* grab = tensors ? "Draw tracts  (G)" : "Grab  (G)";
-  const char* let_go = tensors ? "Stop drawing  (G)" : "Let go  (G)";
-  actions.grab = button((std::string(grabbed ? let_go : grab) + "###grab").c_str(), size);
-  ImGui::SameLine();
-  if (session.readout().servo.armed) {
-    if (button("Force off  (F12)", size)) session.servo().force_off();
-  } else if (button("Force on again", size)) {
-    session.servo().arm();
-  }
   TouchChoice choice = session.choice();
   choose_mode(choice, session.modes());
-  edit_settings(choice, session.modes()[choice.mode].name, session.data().has_flow());
   edit_curves(choice, session.modes()[choice.mode].name, session);
   const HapticLevels levels = session.data().levels();
   edit_isosurfaces(choice.settings.isosurface, levels, session.data().surfaces(),
@@ -166,21 +187,13 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
                      choice.show_surface.value_or(!session.data().has_wall()));
   session.choose(choice);
   edit_planes(session, view.camera, view.volume ? view.volume->cuts : std::span<CuttingPlane>());
-  if (const std::string note = session.limits().note(session.choice().settings); !note.empty())
-    ImGui::TextWrapped("%s", note.c_str());
 
-  const bool lines = session.data().has_flow() || session.data().has_wall() || tensors;
-  if (lines) {
-    actions.keep = button(tensors ? "Keep tract  (K)" : "Keep line  (K)", size);
-    ImGui::SameLine();
-  }
-  if (tensors || session.planes()) actions.undo = button("Undo  (Ctrl+Z)", size);
   const bool clears = button(tensors ? "Clear drawing" : "Clear path", size);
   hint("what the hand has drawn and is not kept");
   if (clears) session.trail().clear_path();
   if (session.data().scalar() && !session.data().has_flow() && view.volume)
     edit_notes(session, *view.volume, marking, actions);
-  if (!lines) return actions;
+  if (!has_lines(session)) return;
   ImGui::BeginDisabled(session.trail().drawn_lines().entries().empty() && session.trail().drawn().empty());
   if (tensors) {
     choose_file(file, half_width + 2.0F * ImGui::GetFontSize());
@@ -194,7 +207,18 @@ TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& 
   }
   ImGui::EndDisabled();
   list_kept(session);
-  return actions;
+}
+
+void draw_force_panel(ProbeSession& session, bool grabbed) {
+  TouchChoice choice = session.choice();
+  const bool folded = !grabbed && !session.hand().by_device() && !forces_changed(choice);
+  if (!section("FORCES", folded,
+               {"stiffness", "release", "drag", "field-force", "field-damping", "speed-force", "ticks"}))
+    return;
+  edit_forces(choice, session.modes()[choice.mode].name, session.data().has_flow());
+  session.choose(choice);
+  if (const std::string note = session.limits().note(session.choice().settings); !note.empty())
+    ImGui::TextWrapped("%s", note.c_str());
 }
 
 float draw_probe_readout(const ProbeSession& session, const ValueHistogram* histogram, float left,

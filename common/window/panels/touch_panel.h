@@ -20,12 +20,17 @@ struct TouchActions {
   std::string save_notes;  ///< ending of the file; empty: they are not saved
 };
 
-/// Changes the session's choice and its kept lines.
-/// @param grabbed the probe is grabbed, or the next click grabs it.  @param file where the kept lines go,
-/// edited.
-/// @param view whose camera planes face, and whose cuts they are.  @param marking clicks mark places.
-[[nodiscard]] TouchActions draw_touch_panel(ProbeSession& session, bool grabbed, std::string& file,
-                                            SceneView& view, bool marking);
+/// What a hand does, in sight at any height of the window: grab, take the force off, keep, undo. @param grabbed the probe is grabbed, or the next click grabs it.
+[[nodiscard]] TouchActions draw_acts(ProbeSession& session, bool grabbed);
+
+/// Changes the session's choice and its kept lines, and adds to what the user asked for.
+/// @param file where the kept lines go, edited. @param view whose camera planes face, and whose cuts they are.
+/// @param marking clicks mark places.
+void draw_touch_panel(ProbeSession& session, std::string& file, SceneView& view, bool marking,
+                      TouchActions& actions);
+
+/// The settings of forces: folded until they are changed, the probe is grabbed, or a device leads it.
+void draw_force_panel(ProbeSession& session, bool grabbed);
 
 /// A small window with its upper left corner at `left`, `top` [pixels], while a hand is on the probe.
 /// @param histogram of the scalar that is felt, to tell the place of its value in it; may be null.

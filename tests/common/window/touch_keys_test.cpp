@@ -208,6 +208,7 @@ TEST_F(TouchWindowTest, AnotherInputForgetsTheLines) {
 }
 
 TEST_F(TouchWindowTest, ASliderTakesATypedNumberAndItsDigitsChooseNoMode) {
+  press("FORCES");
   const int begin = next();
   // The window system gives with a key what was held before it.
   key_down(begin, kControl);

@@ -270,6 +270,9 @@ TEST(SavedFiles, NeverLoseASavedTract) {
 }
 
 TEST_F(TouchTensor, AClearedDrawingComesBack) {
+  grow_to(1000);
+  press("TENSORS");  // folded, or what is below would be out of sight
+  press("TRACTS");
   draw_button();
   stroke(-100.0, 0.0, 100.0, 0.0);
   press("Clear drawing");

@@ -56,6 +56,7 @@ class TouchVolume : public TouchWindowTest {
     options_.panels = {draw_volume};
     options_.touch.modes = modes_of(FieldKind::kScalar);
     options_.touch.choice.mode = mode_of("isosurface");
+    grow_to(1200);
   }
   static std::size_t mode_of(const std::string& name) {
     const std::vector<HapticMode> modes = modes_of(FieldKind::kScalar);
@@ -82,6 +83,7 @@ TEST_F(TouchVolume, TheHandIsOnTheProbeAndReadsTheScalar) {
 }
 
 TEST_F(TouchVolume, TheWallHoldsTheProxyBackOnTheIsovalue) {
+  grow_to(640);  // a turn of the wheel is as long as pixels are
   grab();
   // From the surface into it, by less than it gives.
   at(next(), {.kind = InputKind::kWheel, .y = 1.0});

@@ -47,12 +47,10 @@ TEST_F(PanelWindow, SearchGoesToAControlAndGivesItTheKeyboard) {
 }
 
 TEST_F(PanelWindow, SearchUnfoldsThePartInWhichTheControlIs) {
-  press("TOUCH");  // folds it
   at_control(next(), {.kind = InputKind::kMove}, "stiffness");
   options_.frames = last_ + 2 * kPause;
   EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"stiffness"});
   again();
-  press("TOUCH");
   key('P', kModifierControl);
   type("stiff");
   key(kEnter);
@@ -60,6 +58,18 @@ TEST_F(PanelWindow, SearchUnfoldsThePartInWhichTheControlIs) {
   type("77");
   key(kEnter);
   EXPECT_EQ(run().document.touch.stiffness, 77.0);
+}
+
+TEST_F(PanelWindow, ForcesAreFoldedUntilAProbeIsGrabbedAndAsTheyWereClickedAfterThat) {
+  grab();
+  at_control(next(), {.kind = InputKind::kMove}, "stiffness");
+  (void)run();
+  again();
+  grab();
+  press("FORCES");
+  at_control(next(), {.kind = InputKind::kMove}, "stiffness");
+  options_.frames = last_ + 2 * kPause;
+  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"stiffness"});
 }
 
 TEST_F(PanelWindow, SearchSaysWhereASettingWithoutAControlIs) {
@@ -109,13 +119,13 @@ TEST_F(PanelWindow, TheDefaultOfADrawnPictureComesBack) {
 
 TEST_F(PanelWindow, TabHidesThePanelAndThePictureTakesItsPlace) {
   key(kTab);
-  at_control(next(), {.kind = InputKind::kMove}, "stiffness");
+  at_control(next(), {.kind = InputKind::kMove}, "tract opacity");
   options_.frames = last_ + 2 * kPause;
-  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"stiffness"});
+  EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"tract opacity"});
   again();
   key(kTab);
   key(kTab);
-  at_control(next(), {.kind = InputKind::kMove}, "stiffness");
+  at_control(next(), {.kind = InputKind::kMove}, "tract opacity");
   (void)run();
 }
 

@@ -44,6 +44,7 @@ TEST_F(TouchPanelTest, TheModeIsChosen) {
 }
 
 TEST_F(TouchPanelTest, StiffnessIsForceOverStretch) {
+  press("FORCES");
   press("stiffness", 0, kLeast);
   grab();
   lead_to(20.0, 0.0);
@@ -60,6 +61,7 @@ TEST_F(TouchPanelTest, ALineThatLetsGoLaterIsStretchedFarther) {
   options_.script.clear();
   last_ = 1;
   from_x_ = from_y_ = 0.0;
+  press("FORCES");
   press("release", 0, kMost);
   grab();
   lead_to(0.0, 30.0);
@@ -75,6 +77,7 @@ TEST_F(TouchPanelTest, DragIsHowFarTheProxyLagsBehind) {
   last_ = 1;
   from_x_ = from_y_ = 0.0;
   choose_other_mode();
+  press("FORCES");
   press("drag", 0, kLeast);
   grab();
   lead_to(100.0, 0.0);
@@ -86,18 +89,21 @@ TEST_F(TouchPanelTest, SpeedIsFeltAsAForceAlongTheLine) {
   EXPECT_LT(run().probe.force, 0.01) << "on the line";
   options_.script.clear();
   last_ = 1;
+  press("FORCES");
   press("speed force", 0, kMost);
   grab();
   EXPECT_GT(run().probe.force, 0.2);
 }
 
 TEST_F(TouchPanelTest, TickMarksAreASecondLink) {
+  press("FORCES");
   press("tick marks");
   grab();
   EXPECT_EQ(run().probe.servo.hand.chain.links, 2);
 }
 
 TEST_F(TouchPanelTest, AClickCountsThoughTheMouseIsElsewhereBeforeTheNextFrame) {
+  press("FORCES");
   const int frame = next();
   at_control(frame, {.kind = InputKind::kPress}, "tick marks");
   at(frame, {.kind = InputKind::kRelease});

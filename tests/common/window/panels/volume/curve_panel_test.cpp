@@ -9,13 +9,10 @@
 namespace palpate::test {
 namespace {
 
-/// The editor in the panel [pixels]: thresholds from 0 to 20 mm upwards, speeds from 0 to the right.
-constexpr double kLeft = 11.0, kRight = 269.0, kUpper = 425.0, kLower = 521.0;
-constexpr double kMiddle = 0.5 * (kLeft + kRight);
-constexpr double at_tau(double millimetres) { return kLower - (kLower - kUpper) * millimetres / 20.0; }
-constexpr double at_part(double part) { return kLeft + (kRight - kLeft) * part; }
+/// Parts of the editor: thresholds from 0 to 20 mm upwards, speeds from 0 to the right.
+constexpr double kMiddle = 0.5;
+constexpr double at_tau(double millimetres) { return 1.0 - millimetres / 20.0; }
 constexpr double kPixel = 0.25;  // [mm] of a threshold
-constexpr double kSmoothX = 172.0, kSmoothY = 534.0;
 
 class CurvePanelTest : public TouchWindowTest {
  protected:
@@ -27,19 +24,24 @@ class CurvePanelTest : public TouchWindowTest {
     options_.touch.record = folder_.path("run.rec");
     grab();
   }
+  /// Events at a part of the editor's width and height.
+  void over(int frame, InputEvent event, double across, double down) {
+    at_control(frame, std::move(event), "tau", 0, across, down);
+  }
   void drag(double from_x, double from_y, double to_x, double to_y) {
     constexpr int kSteps = 6;
     const int begin = next();
-    move(begin, from_x, from_y);
+    over(begin, {.kind = InputKind::kMove}, from_x, from_y);
     at(begin + 2, {.kind = InputKind::kPress});
     for (int i = 1; i <= kSteps; ++i) {
-      move(begin + 2 + i, from_x + (to_x - from_x) * i / kSteps, from_y + (to_y - from_y) * i / kSteps);
+      over(begin + 2 + i, {.kind = InputKind::kMove}, from_x + (to_x - from_x) * i / kSteps,
+           from_y + (to_y - from_y) * i / kSteps);
     }
     at(begin + 4 + kSteps, {.kind = InputKind::kRelease});
   }
   void double_click(double x, double y) {
     const int begin = next();
-    move(begin, x, y);
+    over(begin, {.kind = InputKind::kMove}, x, y);
     for (const int frame : {begin + 2, begin + 6}) {
       at(frame, {.kind = InputKind::kPress});
       at(frame + 2, {.kind = InputKind::kRelease});
@@ -47,7 +49,7 @@ class CurvePanelTest : public TouchWindowTest {
   }
   void right_click(double x, double y) {
     const int begin = next();
-    move(begin, x, y);
+    over(begin, {.kind = InputKind::kMove}, x, y);
     at(begin + 2, {.kind = InputKind::kPress, .button = MouseButton::kRight});
     at(begin + 4, {.kind = InputKind::kRelease, .button = MouseButton::kRight});
   }
@@ -67,17 +69,16 @@ class CurvePanelTest : public TouchWindowTest {
 };
 
 TEST_F(CurvePanelTest, AConstantIsDragged) {
-  drag(kMiddle, at_tau(4.0), kMiddle + 20.0, at_tau(12.0));
+  drag(kMiddle, at_tau(4.0), kMiddle + 0.1, at_tau(12.0));
   const HapticTransferFunction tau = felt();
   EXPECT_TRUE(tau.constant());
   EXPECT_NEAR(1e3 * tau(0.0), 12.0, kPixel);
 }
 
 TEST_F(CurvePanelTest, ADoubleClickAddsAKnotThatIsDraggedAndMadeSmooth) {
-  double_click(at_part(0.75), at_tau(15.0));
-  drag(at_part(0.75), at_tau(15.0), at_part(0.5), at_tau(10.0));
-  const int frame = next();
-  click(frame, kSmoothX, kSmoothY);
+  double_click(0.75, at_tau(15.0));
+  drag(0.75, at_tau(15.0), 0.5, at_tau(10.0));
+  press("smooth");
   const HapticTransferFunction tau = felt();
   ASSERT_EQ(tau.knots().size(), 2U);
   const double fastest = helix_flow(0.25)->max_speed();
@@ -88,8 +89,8 @@ TEST_F(CurvePanelTest, ADoubleClickAddsAKnotThatIsDraggedAndMadeSmooth) {
 }
 
 TEST_F(CurvePanelTest, ARightClickTakesAKnotOut) {
-  double_click(at_part(0.75), at_tau(15.0));
-  right_click(at_part(0.75), at_tau(15.0));
+  double_click(0.75, at_tau(15.0));
+  right_click(0.75, at_tau(15.0));
   const HapticTransferFunction tau = felt();
   EXPECT_TRUE(tau.constant());
   EXPECT_EQ(tau(0.0), 0.004);
