@@ -105,7 +105,7 @@ void CardiacModel::complete(Document& document, Input& input, Progress& progress
 
 SceneState CardiacModel::present(Input& input, const CardiacContent& content, const Document& document,
                                  const SceneState* before, Progress& progress) const {
-  if (content.heart.bare) return present_bare(input, content.heart, document, before);
+  if (content.heart.bare) return present_bare(input, content, document, before, progress);
   const auto& heart = content.heart.layered;
   const ScalarField& depth = *heart->heart().layer;
   const int threads = document.common.threads;
@@ -132,6 +132,8 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   }
   const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;
   LayerColors colors = color_layer(input, heart, layer, document.heart, threads, colored);
+  BesidePicture beside = content.beside->draw(input, content.heart, document, colors.style.array, &progress);
+  state.beside = std::move(beside.view);
   state.lines = layer.lines;
   state.surfaces = {surface_of(layer, colors, document.heart.contours)};
   add_wall(input, *heart, document, colors, *content.walls, state.surfaces, &progress);
@@ -162,16 +164,20 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   info->units = units_of(input);
   state.info = std::move(info);
   state.notes.insert(state.notes.end(), content.heart.notes.begin(), content.heart.notes.end());
+  state.notes.insert(state.notes.end(), beside.notes.begin(), beside.notes.end());
   return state;
 }
 
-SceneState CardiacModel::present_bare(Input& input, const OpenHeart& heart, const Document& document,
-                                      const SceneState* before) {
+SceneState CardiacModel::present_bare(Input& input, const CardiacContent& content, const Document& document,
+                                      const SceneState* before, Progress& progress) {
+  const OpenHeart& heart = content.heart;
   SceneState state = begin_state(input, document);
   const LineArray* const colored = before != nullptr ? before->color_array.get() : nullptr;
   BareScene scene = make_bare_scene(input, *heart.bare, document.heart, document.common.threads, colored);
   state.lines = scene.lines;
   state.surfaces = {std::move(scene.surface)};
+  BesidePicture beside = content.beside->draw(input, heart, document, scene.array, &progress);
+  state.beside = std::move(beside.view);
   state.color_array = scene.array;
   // A session that has them is refused by render.
   state.document.heart.layer.clear();
@@ -179,6 +185,7 @@ SceneState CardiacModel::present_bare(Input& input, const OpenHeart& heart, cons
   if (!scene.array->name.empty()) state.document.heart.angle = scene.array->name;
   state.notes.insert(state.notes.end(), heart.notes.begin(), heart.notes.end());
   if (!scene.note.empty()) state.notes.push_back(scene.note);
+  state.notes.insert(state.notes.end(), beside.notes.begin(), beside.notes.end());
   auto info = std::make_shared<SceneInfo>(describe_open_input(input));
   info->facts.push_back(counted(heart.bare->mesh.triangles.size(), "triangle"));
   info->color_arrays = scalars_of(input);

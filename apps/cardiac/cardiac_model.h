@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cardiac/beside_heart.h"
 #include "apps/cardiac/heart_scene.h"
 #include "apps/cardiac/wall_view.h"
 #include "common/compose/input_model.h"
@@ -18,6 +19,7 @@ namespace palpate {
 struct CardiacContent {
   OpenHeart heart;
   std::shared_ptr<WallPictures> walls = std::make_shared<WallPictures>();  ///< made when they are asked for
+  std::shared_ptr<BesideHeart> beside = std::make_shared<BesideHeart>();
   std::uint64_t print =
       0;  ///< of what it was made from, so that other time steps know it again; 0: not taken
 };
@@ -33,8 +35,9 @@ class CardiacModel final : public InputModel<CardiacContent> {
                                     Progress& progress) const override;
   [[nodiscard]] SceneState present(Input& input, const CardiacContent& content, const Document& document,
                                    const SceneState* before, Progress& progress) const override;
-  [[nodiscard]] static SceneState present_bare(Input& input, const OpenHeart& heart, const Document& document,
-                                               const SceneState* before);
+  [[nodiscard]] static SceneState present_bare(Input& input, const CardiacContent& content,
+                                               const Document& document, const SceneState* before,
+                                               Progress& progress);
   void complete(Document& document, Input& input, Progress& progress) const override;
 };
 

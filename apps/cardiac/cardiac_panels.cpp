@@ -88,6 +88,36 @@ void draw_layer(PanelContext& on) {
   if (layered) choose_lens(heart, info, on.view);
 }
 
+/// Another heart or result at the right.
+class BesidePanel {
+ public:
+  void operator()(PanelContext& on) {
+    HeartOptions& heart = on.state.document.heart;
+    if (!section("BESIDE", heart.beside.empty() && heart.beside_angle.empty(), {"beside", "beside-angle"}))
+      return;
+    if (!typing_) typed_ = heart.beside.string();
+    (void)input_text("other heart", &typed_);
+    if (ImGui::IsItemDeactivatedAfterEdit()) heart.beside = typed_;
+    typing_ = ImGui::IsItemActive();
+    explain("beside");
+    constexpr const char* kSame = "as this one";
+    if (begin_combo("its colour", heart.beside_angle.empty() ? kSame : heart.beside_angle.c_str())) {
+      if (selectable(kSame, heart.beside_angle.empty())) heart.beside_angle.clear();
+      for (const std::string& name : on.scene.info->color_arrays) {
+        if (selectable(name.c_str(), name == heart.beside_angle)) heart.beside_angle = name;
+      }
+      ImGui::EndCombo();
+    }
+    explain("beside-angle");
+    if (has_two_eyes(on.view) && on.view.beside)
+      ImGui::TextWrapped("In stereo the heart at the left is shown alone.");
+  }
+
+ private:
+  std::string typed_;
+  bool typing_ = false;
+};
+
 /// Which regions are taken: as boxes to tick, the last of which stays.
 void draw_regions(PanelContext& on) {
   const std::vector<RegionCount>& regions = on.scene.info->regions;
@@ -117,7 +147,7 @@ void draw_regions(PanelContext& on) {
 }  // namespace
 
 std::vector<PanelPart> cardiac_panels() {
-  return {draw_layer, SurfaceBrush(), draw_regions, draw_layer_colors};
+  return {draw_layer, SurfaceBrush(), draw_regions, draw_layer_colors, BesidePanel()};
 }
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/cardiac/beside_heart.h"
 #include "apps/cardiac/cardiac_verbs.h"
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/default_appearance.h"
@@ -30,6 +31,13 @@ void check(const Document& options) {
   check_hand(modes_of(FieldKind::kFibre), options);
 }
 
+void show_beside(const Input& input, const OpenHeart& open, const Document& options,
+                 const VerbContext& context, std::shared_ptr<const LineArray>& array, SceneView& view) {
+  BesidePicture beside = BesideHeart().draw(input, open, options, array, &context.progress);
+  for (const std::string& note : beside.notes) context.console.note(note);
+  view.beside = std::move(beside.view);
+}
+
 /// @throws Error (usage) where what is asked for takes layers.
 DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& options, const VerbContext& context,
                      double aspect) {
@@ -40,9 +48,10 @@ DrawnScene make_bare(Input& input, const OpenHeart& open, const Document& option
                                                            : nullptr;
   if (layers != nullptr) throw usage_error(std::string(layers) + ": " + heart.notes.front());
   for (const std::string& note : open.notes) context.console.note(note);
-  BareScene scene = make_bare_scene(input, heart, options.heart, options.common.threads, nullptr);
-  if (!scene.note.empty()) context.console.note(scene.note);
   DrawnScene drawn;
+  BareScene scene = make_bare_scene(input, heart, options.heart, options.common.threads, nullptr);
+  show_beside(input, open, options, context, scene.array, drawn.view);
+  if (!scene.note.empty()) context.console.note(scene.note);
   drawn.field = scene.array->name;
   drawn.lines = scene.lines->size();
   drawn.points = 2 * drawn.lines;
@@ -83,6 +92,7 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   drawn.points = layer.layer.fibres.points;
   drawn.what = counted(drawn.lines, "fibre");
   drawn.view = std::move(layer.view);
+  show_beside(input, open, options, context, drawn.view.style.array, drawn.view);
   if (!options.hand.path.empty() || !options.touch.fixtures.list.empty()) {
     const ScalarField& depth = *heart->heart().layer;
     const Workspace workspace = touch_workspace(options.touch, depth.diagonal(), depth.frame());

@@ -170,6 +170,16 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     for (const Pane& pane : panes_of(panes, width, height))
       if (!pane.plane) aspect = static_cast<double>(pane.width) / pane.height;
   }
+  if (!options.heart.beside.empty() || !options.heart.beside_angle.empty()) {
+    if (pictures.front().stereo.mode != StereoMode::kNone || !options.hand.workbench.empty() ||
+        asks_for_film(options)) {
+      throw usage_error(
+          "--beside: two hearts are one picture for one eye: leave out --stereo, --workbench, --turntable and "
+          "--path-frames");
+    }
+    const Pane half = halves_of(width, height).front();
+    aspect = static_cast<double>(half.width) / half.height;
+  }
   const std::filesystem::path extension = options.output.file.extension();
   const bool film = asks_for_film(options), encoded = extension == ".mp4" || extension == ".webm";
   if (encoded && !film) {

@@ -102,9 +102,10 @@ struct SceneState {
   bool joined = false;  ///< of open(): the files came beside what was open, in place of nothing
   double seconds_load = 0.0;
   double seconds_trace = 0.0;
-  std::vector<std::string> notes;   ///< what the user should know, one line each
-  std::vector<SceneFix> fixes;      ///< of some of them
-  std::vector<RegionView> regions;  ///< that tracts are traced by
+  std::vector<std::string> notes;           ///< what the user should know, one line each
+  std::vector<SceneFix> fixes;              ///< of some of them
+  std::vector<RegionView> regions;          ///< that tracts are traced by
+  std::shared_ptr<const SceneView> beside;  ///< as SceneView
 };
 
 /// Takes the tables of seeds and colours into `document`.

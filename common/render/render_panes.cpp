@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 
 namespace palpate {
 namespace {
@@ -31,8 +32,63 @@ Image join_panes(const std::vector<PaneImage>& parts, const Background& backgrou
   return whole;
 }
 
+std::array<Pane, 2> halves_of(int width, int height) {
+  constexpr int kGap = 2;
+  const int left = std::max((width - kGap) / 2, 1);
+  return {Pane{.width = left, .height = height}, Pane{.left = std::min(left + kGap, width - 1),
+                                                      .width = std::max(width - left - kGap, 1),
+                                                      .height = height}};
+}
+
+SceneView beside_view(const SceneView& scene) {
+  SceneView view = *scene.beside;
+  const auto own = std::move(view.style.array);
+  const bool same = scene.style.array && own && scene.style.array->name == own->name;
+  view.style = scene.style;
+  view.style.array = own;
+  if (!same) {
+    view.style.range.reset();
+    view.style.usual.reset();
+    view.style.color_map.reset();
+    view.style.logarithmic.reset();
+  }
+  view.background = scene.background;
+  view.show_outline = scene.show_outline;
+  view.show_axes = scene.show_axes;
+  view.show_color_bar = view.show_color_bar && scene.show_color_bar;
+  view.color_bar_left = scene.color_bar_left;
+  view.show_scale_bar = scene.show_scale_bar;
+  view.aspect = scene.aspect;
+  view.camera = scene.camera;
+  const double ratio = view.bounds.diagonal() / scene.bounds.diagonal();
+  constexpr double kOtherUnits = 10.0;
+  double scale = 1.0;
+  if (ratio > kOtherUnits || ratio < 1.0 / kOtherUnits) {
+    scale = ratio;
+    view.title += " (lengths " + short_number(ratio) + " times as large: not to scale)";
+  }
+  view.camera.focal_point = view.bounds.center() + scale * (scene.camera.focal_point - scene.bounds.center());
+  view.camera.view_height *= scale;
+  return view;
+}
+
+namespace {
+
+RenderedImage render_halves(const SceneView& view, int width, int height, int repeat, double budget,
+                            bool error) {
+  const auto [left, right] = halves_of(width, height);
+  RenderedImage rendered = render_image(view, left.width, left.height, repeat, budget, error);
+  rendered.image = join_panes({{left, std::move(rendered.image)},
+                               {right, render_image(beside_view(view), right.width, right.height).image}},
+                              view.background, width, height);
+  return rendered;
+}
+
+}  // namespace
+
 RenderedImage render_panes(const SceneView& view, int width, int height, int repeat, double budget,
                            bool error) {
+  if (view.beside && !has_two_eyes(view)) return render_halves(view, width, height, repeat, budget, error);
   if (!view.volume || view.volume->panes.layout == 1)
     return render_image(view, width, height, repeat, budget, error);
   if (has_two_eyes(view))

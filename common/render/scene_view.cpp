@@ -20,7 +20,7 @@ bool same_picture(const SceneView& a, const SceneView& b) {
          (!a.volume || same_picture(*a.volume, *b.volume)) && same_tensors(a, b) && a.tracts == b.tracts &&
          a.slice == b.slice && a.regions == b.regions && a.notes == b.notes && a.labels == b.labels &&
          a.volume_label == b.volume_label && a.anatomical == b.anatomical && a.surfaces == b.surfaces &&
-         a.color_lens == b.color_lens;
+         a.color_lens == b.color_lens && a.beside == b.beside;
 }
 
 bool has_two_eyes(const SceneView& view) noexcept {

@@ -95,6 +95,8 @@ struct SceneView {
   std::vector<LabelView> labels;  ///< menus and words in space
   std::string volume_label;       ///< what its values are, for the colour bar
   bool anatomical = false;        ///< data coordinates are RAS+: letters say where right, front and up are
+  /// Another scene, in the right half of the picture (beside_view()), but not for two eyes; null: none.
+  std::shared_ptr<const SceneView> beside;
 };
 
 /// Whether both give the same picture; lines and arrays count as the same where they are the same objects.

@@ -123,6 +123,7 @@ void show_scene(const SceneState& scene, ShownAs as, SceneView& view) {
   show_lens(scene, as_made, view);
   color_lines(scene, view.style);
   view.regions = scene.regions;
+  view.beside = scene.beside;
   view.bounds = scene.info->bounds;
   view.outline = scene.info->outline;
   view.units = scene.info->units;

@@ -192,6 +192,8 @@ struct HeartOptions {
   std::string contour_values;           ///< v,v,...: lines of equal value on a layer, to be written
   std::string lens;                     ///< sphere:x,y,z,r in which a layer shows `lens_angle`; empty: none
   std::string lens_angle = "helix";     ///< as `angle`
+  std::filesystem::path beside;         ///< another heart or result, shown at the right; empty: none
+  std::string beside_angle;             ///< that colours it, as `angle`; empty: the same
   double least_gap = 0.05;
   std::filesystem::path mesh_picture;           ///< of a made mesh; empty: none
   std::filesystem::path surfaces;               ///< of the wall, as they were found; empty: not written

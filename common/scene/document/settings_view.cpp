@@ -394,6 +394,24 @@ const Setting kViewRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kHearts},
+    {.name = "beside",
+     .place = kHeartAt<&HeartOptions::beside>,
+     .help =
+         "another heart, or a result (.igb, .dat) of this one, shown at the right by the same camera, layer, cut, time and "
+         "range of colours",
+     .value = "FILE",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kHearts,
+     .file = true},
+    {.name = "beside-angle",
+     .place = kHeartAt<&HeartOptions::beside_angle>,
+     .help = "what colours the heart at the right, as --angle; without --beside this heart stands there, too",
+     .value = "NAME",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kHearts,
+     .otherwise = "as --angle"},
 };
 
 }  // namespace

@@ -18,6 +18,15 @@ SceneView without_panes(SceneView view) {
 
 void WindowPicture::place(const PictureArea& area, SceneView& view, bool alone) {
   area_ = area;
+  other_half_.reset();
+  if (view.beside && !alone && !has_two_eyes(view)) {
+    const auto [left, right] = halves_of(static_cast<int>(area.width), static_cast<int>(area.height));
+    parts_ = {left};
+    other_half_ = right;
+    scene_ = {area.left, area.top, static_cast<double>(left.width), static_cast<double>(left.height)};
+    view.aspect = scene_.width / scene_.height;
+    return;
+  }
   parts_ = panes_of(view.volume && !alone ? view.volume->panes : SlicePanes(), static_cast<int>(area.width),
                     static_cast<int>(area.height));
   for (const Pane& pane : parts_) {
@@ -38,6 +47,12 @@ void WindowPicture::draw(SceneView picture, const SceneView& view, const PaneCon
                   over_panel ? nullptr : panes.pane_under_mouse(area_, parts_),
                   panes.dragging() || (moment.editing && picture.volume->panes.slab > 0.0));
   }
+  if (!other_half_) {
+    other_.reset();
+  } else {
+    if (!other_) other_ = std::make_unique<LivePicture>(budget_);
+    other_->draw(beside_view(picture), other_half_->width, other_half_->height, moment);
+  }
   const auto w = static_cast<int>(scene_.width), h = static_cast<int>(scene_.height);
   live_.draw(without_panes(std::move(picture)), w, h, moment);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -46,11 +61,18 @@ void WindowPicture::draw(SceneView picture, const SceneView& view, const PaneCon
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT);
   live_.show(static_cast<int>(scene_.left), height - static_cast<int>(scene_.top) - h);
+  if (other_half_)
+    other_->show(static_cast<int>(area_.left) + other_half_->left,
+                 height - static_cast<int>(area_.top) - other_half_->height);
   if (slices_) slices_->show(static_cast<int>(area_.left), static_cast<int>(area_.top), height);
 }
 
 Image WindowPicture::read(const Background& background) {
   Image own = live_.read();
+  if (other_) {
+    return join_panes({{parts_.front(), std::move(own)}, {*other_half_, other_->read()}}, background,
+                      static_cast<int>(area_.width), static_cast<int>(area_.height));
+  }
   if (!slices_) return own;
   std::vector<PaneImage> images = slices_->read();
   for (const Pane& pane : parts_) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/render/slice/slice_panes.h"
@@ -18,7 +19,7 @@ namespace palpate {
 class WindowPicture {
  public:
   /// @param budget as of LivePicture.
-  explicit WindowPicture(double budget) : live_(budget) {}
+  explicit WindowPicture(double budget) : budget_(budget), live_(budget) {}
 
   /// It lies at `area` of the window, divided as `view` says, whose aspect becomes that of the scene's own pane.
   /// @param alone the scene itself is shown and nothing else.
@@ -35,12 +36,17 @@ class WindowPicture {
   /// All panes of it, before `background`.
   [[nodiscard]] Image read(const Background& background);
 
-  /// Whether the slices beside the scene lack nothing.
-  [[nodiscard]] bool complete() const noexcept { return !slices_ || slices_->complete(); }
+  /// Whether what is beside the scene lacks nothing.
+  [[nodiscard]] bool complete() const noexcept {
+    return (!slices_ || slices_->complete()) && (!other_ || other_->complete());
+  }
   [[nodiscard]] LivePicture& live() noexcept { return live_; }
 
  private:
+  double budget_;
   LivePicture live_;
+  std::unique_ptr<LivePicture> other_;    ///< of the scene beside it; none where there is none
+  std::optional<Pane> other_half_;        ///< where that is, in `area_`
   std::unique_ptr<PanePictures> slices_;  ///< beside it; none until they are asked for
   PictureArea area_, scene_;
   std::vector<Pane> parts_;

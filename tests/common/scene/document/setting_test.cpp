@@ -88,8 +88,9 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tract_appearance", a, b, c, d);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = document.heart;
-    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
+        document.heart;
+    expect("heart", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
   }
   {
     const auto& [a, b, c, d] = document.series;
