@@ -5,7 +5,7 @@
 // closed form are named.
 
 #include <algorithm>
-#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -24,10 +24,35 @@ namespace {
 
 constexpr double kExcess = 10.0;  // true over stated error, from which a line is off
 
+/// How often each size of a number was seen, in steps of a 64th of its binary logarithm: a median within 0.6 %, whatever the
+/// count.
+class Sizes {
+ public:
+  void add(double value) {
+    const double step = std::log2(std::max(value, 0x1p-64)) * kSteps;
+    const auto at = std::clamp(std::lround(step) + kZero, 0L, static_cast<long>(counts_.size()) - 1);
+    ++counts_[static_cast<std::size_t>(at)];
+    ++total_;
+  }
+  [[nodiscard]] double median() const {
+    std::size_t below = 0;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      below += counts_[i];
+      if (2 * below > total_) return std::exp2(static_cast<double>(static_cast<long>(i) - kZero) / kSteps);
+    }
+    return 0.0;
+  }
+
+ private:
+  static constexpr long kSteps = 64, kZero = 64 * kSteps;
+  std::vector<std::size_t> counts_ = std::vector<std::size_t>(2 * kZero + 1);
+  std::size_t total_ = 0;
+};
+
 struct Row {
   std::size_t lines = 0, points = 0, understated = 0, wrong_ends = 0, off = 0;
   double error = 0.0, excess = 0.0, seconds = 0.0;
-  std::vector<float> overstated;
+  Sizes overstated;
 
   void add(const LineVerdict& verdict) {
     ++lines;
@@ -37,22 +62,16 @@ struct Row {
     off += verdict.worst_excess > kExcess ? 1u : 0u;
     error = std::max(error, verdict.worst_error);
     excess = std::max(excess, verdict.worst_excess);
-    overstated.insert(overstated.end(), verdict.overstated.begin(), verdict.overstated.end());
+    for (const float ratio : verdict.overstated) overstated.add(ratio);
   }
 
-  void print(const std::string& name) {
-    double median = 0.0;
-    if (!overstated.empty()) {
-      const auto middle = overstated.begin() + static_cast<std::ptrdiff_t>(overstated.size() / 2);
-      std::nth_element(overstated.begin(), middle, overstated.end());
-      median = *middle;
-    }
+  void print(const std::string& name) const {
     std::printf(
         "%-26s %8zu lines %9zu points  error %8.1e  understated %7.4f %% (by %.1e)  stated/true %7.1f"
         "  off %4zu  wrong ends %4zu  %6.0f us a line\n",
         name.c_str(), lines, points, error,
         100.0 * static_cast<double>(understated) / static_cast<double>(std::max<std::size_t>(points, 1)),
-        excess, median, off, wrong_ends,
+        excess, overstated.median(), off, wrong_ends,
         1e6 * seconds / static_cast<double>(std::max<std::size_t>(lines, 1)));
   }
 };
@@ -92,6 +111,11 @@ int run(int count, char** arguments) {
         to->seconds += result.seconds_trace;
         for (const LineVerdict& verdict : verdicts) to->add(verdict);
       }
+      constexpr std::size_t kEvery = 1000000;  // lines between two words of how far it is
+      if (all.lines / kEvery != (all.lines - verdicts.size()) / kEvery) {
+        all.print("so far");
+        std::fflush(stdout);
+      }
       for (std::size_t i = 0; i < verdicts.size(); ++i) {
         const Line& line = result.lines[i];
         if (!verdicts[i].wrong_end.empty()) {
@@ -112,7 +136,7 @@ int run(int count, char** arguments) {
       }
     }
   });
-  for (auto& [name, row] : rows) row.print(name);
+  for (const auto& [name, row] : rows) row.print(name);
   all.print("all");
   return all.off == 0 ? 0 : 1;
 }

@@ -186,9 +186,10 @@ Four AffineModes::carried(const Four& d, double t) const {
   return make_rate_form(y).value(nodes_, rate_ * t);
 }
 
-double AffineModes::rounding(double t) const {
+double AffineModes::rounding(double h, double t) const {
   constexpr double kOfDouble = 0x1p-52, kOfLong = 0x1p-100;
-  return kOfDouble + (is_long_ ? kOfLong : kOfDouble) * rate_ * t;
+  return kOfDouble * std::max(1.0, position_.magnitude(nodes_, rate_ * t)) +
+         (is_long_ ? kOfLong : kOfDouble) * rate_ * h;
 }
 
 AffineModes::AffineModes(const PackedVertex* vertices, const TetMesh::Tet& tet, double sign, const Four& b) {

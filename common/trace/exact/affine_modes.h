@@ -57,8 +57,9 @@ class AffineModes {
   [[nodiscard]] Four rate_at(double t) const;
   /// Where a small displacement `d` (barycentric, sum 0) of the line is after `t`.
   [[nodiscard]] Four carried(const Four& d, double t) const;
-  /// Rounding of at(t), as a part of the cell.
-  [[nodiscard]] double rounding(double t) const;
+  /// What rounding adds in `h` before at(t), as a part of the cell: what the terms of at(t) leave open, which are larger than
+  /// their sum where the modes are oblique, and what the rates move it by.
+  [[nodiscard]] double rounding(double h, double t) const;
   /// Leaves earlier than exit() says: a coordinate is beyond its face at time `to` that was not at `from`.
   /// @return whether there is such a face, and exit() is changed.
   bool leave_earlier(double from, double to);

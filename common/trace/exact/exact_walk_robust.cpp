@@ -9,6 +9,8 @@
 namespace palpate {
 namespace {
 
+// As kRoundingPerCell, of a sum whose terms count without their signs: AffineModes::rounding().
+constexpr double kRoundingOfModes = 10.0;
 // Cost of the robust path, in fast pieces.
 constexpr int kCellWork = 24, kLongCellWork = 160, kTryWork = 4;
 
@@ -126,7 +128,8 @@ std::optional<End> ExactWalk::robust_piece() {
     modes_time_ = stop;
     longest_ = kLonger * h;
     const int entry = entry_;
-    close_piece(flow.b, flow.w, h, arc.length, (kRoundingPerCell * modes.rounding(h) + moved) * cell_.size);
+    close_piece(flow.b, flow.w, h, arc.length,
+                (kRoundingOfModes * modes.rounding(h, stop) + moved) * cell_.size);
     if (!last) entry_ = entry;
     if (rest && glm::distance(*rest, end_.position) <= rest_distance_) return End::kStagnation;
     return std::nullopt;

@@ -168,4 +168,15 @@ double ExponentialForm::value(const Nodes& nodes, double t, std::size_t face) co
   return sum;
 }
 
+double ExponentialForm::magnitude(const Nodes& nodes, double t) const {
+  DividedDifferences e(nodes, t);
+  std::array<double, 4> sum{};
+  for (unsigned set = 1u; set < 16u; ++set) {
+    if ((used_ & (1u << set)) == 0u) continue;
+    const double factor = nodes.complex ? std::abs(e.get<Complex>(set)) : std::abs(e.get<double>(set));
+    for (std::size_t i = 0; i < 4; ++i) sum[i] += std::abs(coefficient_[set][i]) * factor;
+  }
+  return std::max(std::max(sum[0], sum[1]), std::max(sum[2], sum[3]));
+}
+
 }  // namespace palpate

@@ -55,7 +55,7 @@ TEST_P(ExactOnAffineFields, StatesItsErrorAndEndsWhereTheCurveEnds) {
   EXPECT_LE(bad, exponent <= 40 ? 0u : lines / 400);
   std::nth_element(overstated.begin(),
                    overstated.begin() + static_cast<std::ptrdiff_t>(overstated.size() / 2), overstated.end());
-  EXPECT_LE(overstated[overstated.size() / 2], 2000.0f);
+  EXPECT_LE(overstated[overstated.size() / 2], 1250.0f);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rates, ExactOnAffineFields, testing::Values(0, 4, 10, 20, 30, 40, 47, 54, 60));
@@ -107,6 +107,15 @@ TEST(ExactLines, StateWhatValuesLeaveOpenOfSlowSpeeds) {
   for (const Line& line : bench.result.lines) {
     const LineVerdict verdict = judge(line, bench.field, bench.mesh, bench.seeds[line.seed], bench.diagonal);
     EXPECT_LE(verdict.worst_excess, 2.0) << line.seed;
+  }
+}
+
+// In slivers the modes of a cell are so oblique that their terms are hundreds of times their sum, and leave that much more open.
+TEST(ExactLines, StateWhatTermsLargerThanTheirSumLeaveOpen) {
+  const BenchField bench(3003335U);
+  for (const Line& line : bench.result.lines) {
+    const LineVerdict verdict = judge(line, bench.field, bench.mesh, bench.seeds[line.seed], bench.diagonal);
+    EXPECT_EQ(verdict.understated, 0U) << line.seed << ": " << verdict.worst_excess;
   }
 }
 
