@@ -78,6 +78,8 @@ void add_stiff_rows(std::vector<Extreme>& rows) {
   for (const char* const grid : {"formula", "uniform", "rectilinear", "tetrahedra"}) {
     for (const double rate : {1.0, 30.0, 1e3, 3e4, 1e6, 1e9}) {
       const std::string on = grid;
+      // Of a formula, steps that are short enough to be drawn keep 1e-10 of themselves: nothing could fail.
+      if (on == "formula" && rate == 1.0) continue;
       const double bend = on == "tetrahedra" ? 0.0 : 0.2;
       rows.push_back(
           {ExtremeKind::kField, "boundary layer of rate " + short_number(rate) + ", " + on,

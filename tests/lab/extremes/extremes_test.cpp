@@ -33,6 +33,20 @@ TEST(Extremes, WallsHoldByTheirGuardsAndNotWithout) {
   }
 }
 
+TEST(Extremes, FieldsAndMeshesDoNotHoldWithoutTheGuardsOfTheirRows) {
+  int guarded = 0;
+  for (const Extreme& row : extremes({ExtremeKind::kField, ExtremeKind::kMesh})) {
+    if (!row.unguarded) continue;
+    ++guarded;
+    EXPECT_GT(row.unguarded(), row.limit) << row.name << " needs no guard";
+  }
+  EXPECT_GE(guarded, 9);
+}
+
+TEST(Extremes, EveryRowWasSeenToFail) {
+  for (const Extreme& row : extremes()) EXPECT_FALSE(guard_of(row).empty()) << row.name;
+}
+
 TEST(Extremes, AreNamedOnceAndAreMany) {
   std::set<std::string> names;
   const std::vector<Extreme> rows = extremes();
