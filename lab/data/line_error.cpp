@@ -76,7 +76,7 @@ const char* name_of(Meeting meeting) noexcept {
 }
 
 LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> reference, double spacing,
-                             double diagonal) {
+                             double diagonal, bool to_the_end) {
   std::map<std::pair<std::uint32_t, TraceDirection>, const Line*> by_seed;
   for (const Line& line : lines) by_seed[{line.seed, line.direction}] = &line;
   const auto judge = [&](const Line& truth) {
@@ -94,7 +94,7 @@ LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> 
       judgement.meeting = Meeting::kInside;
       return judgement;
     }
-    const bool same_end = line.end == truth.end;
+    const bool same_end = to_the_end && line.end == truth.end;
     if (!same_end && std::abs(line.points.back().arc - truth.points.back().arc) > spacing) {
       judgement.meeting = line.end == End::kMaxSteps ? Meeting::kUnfinished : Meeting::kElsewhere;
       return judgement;
@@ -117,7 +117,7 @@ LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> 
         continue;
       case Meeting::kCompared:
         ++result.compared;
-        stated.push_back(judgement.stated);
+        if (!std::isnan(judgement.stated)) stated.push_back(judgement.stated);
         result.max = std::max(result.max, judgement.error);
         if (judgement.error <= judgement.stated) ++covered;
         break;
@@ -137,8 +137,9 @@ LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> 
   result.p95 = quantile(errors, 0.95);
   result.stated = quantile(stated, 0.95);
   if (result.compared == 0) result.max = std::nan("");
-  result.covered =
-      result.judged > 0 ? static_cast<double>(covered) / static_cast<double>(result.judged) : std::nan("");
+  result.covered = result.judged > 0 && (result.compared == 0 || !stated.empty())
+                       ? static_cast<double>(covered) / static_cast<double>(result.judged)
+                       : std::nan("");
   return result;
 }
 

@@ -36,7 +36,7 @@ struct LineJudgement {
   Meeting meeting = Meeting::kMissing;
   End end = End::kLeftDomain, reference_end = End::kLeftDomain;
   double error = 0.0;   ///< (1) over the diagonal; infinite where it failed
-  double stated = 0.0;  ///< what the line states at its end, over the diagonal
+  double stated = 0.0;  ///< what the line states at its end, over the diagonal; NaN where it states nothing
 };
 
 struct LineComparison {
@@ -48,15 +48,18 @@ struct LineComparison {
   std::size_t compared = 0;
   std::size_t inside = 0;
   std::size_t elsewhere = 0, unfinished = 0, missing = 0;  ///< failed
-  double stated = 0.0;   ///< the 95 % quantile of what the compared lines state as their own error
-  double covered = 0.0;  ///< the part of the judged lines whose error is at most what they state
+  double stated = 0.0;  ///< the 95 % quantile of what the compared lines state as their own error
+  /// The part of the judged lines whose error is at most what they state; NaN where the compared ones state nothing.
+  double covered = 0.0;
 
   [[nodiscard]] std::size_t failed() const noexcept { return elsewhere + unfinished + missing; }
 };
 
 /// Both must have points at multiples of `spacing` [data units] (TraceOptions::step).
+/// @param to_the_end false: the lines of a program that stops somewhere before the border are not compared at their ends, and one that
+/// stops more than `spacing` of arc away has failed.
 [[nodiscard]] LineComparison compare_lines(std::span<const Line> lines, std::span<const Line> reference,
-                                           double spacing, double diagonal);
+                                           double spacing, double diagonal, bool to_the_end = true);
 
 /// Ends in a sink or on itself, or winds up: the second half of its length stays within kWoundUp of the
 /// diagonal. The length of such a line says when a program gave up, and equal arc length compares phases of

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "lab/peer/vtk_tracer.h"
 
 namespace palpate {
 namespace {
@@ -45,7 +48,8 @@ constexpr double kReferenceTolerance = 1e-12;
 constexpr int kComparedPerDiagonal = 16;   // S = D / 16
 constexpr int kFewestStepsPerSpacing = 2;  // loosest fixed step: S / 2
 constexpr int kMostHalvings = 14;
-constexpr double kShortestTiming = 0.02;  // [s] of all runs of a setting together
+constexpr std::int64_t kMostPeerSteps = 5'000'000;  // of VTK's fixed steps, more than the shortest ones take
+constexpr double kShortestTiming = 0.02;            // [s] of all runs of a setting together
 constexpr std::size_t kMostRepeats = 15;
 
 std::vector<MethodSweep> methods_for(const VectorField& field) {
@@ -84,6 +88,7 @@ class Sweeper {
         sweep_tolerances(method);
       }
     }
+    add_peer();
     return std::move(sweep_);
   }
 
@@ -193,6 +198,61 @@ class Sweeper {
           add_row(method.integrator, "tolerance=" + short_number(tolerance), tolerance, tolerance);
       if (growth * seconds > plan_.seconds_setting) return;
     }
+  }
+
+  /// vtkStreamTracer on the same mesh, by its steps and by its tolerances.
+  void add_peer() {
+    const TraceOptions& wanted = request_.trace;
+    std::string why = VtkTracer::hindrance(field_);
+    if (why.empty() && (wanted.max_time > 0.0 || !wanted.stop_rules.empty()))
+      why = "it knows no limit of time and no rules to stop by";
+    if (!why.empty()) {
+      sweep_.peer_missing = "VTK's tracer is left out: " + why + ".";
+      return;
+    }
+    try {
+      VtkTracer vtk(field_, sweep_.spacing, progress_);
+      double step = sweep_.spacing / kFewestStepsPerSpacing;
+      for (int halving = 0; halving < kMostHalvings; ++halving, step *= 0.5) {
+        const double seconds = add_peer_row(vtk, {.adaptive = false, .step = step}, "VTK rk4",
+                                            "step=" + short_number(step), step);
+        if (2.0 * seconds > plan_.seconds_setting) break;
+      }
+      constexpr int kDigits = 9;
+      constexpr double kOrder = 5.0;
+      for (int digit = 3; digit <= kDigits; ++digit) {
+        const double error = std::pow(10.0, -digit);
+        const VtkSetting setting{.adaptive = true,
+                                 .step = sweep_.spacing / kFewestStepsPerSpacing,
+                                 .error = error * field_.diagonal()};
+        const double seconds = add_peer_row(vtk, setting, "VTK rk45", "error=" + short_number(error), error);
+        if (std::pow(10.0, 1.0 / kOrder) * seconds > plan_.seconds_setting) break;
+      }
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const std::exception& error) {
+      sweep_.peer_missing = std::string("VTK's tracer failed: ") + error.what() + ".";
+    }
+  }
+
+  double add_peer_row(VtkTracer& vtk, const VtkSetting& setting, const std::string& method,
+                      const std::string& parameter, double value) {
+    stage(method + " " + parameter);
+    SweepRow row{.method = method, .parameter = parameter, .setting = value, .judge = sweep_.reference};
+    const TraceOptions& wanted = request_.trace;
+    std::vector<Line> lines;
+    for (const TraceDirection direction : {TraceDirection::kForward, TraceDirection::kBackward}) {
+      if (!(direction == TraceDirection::kForward ? wanted.forward : wanted.backward)) continue;
+      VtkLines found = vtk.trace(seeds_, direction, setting, sweep_.max_length,
+                                 setting.adaptive ? kMostSweptSteps : kMostPeerSteps);
+      row.seconds += found.seconds;
+      std::move(found.lines.begin(), found.lines.end(), std::back_inserter(lines));
+    }
+    row.lines = lines.size();
+    for (const Line& line : lines) row.points += line.points.size();
+    row.error = compare_lines(lines, sweep_.reference_lines, sweep_.spacing, field_.diagonal(), false);
+    sweep_.rows.push_back(row);
+    return row.seconds;
   }
 
   void stage(const std::string& what) const {

@@ -38,7 +38,8 @@ struct SweepRow {
 
 struct Sweep {
   std::string subject;         ///< "carotid.vtk, vectors, 48 seeds"
-  std::vector<SweepRow> rows;  ///< by method, loose to tight
+  std::vector<SweepRow> rows;  ///< by method, loose to tight; those of VTK last
+  std::string peer_missing;    ///< why rows of VTK's tracer are left out, or not all there
   std::string reference;       ///< "dp54 tolerance=1e-12"
   std::string second;          ///< the independent method it is compared with, and that it is judged by
   LineComparison agreement;    ///< of the two

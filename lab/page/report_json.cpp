@@ -69,6 +69,7 @@ std::string report_json(const Report& report) {
                          {"independent_method", sweep.second},
                          {"agreement", comparison(sweep.agreement)},
                          {"lines_disputed", sweep.disputed}};
+    if (!sweep.peer_missing.empty()) root["peer_missing"] = sweep.peer_missing;
     root["threads"] = sweep.threads;
     root["seeds"] = sweep.seeds;
     root["seeds_outside"] = sweep.seeds_outside;

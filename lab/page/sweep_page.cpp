@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -32,13 +33,19 @@ std::string sweep_table(const Sweep& sweep) {
 }
 
 template <typename Value>
-std::vector<PlotSeries> series_by_method(const Sweep& sweep, const Value& value) {
+std::vector<PlotSeries> series_by_method(const std::vector<SweepRow>& rows, const Value& value) {
   std::vector<PlotSeries> all;
-  for (const SweepRow& row : sweep.rows) {
+  for (const SweepRow& row : rows) {
     if (all.empty() || all.back().name != row.method) all.push_back({row.method, {}});
     all.back().points.push_back(value(row));
   }
   return all;
+}
+
+/// The rows of methods that state an error.
+std::vector<SweepRow> stating(std::vector<SweepRow> rows) {
+  std::erase_if(rows, [](const SweepRow& row) { return std::isnan(row.error.covered); });
+  return rows;
 }
 
 }  // namespace
@@ -48,7 +55,7 @@ std::string work_precision_plot(const Report& report) {
               .x_label = "run time of " + counted(report.sweep.reference_lines.size(), "line") + " [s], " +
                          counted(static_cast<std::uint64_t>(report.sweep.threads), "thread"),
               .y_label = "error of 95 % of the lines / diagonal",
-              .series = series_by_method(report.sweep,
+              .series = series_by_method(report.sweep.rows,
                                          [](const SweepRow& r) {
                                            return PlotPoint{r.seconds, r.error.p95};
                                          }),
@@ -60,7 +67,7 @@ std::string honesty_plot(const Report& report) {
   return svg({.title = "Stated against true error",
               .x_label = "error that the lines state / diagonal (95 % of the lines)",
               .y_label = "error that they have / diagonal (95 % of the lines)",
-              .series = series_by_method(report.sweep,
+              .series = series_by_method(stating(report.sweep.rows),
                                          [](const SweepRow& r) {
                                            return PlotPoint{r.error.stated, r.error.p95};
                                          }),
@@ -102,6 +109,14 @@ std::string sweep_section(const Sweep& sweep) {
       std::to_string(kMostSweptSteps) +
       " pieces, or that is missing has failed: its error is infinite, and a setting has a point in the plots only where "
       "95 % of its lines have one. work_precision_lines.csv has every line of every row.");
+  if (std::ranges::any_of(sweep.rows, [](const SweepRow& row) { return row.method.starts_with("VTK"); })) {
+    out += paragraph(
+        "Rows of VTK are its vtkStreamTracer, given the same mesh, values and seeds: Runge-Kutta 4 by its step, and Runge-Kutta "
+        "4-5 by the error of a step over the diagonal. Between its points lines are cubic, which counts as its error. It stops "
+        "somewhere before the border, so its lines are not compared at their ends; one that stops farther away than two comparisons "
+        "are apart has failed. It states no error. Its time is that of the processor, with its search for cells.");
+  }
+  if (!sweep.peer_missing.empty()) out += paragraph(sweep.peer_missing);
   out += sweep_table(sweep);
   out +=
       "<h2>Is the stated error honest?</h2>\n<img src=\"stated_error.svg\" alt=\"stated against true error, "

@@ -73,6 +73,7 @@ std::string figures_text(const Report& report) {
           (report.sweep.disputed > 0 ? ", but they disagree on " + counted(report.sweep.disputed, "line")
                                      : std::string()) +
           "\n";
+  if (!report.sweep.peer_missing.empty()) text += "  " + report.sweep.peer_missing + "\n";
   for (const ConstraintRow& row : report.constraint.rows) {
     if (row.cells_swept || row.budget.iterations != UpdateBudget{}.iterations) continue;
     text += "  hand on a streamline, " + std::string(name_of(row.path)) + ": force error " +

@@ -106,7 +106,7 @@ const std::vector<Foreign> kForeign{
      {"common/render/", "common/window/", "common/experiment/"},
      "OpenGL or the window"},
     {std::regex("^imgui"), {"common/render/", "common/window/", "common/experiment/", "apps/"}, "Dear ImGui"},
-    {std::regex("^vtk"), {"loaders/vtk/", "loaders/cfd/", "loaders/hdf/"}, "VTK"},
+    {std::regex("^vtk"), {"loaders/vtk/", "loaders/cfd/", "loaders/hdf/", "lab/peer/"}, "VTK"},
     {std::regex("^teem/"), {"loaders/nrrd/"}, "Teem"},
     {std::regex("^gdcm"), {"loaders/dicom/"}, "GDCM"},
     {std::regex("^openvdb/"), {"loaders/vdb/"}, "OpenVDB"},

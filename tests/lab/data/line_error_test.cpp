@@ -90,6 +90,22 @@ TEST(CompareLines, LeaveOutOnlyWhatEndsInsideOnBothSides) {
   EXPECT_EQ(compared, c.compared);
 }
 
+// One stops a little before the border, one far from it, both as if they had left; and they state nothing.
+TEST(CompareLines, LeavesEndsOfOtherProgramsAlone) {
+  const std::vector<Line> reference{straight(0, 0.5, 4.0, 0.0), straight(1, 0.5, 4.0, 0.0)};
+  std::vector<Line> lines{straight(0, 0.5, 3.5, 0.0), straight(1, 0.5, 2.0, 0.0)};
+  for (Line& line : lines) {
+    for (LinePoint& p : line.points) p.error = std::nan("");
+  }
+  const LineComparison c = compare_lines(lines, reference, 1.0, 2.0, false);
+  EXPECT_EQ(c.compared, 1U);
+  EXPECT_EQ(c.elsewhere, 1U);
+  EXPECT_EQ(c.max, 0.0);
+  EXPECT_TRUE(std::isnan(c.covered));
+  // A program that goes on to the border has its ends compared.
+  EXPECT_EQ(compare_lines(lines, reference, 1.0, 2.0).max, 1.0);
+}
+
 TEST(CompareLines, HasNoErrorWhereNothingIsCompared) {
   const LineComparison c = compare_lines({}, {}, 1.0, 1.0);
   EXPECT_EQ(c.compared, 0U);
