@@ -273,7 +273,7 @@ class DicomLoader : public Loader {
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
     return read_image(series_.topology, array_.name, names, [&] {
       return read_dicom_values(series_, array_.type, signals_ ? volumes_ : std::vector<std::size_t>{step},
-                               on_progress);
+                               on_progress, room);
     });
   }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
+#include "common/base/parallel.h"
 #include "common/load/voxel_bytes.h"
 
 namespace palpate {
@@ -180,44 +182,109 @@ void put(const DicomFrame& frame, const Pixels& pixels, T* out, std::size_t stri
   }
 }
 
+/// Whether its numbers stand in the file as they are, 16 bits each, one a pixel.
+bool is_plain(const DicomFrame& frame) noexcept {
+  return frame.pixels_at && !frame.table && frame.colors == DicomColors::kNone && frame.bits == 16 &&
+         frame.bits_stored == 16 && frame.high_bit == 15 && !frame.big_endian && frame.tiles_across == 1;
+}
+
+/// Its bytes in the mapped file. @pre is_plain(frame). @throws Error (bad input) where they are not all there.
+std::string_view plain_bytes(const DicomFrame& frame, const MappedFile& mapped) {
+  const std::uint64_t first = *frame.pixels_at + frame.number * frame.bytes();
+  check_voxel_counts(frame.file, {.wanted = first + frame.bytes(), .found = mapped.text().size()});
+  return mapped.text().substr(first, frame.bytes());
+}
+
+/// Numbers that only the intercept moves, from the file to where they belong. @return false, nothing done, where they
+/// are others.
+template <typename T>
+bool put_plain(const DicomFrame& frame, T* out) {
+  if constexpr (std::is_integral_v<T> && sizeof(T) == 2) {
+    constexpr double kMost = 65535.0;  // else no number is left in 16 bits
+    if (!is_plain(frame) || frame.slope != 1.0 || frame.intercept != std::round(frame.intercept) ||
+        std::abs(frame.intercept) > kMost)
+      return false;
+    const MappedFile mapped(frame.file);
+    const std::string_view from = plain_bytes(frame, mapped);
+    // In 16 bits signed and unsigned ones are moved alike.
+    const auto moved = static_cast<std::uint16_t>(static_cast<std::int32_t>(frame.intercept));
+    for (std::size_t i = 0; i < from.size() / sizeof(T); ++i) {
+      std::uint16_t number;
+      std::memcpy(&number, from.data() + i * sizeof(T), sizeof(T));
+      out[i] = static_cast<T>(static_cast<std::uint16_t>(number + moved));
+    }
+    return true;
+  }
+  return false;
+}
+
 template <typename T>
 DataArray read_values(const DicomSeries& series, ScalarType type, const std::vector<std::size_t>& volumes,
-                      const std::function<void(double)>& on_progress) {
+                      const std::function<void(double)>& on_progress,
+                      const std::function<std::shared_ptr<std::byte>(std::uint64_t)>& room) {
   const auto slices = as_size(series.topology.points.z);
   const std::size_t pixels = as_size(series.topology.points.x) * as_size(series.topology.points.y);
   const std::size_t stride = volumes.size() * as_size(dicom_components(series));
-  auto values = std::make_shared<std::vector<T>>(pixels * slices * stride);
+  const std::size_t count = pixels * slices * stride;
+  std::shared_ptr<std::byte> values;
+  if (room) {
+    values = room(count * sizeof(T));
+  } else {
+    const auto own = std::make_shared<std::byte[]>(count * sizeof(T));
+    values = {own, own.get()};
+  }
   // Files with several frames are decoded once.
-  std::map<std::string, std::vector<std::pair<std::size_t, std::size_t>>> by_file;
+  using Part = std::pair<std::size_t, std::size_t>;
+  std::map<std::string, std::vector<Part>> by_file;
   for (std::size_t c = 0; c < volumes.size(); ++c) {
     for (std::size_t k = 0; k < slices; ++k)
       by_file[series.frames[volumes[c] * slices + k].file].emplace_back(c, k);
   }
-  std::size_t done = 0;
-  for (const auto& [file, parts] : by_file) {
-    const auto frame_of = [&](const auto& part) -> const DicomFrame& {
-      return series.frames[volumes[part.first] * slices + part.second];
-    };
+  const auto frame_of = [&](const Part& part) -> const DicomFrame& {
+    return series.frames[volumes[part.first] * slices + part.second];
+  };
+  const auto place_of = [&](const Part& part) {
+    return reinterpret_cast<T*>(values.get()) + part.second * pixels * stride + part.first;
+  };
+  const auto read_file = [&](const std::string& file, const std::vector<Part>& parts) {
     if (file.empty()) {
-      for (const auto& [c, k] : parts) {
+      for (const Part& part : parts) {
         for (std::size_t i = 0; i < pixels; ++i)
-          (*values)[(k * pixels + i) * stride + c] = std::numeric_limits<T>::quiet_NaN();
+          place_of(part)[i * stride] = std::numeric_limits<T>::quiet_NaN();
       }
-      continue;
+      return;
     }
+    std::vector<Part> others;
+    for (const Part& part : parts) {
+      if (stride > 1 || !put_plain(frame_of(part), place_of(part))) others.push_back(part);
+    }
+    if (others.empty()) return;
     std::size_t frames = 0;
-    for (const auto& part : parts) frames = std::max(frames, frame_of(part).number + 1);
-    const Pixels decoded = pixels_of(frame_of(parts.front()), frames);
-    for (const auto& part : parts)
-      put(frame_of(part), decoded, values->data() + part.second * pixels * stride + part.first, stride);
-    if (on_progress) on_progress(static_cast<double>(++done) / static_cast<double>(by_file.size()));
-  }
+    for (const Part& part : others) frames = std::max(frames, frame_of(part).number + 1);
+    const Pixels decoded = pixels_of(frame_of(others.front()), frames);
+    for (const Part& part : others) put(frame_of(part), decoded, place_of(part), stride);
+  };
+  // GDCM does not say that it decodes on several threads.
+  const bool packed = std::any_of(series.frames.begin(), series.frames.end(), [](const DicomFrame& frame) {
+    return !frame.file.empty() && !frame.pixels_at;
+  });
+  std::vector<const std::pair<const std::string, std::vector<Part>>*> files;
+  for (const auto& file : by_file) files.push_back(&file);
+  std::mutex reporting;
+  std::size_t done = 0;
+  parallel_for(files.size(), packed ? 1 : 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      read_file(files[i]->first, files[i]->second);
+      const std::lock_guard lock(reporting);
+      if (on_progress) on_progress(static_cast<double>(++done) / static_cast<double>(files.size()));
+    }
+  });
   DataArray array;
   array.components = static_cast<int>(stride);
   array.type = type;
   array.tuples = pixels * slices;
-  array.bytes = std::as_bytes(std::span<const T>(*values));
-  array.owner = std::move(values);
+  array.bytes = std::span<const std::byte>(values.get(), count * sizeof(T));
+  array.owner = values;
   return array;
 }
 
@@ -236,13 +303,9 @@ std::pair<double, double> range_of(const DicomFrame& frame) noexcept {
 /// The least and the largest number that it does hold, rescaled; those that it may hold where its pixels are packed or
 /// have bits beside them.
 std::pair<double, double> range_within(const DicomFrame& frame) {
-  const bool plain = frame.pixels_at && !frame.table && frame.bits == 16 && frame.bits_stored == 16 &&
-                     frame.high_bit == 15 && !frame.big_endian;
-  if (!plain) return range_of(frame);
+  if (!is_plain(frame)) return range_of(frame);
   const MappedFile mapped(frame.file);
-  const std::uint64_t first = *frame.pixels_at + frame.number * frame.bytes();
-  check_voxel_counts(frame.file, {.wanted = first + frame.bytes(), .found = mapped.text().size()});
-  const std::string_view numbers = mapped.text().substr(first, frame.bytes());
+  const std::string_view numbers = plain_bytes(frame, mapped);
   const auto of = [&]<typename T>(T) {
     T least = std::numeric_limits<T>::max(), most = std::numeric_limits<T>::lowest();
     for (std::size_t at = 0; at + sizeof(T) <= numbers.size(); at += sizeof(T)) {
@@ -301,24 +364,25 @@ ScalarType dicom_value_type(const DicomSeries& series) {
 
 DataArray read_dicom_values(const DicomSeries& series, ScalarType type,
                             const std::vector<std::size_t>& volumes,
-                            const std::function<void(double)>& on_progress) {
+                            const std::function<void(double)>& on_progress,
+                            const std::function<std::shared_ptr<std::byte>(std::uint64_t)>& room) {
   switch (type) {
     case ScalarType::kInt8:
-      return read_values<std::int8_t>(series, type, volumes, on_progress);
+      return read_values<std::int8_t>(series, type, volumes, on_progress, room);
     case ScalarType::kUint8:
-      return read_values<std::uint8_t>(series, type, volumes, on_progress);
+      return read_values<std::uint8_t>(series, type, volumes, on_progress, room);
     case ScalarType::kInt16:
-      return read_values<std::int16_t>(series, type, volumes, on_progress);
+      return read_values<std::int16_t>(series, type, volumes, on_progress, room);
     case ScalarType::kUint16:
-      return read_values<std::uint16_t>(series, type, volumes, on_progress);
+      return read_values<std::uint16_t>(series, type, volumes, on_progress, room);
     case ScalarType::kInt32:
-      return read_values<std::int32_t>(series, type, volumes, on_progress);
+      return read_values<std::int32_t>(series, type, volumes, on_progress, room);
     case ScalarType::kUint32:
-      return read_values<std::uint32_t>(series, type, volumes, on_progress);
+      return read_values<std::uint32_t>(series, type, volumes, on_progress, room);
     case ScalarType::kFloat32:
-      return read_values<float>(series, type, volumes, on_progress);
+      return read_values<float>(series, type, volumes, on_progress, room);
     default:
-      return read_values<double>(series, type, volumes, on_progress);
+      return read_values<double>(series, type, volumes, on_progress, room);
   }
 }
 

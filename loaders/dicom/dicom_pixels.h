@@ -1,7 +1,10 @@
 /// The numbers of DICOM images: as they stand in the file, or of any packing that GDCM decodes.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "common/field/data_set.h"
@@ -20,9 +23,11 @@ namespace palpate {
 
 /// Missing slices are NaN.
 /// @param type dicom_value_type(series). @param volumes component c of a tuple is volume volumes[c], each below series.volumes; one of colours.
+/// @param room gives memory for them, zeros; may be empty.
 /// @throws Error (bad input) where pixels cannot be decoded or are not as many as the header says.
-[[nodiscard]] DataArray read_dicom_values(const DicomSeries& series, ScalarType type,
-                                          const std::vector<std::size_t>& volumes,
-                                          const std::function<void(double)>& on_progress);
+[[nodiscard]] DataArray read_dicom_values(
+    const DicomSeries& series, ScalarType type, const std::vector<std::size_t>& volumes,
+    const std::function<void(double)>& on_progress,
+    const std::function<std::shared_ptr<std::byte>(std::uint64_t)>& room);
 
 }  // namespace palpate

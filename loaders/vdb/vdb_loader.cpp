@@ -140,32 +140,54 @@ class VdbLoader : public Loader {
     } catch (const std::exception& error) {
       throw damaged(error.what());
     }
-    if (grids_.empty()) {
+    if (lattices_.empty()) {
       throw input_error({file_, "",
                          "holds no grid with voxels" + (info.notes.empty() ? "" : ": " + info.notes.front()),
                          "numbers or vectors of three on a grid with a linear transform"});
     }
-    place();
-    info.blocks.push_back(describe_image(topology_, described(*grids_.front())));
-    for (std::size_t i = 1; i < grids_.size(); ++i)
-      info.blocks.front().arrays.push_back(described(*grids_[i]));
+    for (Lattice& lattice : lattices_) place(lattice);
+    // Volumes before what has one sample along an axis.
+    std::stable_partition(lattices_.begin(), lattices_.end(), [](const Lattice& lattice) {
+      const Index3& n = lattice.topology.points;
+      return std::min({n.x, n.y, n.z}) > 1;
+    });
+    for (const Lattice& lattice : lattices_) {
+      const auto& grids = lattice.grids;
+      info.blocks.push_back(describe_image(lattice.topology, described(*grids.front(), lattice)));
+      for (std::size_t i = 1; i < grids.size(); ++i)
+        info.blocks.back().arrays.push_back(described(*grids[i], lattice));
+      if (lattices_.size() > 1) info.blocks.back().name = names_of(lattice);
+    }
+    if (lattices_.size() > 1)
+      info.notes.push_back("grids lie on " + std::to_string(lattices_.size()) +
+                           " lattices: each has its own with --field");
     return info;
   }
 
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t) override {
-    DataSet block;
-    block.topology = topology_;
-    for (const openvdb::GridBase::Ptr& grid : grids_) {
-      const ArrayInfo info = described(*grid);
-      if (std::find(names.begin(), names.end(), info.name) != names.end())
-        block.arrays.push_back(values_of(*grid, info));
-    }
     std::vector<DataSet> blocks;
-    blocks.push_back(std::move(block));
+    for (const Lattice& lattice : lattices_) {
+      DataSet block;
+      block.topology = lattice.topology;
+      for (const openvdb::GridBase::Ptr& grid : lattice.grids) {
+        const ArrayInfo info = described(*grid, lattice);
+        if (std::find(names.begin(), names.end(), info.name) != names.end())
+          block.arrays.push_back(values_of(*grid, info, lattice));
+      }
+      // A lattice without the numbers that are asked for is none of theirs.
+      if (!block.arrays.empty() || lattices_.size() == 1) blocks.push_back(std::move(block));
+    }
     return blocks;
   }
 
  private:
+  /// Grids of one transform, on the box of all that is active in them.
+  struct Lattice {
+    std::vector<openvdb::GridBase::Ptr> grids;
+    openvdb::CoordBBox box;
+    UniformTopology topology;
+  };
+
   [[nodiscard]] Error damaged(const std::string& what) const {
     return input_error({file_, "", "OpenVDB cannot read it: " + what, "", "the file may be damaged"});
   }
@@ -180,7 +202,7 @@ class VdbLoader : public Loader {
     }
   }
 
-  // Keeps the grid where it can be read beside those that are there, else says why not.
+  // Keeps the grid, with those of its lattice, where it can be read, else says why not.
   void take(const openvdb::GridBase::Ptr& grid, std::vector<std::string>& notes) {
     const std::string name = "grid \"" + grid->getName() + "\" ";
     const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
@@ -190,34 +212,38 @@ class VdbLoader : public Loader {
     if (!grid->transform().isLinear()) return leave("has a transform that is not linear (a frustum)");
     if (grid->getGridClass() == openvdb::GRID_STAGGERED)
       return leave("is staggered: its components lie on faces of voxels");
-    if (!grids_.empty() && grid->transform() != grids_.front()->transform())
-      return leave("lies on another lattice than grid \"" + grids_.front()->getName() + "\"");
-    const bool known = std::any_of(grids_.begin(), grids_.end(), [&](const auto& other) {
-      return name_of_array(*other) == name_of_array(*grid);
+    const auto same_name = [&](const auto& other) { return name_of_array(*other) == name_of_array(*grid); };
+    const bool known = std::any_of(lattices_.begin(), lattices_.end(), [&](const Lattice& lattice) {
+      return std::any_of(lattice.grids.begin(), lattice.grids.end(), same_name);
     });
     if (known) return leave("has the name of another one");
     if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
       notes.push_back(name + "is a level set: distances from its surface, below 0 inside");
-    box_.expand(box);
-    grids_.push_back(grid);
+    auto own = std::find_if(lattices_.begin(), lattices_.end(), [&](const Lattice& lattice) {
+      return grid->transform() == lattice.grids.front()->transform();
+    });
+    if (own == lattices_.end()) own = lattices_.emplace(own);
+    own->box.expand(box);
+    own->grids.push_back(grid);
   }
 
   // Where the voxels of the box lie; refuses what is too large for this machine.
-  void place() {
+  void place(Lattice& lattice) const {
     // In double: corners of hostile boxes are 2^32 apart.
     double count = 1.0;
     for (int axis = 0; axis < 3; ++axis)
-      count *= 1.0 + static_cast<double>(box_.max()[axis]) - static_cast<double>(box_.min()[axis]);
+      count *=
+          1.0 + static_cast<double>(lattice.box.max()[axis]) - static_cast<double>(lattice.box.min()[axis]);
     rlimit limit{};
     ::getrlimit(RLIMIT_AS, &limit);
     double bytes = 0.0;
-    for (const auto& grid : grids_) {
+    for (const auto& grid : lattice.grids) {
       if (!stays_sparse(*grid)) bytes = std::max(bytes, count * static_cast<double>(tuple_bytes(*grid)));
     }
     // Dense numbers are there twice, here and on their way.
     if (2.0 * bytes > static_cast<double>(limit.rlim_cur) || count > static_cast<double>(kMostSparsePoints)) {
-      const auto& low = box_.min();
-      const auto& high = box_.max();
+      const auto& low = lattice.box.min();
+      const auto& high = lattice.box.max();
       const auto side = [&](int axis) {
         return std::to_string(std::int64_t{high[axis]} - std::int64_t{low[axis]} + 1);
       };
@@ -228,19 +254,26 @@ class VdbLoader : public Loader {
                              " thousand million voxels, and fewer where they are no single numbers",
                          "cut it, or make its voxels larger, in the program that it is from"});
     }
-    const openvdb::math::Transform& transform = grids_.front()->transform();
-    const openvdb::Vec3d origin = transform.indexToWorld(box_.min());
-    topology_.origin = vec(origin);
+    const openvdb::math::Transform& transform = lattice.grids.front()->transform();
+    const openvdb::Vec3d origin = transform.indexToWorld(lattice.box.min());
+    lattice.topology.origin = vec(origin);
     for (int axis = 0; axis < 3; ++axis) {
-      topology_.points[axis] = box_.max()[axis] - box_.min()[axis] + 1;
+      lattice.topology.points[axis] = lattice.box.max()[axis] - lattice.box.min()[axis] + 1;
       openvdb::Vec3d step(0.0);
       step[axis] = 1.0;
-      topology_.axes[axis] = vec(transform.indexToWorld(step) - transform.indexToWorld(openvdb::Vec3d(0.0)));
+      lattice.topology.axes[axis] =
+          vec(transform.indexToWorld(step) - transform.indexToWorld(openvdb::Vec3d(0.0)));
     }
   }
 
   static std::string name_of_array(const openvdb::GridBase& grid) {
     return grid.getName().empty() ? "values" : grid.getName();
+  }
+
+  static std::string names_of(const Lattice& lattice) {
+    std::string names;
+    for (const auto& grid : lattice.grids) names += (names.empty() ? "" : ", ") + name_of_array(*grid);
+    return names;
   }
 
   // Numbers of single precision are handed over as the tree that they are.
@@ -255,13 +288,13 @@ class VdbLoader : public Loader {
     return bytes;
   }
 
-  [[nodiscard]] ArrayInfo described(const openvdb::GridBase& grid) const {
+  [[nodiscard]] ArrayInfo described(const openvdb::GridBase& grid, const Lattice& lattice) const {
     ArrayInfo info{.name = name_of_array(grid),
                    .association = Association::kPoint,
                    .components = 1,
                    .type = ScalarType::kFloat32,
                    .tuples = 1};
-    for (int axis = 0; axis < 3; ++axis) info.tuples *= as_size(topology_.points[axis]);
+    for (int axis = 0; axis < 3; ++axis) info.tuples *= as_size(lattice.topology.points[axis]);
     if (stays_sparse(grid))
       info.sparse_bytes =
           static_cast<const openvdb::FloatGrid&>(grid).tree().leafCount() * kBlockVoxels * sizeof(float);
@@ -278,18 +311,19 @@ class VdbLoader : public Loader {
   }
 
   // What lies in the box, leaf by leaf and tile by tile.
-  [[nodiscard]] std::shared_ptr<const SparseNumbers> sparse(const openvdb::FloatGrid& grid) const {
-    const openvdb::Coord low = box_.min();
+  [[nodiscard]] std::shared_ptr<const SparseNumbers> sparse(const openvdb::FloatGrid& grid,
+                                                            const Lattice& lattice) const {
+    const openvdb::Coord low = lattice.box.min();
     constexpr int kMask = kBlockSide - 1;
     const Index3 shift(low.x() & kMask, low.y() & kMask, low.z() & kMask);
-    SparseBuilder builder(shift, topology_.points, grid.background());
+    SparseBuilder builder(shift, lattice.topology.points, grid.background());
     const Index3 origin = Index3(low.x(), low.y(), low.z()) - shift;
     const auto block_of = [&](const openvdb::Coord& voxel) {
       return (Index3(voxel.x(), voxel.y(), voxel.z()) - origin) / kBlockSide;
     };
     using Tree = openvdb::FloatTree;
     for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
-      if (!box_.hasOverlap(leaf->getNodeBoundingBox())) continue;
+      if (!lattice.box.hasOverlap(leaf->getNodeBoundingBox())) continue;
       builder.put(block_of(leaf->origin()),
                   std::span<const float, kBlockVoxels>(leaf->buffer().data(), kBlockVoxels));
     }
@@ -298,7 +332,7 @@ class VdbLoader : public Loader {
     for (; tile; ++tile) {
       if (*tile == grid.background()) continue;
       openvdb::CoordBBox part = tile.getBoundingBox();
-      part.intersect(box_);
+      part.intersect(lattice.box);
       if (part.empty()) continue;
       const Index3 first = block_of(part.min()), last = block_of(part.max());
       for (int z = first.z; z <= last.z; ++z) {
@@ -310,21 +344,22 @@ class VdbLoader : public Loader {
     return builder.finish();
   }
 
-  [[nodiscard]] DataArray values_of(const openvdb::GridBase& grid, const ArrayInfo& info) const {
+  [[nodiscard]] DataArray values_of(const openvdb::GridBase& grid, const ArrayInfo& info,
+                                    const Lattice& lattice) const {
     DataArray array;
     array.name = info.name;
     array.type = info.type;
     array.components = info.components;
     array.tuples = info.tuples;
     if (stays_sparse(grid)) {
-      array.sparse = sparse(static_cast<const openvdb::FloatGrid&>(grid));
+      array.sparse = sparse(static_cast<const openvdb::FloatGrid&>(grid), lattice);
       return array;
     }
     const auto bytes = std::make_shared<std::vector<std::byte>>(info.tuples * tuple_bytes(grid));
     (void)with_grid(grid, [&](const auto& g) {
       using Value = typename std::decay_t<decltype(g)>::ValueType;
       static_assert(sizeof(bool) == 1);
-      openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> to(box_,
+      openvdb::tools::Dense<Value, openvdb::tools::LayoutXYZ> to(lattice.box,
                                                                  reinterpret_cast<Value*>(bytes->data()));
       openvdb::tools::copyToDense(g, to);
     });
@@ -334,9 +369,7 @@ class VdbLoader : public Loader {
   }
 
   std::string file_;
-  std::vector<openvdb::GridBase::Ptr> grids_;  ///< on one lattice
-  openvdb::CoordBBox box_;                     ///< of all that is active
-  UniformTopology topology_;
+  std::vector<Lattice> lattices_;  ///< in the order of their first grids
 };
 
 }  // namespace

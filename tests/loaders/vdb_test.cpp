@@ -91,7 +91,7 @@ TEST(Vdb, AGridComesBackAsItsVoxelsWithItsBackgroundAroundThemAtItsPlace) {
   }
 }
 
-TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndTheOthersNamed) {
+TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndThoseOfAnotherByThemselves) {
   const test::TempFolder folder;
   const auto first = ball();
   auto wind = openvdb::Vec3SGrid::create();
@@ -105,6 +105,12 @@ TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndTheOthersNamed) {
   auto coarse = openvdb::DoubleGrid::create();
   coarse->setName("coarse");
   coarse->tree().setValue({0, 0, 0}, 1.0);
+  coarse->tree().setValue({2, 1, 3}, 7.0);
+  auto drift = openvdb::Vec3DGrid::create();
+  drift->setName("drift");
+  drift->setTransform(openvdb::math::Transform::createLinearTransform(0.25));
+  drift->tree().setValue({4, 4, 4}, {1.0, 2.0, 3.0});
+  drift->tree().setValue({6, 7, 8}, {4.0, 5.0, 6.0});
   auto faces = openvdb::Vec3SGrid::create();
   faces->setName("faces");
   faces->setTransform(first->transform().copy());
@@ -112,16 +118,36 @@ TEST(Vdb, GridsOfOneLatticeAreReadTogetherAndTheOthersNamed) {
   faces->tree().setValue({0, 0, 0}, {1.0F, 2.0F, 3.0F});
   auto none = openvdb::Int32Grid::create();
   none->setName("none");
-  Source source = Source::open({{write(folder, "a.vdb", {first, wind, mask, coarse, faces, none})}, {}});
+  Source source =
+      Source::open({{write(folder, "a.vdb", {first, wind, mask, coarse, drift, faces, none})}, {}});
   std::vector<std::string> names;
   for (const ArrayInfo& array : source.arrays()) names.push_back(array.name);
   std::sort(names.begin(), names.end());
-  EXPECT_EQ(names, (std::vector<std::string>{"ball", "mask", "wind"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"ball", "coarse", "drift", "mask", "wind"}));
   std::string notes;
   for (const std::string& note : source.info().notes) notes += note + "\n";
   for (const char* said :
-       {"\"coarse\" lies on another lattice", "\"faces\" is staggered", "\"none\" has no active voxel"})
+       {"grids lie on 3 lattices", "\"faces\" is staggered", "\"none\" has no active voxel"})
     EXPECT_NE(notes.find(said), std::string::npos) << notes;
+
+  std::vector<std::string> lattices;
+  for (const BlockInfo& block : source.info().blocks) lattices.push_back(block.name);
+  std::sort(lattices.begin(), lattices.end());
+  EXPECT_EQ(lattices, (std::vector<std::string>{"ball, wind, mask", "coarse", "drift"}));
+
+  // Each on its own lattice, and nothing of the others.
+  const std::vector<DataSet> alone = source.read({"coarse"});
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_EQ(std::get<UniformTopology>(alone[0].topology).points, Index3(3, 2, 4));
+  EXPECT_EQ(alone[0].arrays.at(0).at(23), 7.0);
+  const std::vector<DataSet> moving = source.read({"drift"});
+  ASSERT_EQ(moving.size(), 1U);
+  const auto& finer = std::get<UniformTopology>(moving[0].topology);
+  EXPECT_EQ(finer.points, Index3(3, 4, 5));
+  EXPECT_EQ(finer.origin, Vec3(1.0));
+  EXPECT_EQ(finer.axes[1], Vec3(0.0, 0.25, 0.0));
+  EXPECT_EQ(moving[0].arrays.at(0).at(59, 2), 6.0);
+  EXPECT_EQ(source.read({"coarse", "drift"}).size(), 2U);
 
   const DataSet block = source.read({"wind", "mask"}).at(0);
   EXPECT_EQ(std::get<UniformTopology>(block.topology).points, Index3(kSide, kSide, kSide + 5));

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "common/base/index.h"
 
@@ -25,7 +26,26 @@ MemoryFile::MemoryFile() : fd_(::memfd_create("palpate", MFD_CLOEXEC | MFD_ALLOW
   if (!fd_) fail("memfd_create");
 }
 
+std::shared_ptr<std::byte> MemoryFile::room(std::uint64_t bytes) {
+  static const auto page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  const std::uint64_t offset = (size_ + page - 1) / page * page, end = offset + bytes;
+  if (::ftruncate(fd_.get(), static_cast<off_t>(end)) != 0) fail("ftruncate");
+  if (bytes == 0) return nullptr;
+  void* data =
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, fd_.get(), static_cast<off_t>(offset));
+  if (data == MAP_FAILED) fail("mmap");
+  std::shared_ptr<std::byte> room(static_cast<std::byte*>(data),
+                                  [bytes](std::byte* at) { ::munmap(at, bytes); });
+  size_ = end;
+  rooms_.push_back({room, bytes, offset});
+  return room;
+}
+
 std::uint64_t MemoryFile::append(std::span<const std::byte> bytes) {
+  for (const Room& room : rooms_) {
+    const auto first = room.bytes.lock();
+    if (first && bytes.data() == first.get() && bytes.size() <= room.size) return room.offset;
+  }
   const std::uint64_t offset = (size_ + kAlignment - 1) / kAlignment * kAlignment;
   // A gap that is never written reads as zeros; an empty array still needs the file to reach its offset.
   if (bytes.empty() && offset != size_ && ::ftruncate(fd_.get(), static_cast<off_t>(offset)) != 0) {

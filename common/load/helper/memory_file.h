@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "common/base/files/unique_fd.h"
 
@@ -20,6 +21,10 @@ class MemoryFile {
   /// @throws std::system_error where memory or the size limit of the process runs out.
   std::uint64_t append(std::span<const std::byte> bytes);
 
+  /// Room for `bytes` bytes, zeros, that its owner writes in place: append() of it copies nothing. All owners let go of it
+  /// before seal(). @throws std::system_error as append().
+  [[nodiscard]] std::shared_ptr<std::byte> room(std::uint64_t bytes);
+
   /// After this nobody, the writer included, can change or shrink it. @throws std::system_error.
   void seal();
 
@@ -29,8 +34,13 @@ class MemoryFile {
   static constexpr std::uint64_t kAlignment = 64;
 
  private:
+  struct Room {
+    std::weak_ptr<std::byte> bytes;
+    std::uint64_t size, offset;
+  };
   UniqueFd fd_;
   std::uint64_t size_ = 0;
+  std::vector<Room> rooms_;
 };
 
 /// A read-only mapping of a sealed memory file.

@@ -128,6 +128,7 @@ int serve_loader(Loader& loader) {
       return encode_info(info);
     }
     const auto& read = std::get<ReadMessage>(request);
+    loader.room = [&memory](std::uint64_t bytes) { return memory.room(bytes); };
     return encode_blocks(loader.read(read.arrays, read.time_step), memory);
   };
   return serve(service);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,6 +34,8 @@ class Loader {
 
   /// Called with the part done, 0 to 1, now and then; may be empty.
   std::function<void(double)> on_progress;
+  /// Memory for numbers that read() gives, zeros: that of the answer, so that they need not be copied. Empty: there is none.
+  std::function<std::shared_ptr<std::byte>(std::uint64_t bytes)> room;
 };
 
 /// What a helper program does with a request.

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/render/volume/voxels/sign_bit.h"
 
 namespace palpate {
 namespace {
@@ -19,10 +21,12 @@ constexpr double kGridRounding = 1e-9;  // of a step: by which places computed o
 template <typename T>
 struct DenseNumbers {
   const std::byte* bytes;
+  T sign{};  ///< sign_bit()
 
   [[nodiscard]] double operator[](std::size_t index) const noexcept {
     T value;
     std::memcpy(&value, bytes + index * sizeof(T), sizeof(T));
+    if constexpr (std::is_integral_v<T>) value = static_cast<T>(value ^ sign);
     return static_cast<double>(value);
   }
 };
@@ -185,9 +189,9 @@ std::vector<double> values_at(const VolumeImage& image, const Pixels& pixels, Sl
   if (image.sparse) {
     sample(SparseReader{image.sparse.get()});
   } else if (image.type == ScalarType::kUint8) {
-    sample(DenseNumbers<std::uint8_t>{image.bytes.data()});
+    sample(DenseNumbers<std::uint8_t>{image.bytes.data(), sign_bit<std::uint8_t>(image)});
   } else if (image.type == ScalarType::kUint16) {
-    sample(DenseNumbers<std::uint16_t>{image.bytes.data()});
+    sample(DenseNumbers<std::uint16_t>{image.bytes.data(), sign_bit<std::uint16_t>(image)});
   } else {
     sample(DenseNumbers<float>{image.bytes.data()});
   }

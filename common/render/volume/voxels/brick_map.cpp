@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
+#include <type_traits>
+#include <vector>
 
 #include "common/base/check.h"
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/base/read_as.h"
+#include "common/render/volume/voxels/sign_bit.h"
 
 namespace palpate {
 namespace {
@@ -120,6 +126,37 @@ void find_sparse_row(const SparseNumbers& numbers, int by, int bz, std::span<Bri
   }
 }
 
+// The same of numbers that stand one after another. A brick's last points are the first ones of the next: cells, not
+// points, are cut apart.
+template <typename T>
+void find_row(const VolumeImage& image, int by, int bz, std::span<BrickRanges::Range> row) {
+  const Index3 n = image.points;
+  const int y1 = std::min(n.y, kBrickCells * (by + 1) + 1), z1 = std::min(n.z, kBrickCells * (bz + 1) + 1);
+  using Limits = std::numeric_limits<T>;
+  constexpr T kMost = Limits::has_infinity ? Limits::infinity() : Limits::max(),
+              kLeast = Limits::has_infinity ? -Limits::infinity() : Limits::lowest();
+  std::vector<T> lowest(as_size(n.x), kMost), highest(as_size(n.x), kLeast);  // along y and z
+  for (int z = kBrickCells * bz; z < z1; ++z) {
+    for (int y = kBrickCells * by; y < y1; ++y) {
+      const std::size_t start = as_size(n.x) * (as_size(y) + as_size(n.y) * as_size(z));
+      for (std::size_t x = 0; x < lowest.size(); ++x) {
+        T v = read_as<T>(image.bytes, start + x);
+        if constexpr (std::is_integral_v<T>) v = static_cast<T>(v ^ sign_bit<T>(image));
+        lowest[x] = v < lowest[x] ? v : lowest[x];  // NaN passes both
+        highest[x] = v > highest[x] ? v : highest[x];
+      }
+    }
+  }
+  for (std::size_t bx = 0; bx < row.size(); ++bx) {
+    const std::size_t x0 = bx * kBrickCells, x1 = std::min(as_size(n.x), x0 + kBrickCells + 1);
+    const auto at = [](const std::vector<T>& v, std::size_t x) {
+      return v.begin() + static_cast<std::ptrdiff_t>(x);
+    };
+    row[bx] = {static_cast<float>(*std::min_element(at(lowest, x0), at(lowest, x1))),
+               static_cast<float>(*std::max_element(at(highest, x0), at(highest, x1)))};
+  }
+}
+
 }  // namespace
 
 BrickRanges brick_ranges(const VolumeImage& image, int threads) {
@@ -127,7 +164,7 @@ BrickRanges brick_ranges(const VolumeImage& image, int threads) {
   for (int a = 0; a < 3; ++a) {
     result.bricks[a] = std::max(1, (image.points[a] - 1 + kBrickCells - 1) / kBrickCells);
   }
-  const Index3 n = image.points, b = result.bricks;
+  const Index3 b = result.bricks;
   result.ranges.resize(as_size(b.x) * as_size(b.y) * as_size(b.z));
   parallel_for(as_size(b.y) * as_size(b.z), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t row = first; row < last; ++row) {
@@ -137,23 +174,14 @@ BrickRanges brick_ranges(const VolumeImage& image, int threads) {
                         std::span(result.ranges).subspan(as_size(b.x) * row, as_size(b.x)));
         continue;
       }
-      // A brick's last points are the first ones of the next: cells, not points, are cut apart.
-      const int y1 = std::min(n.y, kBrickCells * (by + 1) + 1),
-                z1 = std::min(n.z, kBrickCells * (bz + 1) + 1);
-      for (int bx = 0; bx < b.x; ++bx) {
-        const int x1 = std::min(n.x, kBrickCells * (bx + 1) + 1);
-        float lowest = HUGE_VALF, highest = -HUGE_VALF;
-        for (int z = kBrickCells * bz; z < z1; ++z) {
-          for (int y = kBrickCells * by; y < y1; ++y) {
-            const std::size_t start = as_size(n.x) * (as_size(y) + as_size(n.y) * as_size(z));
-            for (int x = kBrickCells * bx; x < x1; ++x) {
-              const auto v = static_cast<float>(image.number(start + as_size(x)));
-              lowest = v < lowest ? v : lowest;  // NaN passes both
-              highest = v > highest ? v : highest;
-            }
-          }
-        }
-        result.ranges[as_size(bx) + as_size(b.x) * row] = {lowest, highest};
+      const std::span<BrickRanges::Range> to =
+          std::span(result.ranges).subspan(as_size(b.x) * row, as_size(b.x));
+      if (image.type == ScalarType::kUint8) {
+        find_row<std::uint8_t>(image, by, bz, to);
+      } else if (image.type == ScalarType::kUint16) {
+        find_row<std::uint16_t>(image, by, bz, to);
+      } else {
+        find_row<float>(image, by, bz, to);
       }
     }
   });

@@ -17,6 +17,7 @@
 #include "common/base/index.h"
 #include "common/base/parallel.h"
 #include "common/field/grid/sparse/sparse_builder.h"
+#include "common/render/volume/voxels/sign_bit.h"
 
 namespace palpate {
 namespace {
@@ -91,6 +92,46 @@ std::vector<Neighbours> neighbours_of_all(int points, int first, int end) {
   std::vector<Neighbours> neighbours;
   for (int k = first; k < end; ++k) neighbours.push_back(neighbours_of(k, points));
   return neighbours;
+}
+
+// Halves all axes. Some layers at a time, so that the fine numbers are not all there in single precision at once.
+Numbers halved_once(const VolumeImage& image) {
+  constexpr int kLayers = 4;
+  Numbers coarse;
+  for (int a = 0; a < 3; ++a) coarse.points[as_size(a)] = as_size(coarse_points(image.points[a]));
+  const std::size_t layer = coarse.points[0] * coarse.points[1], layers = coarse.points[2];
+  coarse.values.resize(layer * layers);
+  parallel_for((layers + kLayers - 1) / kLayers, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t part = begin; part < end; ++part) {
+      const int first = static_cast<int>(part) * kLayers,
+                last = std::min(static_cast<int>(layers), first + kLayers);
+      std::array<std::vector<Neighbours>, 3> neighbours;
+      PointBox window{Index3(0), image.points};
+      for (int a = 0; a < 3; ++a) {
+        const bool along = a == 2;
+        neighbours[as_size(a)] = neighbours_of_all(image.points[a], along ? first : 0,
+                                                   along ? last : coarse_points(image.points[a]));
+      }
+      const auto& through = neighbours[2];
+      window.first.z = static_cast<int>(through.front().points.front());
+      window.end.z = static_cast<int>(through.back().points[through.back().count - 1]) + 1;
+      Numbers numbers;
+      numbers.points = {as_size(image.points.x), as_size(image.points.y),
+                        as_size(window.end.z - window.first.z)};
+      numbers.values.resize(window.count());
+      const std::size_t before = as_size(window.first.z) * numbers.points[0] * numbers.points[1];
+      for (std::size_t i = 0; i < numbers.values.size(); ++i)
+        numbers.values[i] = static_cast<float>(image.number(before + i));
+      for (std::size_t a = 0; a < 3; ++a) {
+        const int n = image.points[static_cast<int>(a)];
+        if (coarse_points(n) == n) continue;
+        numbers = halved(numbers, a, neighbours[a], a == 2 ? as_size(window.first.z) : 0, 1);
+      }
+      std::ranges::copy(numbers.values,
+                        coarse.values.begin() + static_cast<std::ptrdiff_t>(as_size(first) * layer));
+    }
+  });
+  return coarse;
 }
 
 // The number that all blocks have in which points of `box` lie.
@@ -179,7 +220,7 @@ template <typename T>
 void own_rounded(VolumeImage& image, const std::vector<float>& values) {
   auto numbers = std::make_shared<std::vector<T>>(values.size());
   std::transform(values.begin(), values.end(), numbers->begin(),
-                 [](float v) { return static_cast<T>(std::lround(v)); });
+                 [sign = sign_bit<T>(image)](float v) { return static_cast<T>(std::lround(v) ^ sign); });
   image.bytes = std::as_bytes(std::span<const T>(*numbers));
   image.owner = std::move(numbers);
 }
@@ -220,12 +261,9 @@ std::shared_ptr<const VolumeImage> coarse_image(const VolumeImage& image, int le
     coarse->lines = coarse_lines(image, coarse->points);
     return coarse;
   }
-  Numbers numbers;
-  numbers.points = {as_size(image.points.x), as_size(image.points.y), as_size(image.points.z)};
-  numbers.values.resize(image.point_count());
-  for (std::size_t i = 0; i < numbers.values.size(); ++i)
-    numbers.values[i] = static_cast<float>(image.number(i));
-  for (int k = 0; k < level; ++k) {
+  Numbers numbers = halved_once(image);
+  for (int a = 0; a < 3; ++a) coarse->axes[a] *= spacing_ratio(image.points[a]);
+  for (int k = 1; k < level; ++k) {
     for (int a = 0; a < 3; ++a) {
       const auto axis = as_size(a);
       const int n = static_cast<int>(numbers.points[axis]);

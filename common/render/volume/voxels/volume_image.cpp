@@ -19,6 +19,7 @@
 #include "common/field/grid/sparse/sparse_statistics.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
+#include "common/render/volume/voxels/sign_bit.h"
 
 namespace palpate {
 namespace {
@@ -55,16 +56,18 @@ struct FiniteRange {
 };
 
 template <typename T>
-FiniteRange range_of_numbers(std::span<const std::byte> bytes, std::size_t first, std::size_t last) {
+FiniteRange range_of_numbers(const VolumeImage& image, std::size_t first, std::size_t last) {
   T lowest = std::numeric_limits<T>::max(), highest = std::numeric_limits<T>::lowest();
   bool all = true, some = false;
   for (std::size_t i = first; i < last; ++i) {
-    const T v = read_as<T>(bytes, i);
+    T v = read_as<T>(image.bytes, i);
     if constexpr (std::is_floating_point_v<T>) {
       if (!std::isfinite(v)) {
         all = false;
         continue;
       }
+    } else {
+      v = static_cast<T>(v ^ sign_bit<T>(image));
     }
     some = true;
     lowest = std::min(lowest, v);
@@ -79,9 +82,9 @@ void find_range(VolumeImage& image) {
   std::mutex joining;
   parallel_for(image.point_count(), 0, [&](std::size_t first, std::size_t last) {
     const FiniteRange part =
-        image.type == ScalarType::kUint8    ? range_of_numbers<std::uint8_t>(image.bytes, first, last)
-        : image.type == ScalarType::kUint16 ? range_of_numbers<std::uint16_t>(image.bytes, first, last)
-                                            : range_of_numbers<float>(image.bytes, first, last);
+        image.type == ScalarType::kUint8    ? range_of_numbers<std::uint8_t>(image, first, last)
+        : image.type == ScalarType::kUint16 ? range_of_numbers<std::uint16_t>(image, first, last)
+                                            : range_of_numbers<float>(image, first, last);
     const std::lock_guard lock(joining);
     range.lowest = std::min(range.lowest, part.lowest);
     range.highest = std::max(range.highest, part.highest);
@@ -123,21 +126,6 @@ void own(VolumeImage& image, std::vector<T> numbers, ScalarType type) {
   image.type = type;
 }
 
-// Signed numbers as unsigned ones, in the same order.
-template <typename Signed, typename Unsigned>
-void shift_signed(VolumeImage& image, const DataArray& array, ScalarType type) {
-  constexpr auto kLowest = std::numeric_limits<Signed>::min();
-  const std::shared_ptr<Unsigned[]> numbers(new Unsigned[array.tuples]);
-  parallel_for(array.tuples, 0, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      numbers[i] = static_cast<Unsigned>(read_as<Signed>(array.bytes, i) - kLowest);
-  });
-  image.bytes = std::as_bytes(std::span<const Unsigned>(numbers.get(), array.tuples));
-  image.owner = numbers;
-  image.type = type;
-  image.offset = kLowest;
-}
-
 void convert_to_floats(VolumeImage& image, const DataSet& block, const DataArray& array, int component) {
   const bool blanked = !block.visible.empty();
   double largest = 0.0;
@@ -161,7 +149,7 @@ void convert_to_floats(VolumeImage& image, const DataSet& block, const DataArray
 // Whether the numbers can be given to the GPU as they are.
 bool fits(const DataSet& block, const DataArray& array) {
   if (array.components != 1 || !block.visible.empty() || array.sparse) return false;
-  if (array.type == ScalarType::kUint8 || array.type == ScalarType::kUint16) return true;
+  if (byte_size(array.type) < sizeof(float)) return true;
   if (array.type != ScalarType::kFloat32) return false;
   const float largest = std::ldexp(1.0F, kLargestExponent), least = std::ldexp(1.0F, -kLargestExponent);
   float most = 0.0F;
@@ -173,15 +161,26 @@ bool fits(const DataSet& block, const DataArray& array) {
   return most == 0.0F || (most >= least && most <= largest);
 }
 
+template <typename T>
+void flip(std::byte* numbers, std::size_t bytes, T sign) noexcept {
+  if (sign == 0) return;
+  for (std::size_t at = 0; at < bytes; at += sizeof(T)) {
+    T v;
+    std::memcpy(&v, numbers + at, sizeof(T));
+    v = static_cast<T>(v ^ sign);
+    std::memcpy(numbers + at, &v, sizeof(T));
+  }
+}
+
 }  // namespace
 
 double VolumeImage::number(std::size_t index) const noexcept {
   if (sparse) return static_cast<double>((*sparse)[index]);
   switch (type) {
     case ScalarType::kUint8:
-      return static_cast<double>(read_as<std::uint8_t>(bytes, index));
+      return read_as<std::uint8_t>(bytes, index) ^ sign_bit<std::uint8_t>(*this);
     case ScalarType::kUint16:
-      return static_cast<double>(read_as<std::uint16_t>(bytes, index));
+      return read_as<std::uint16_t>(bytes, index) ^ sign_bit<std::uint16_t>(*this);
     default:
       return static_cast<double>(read_as<float>(bytes, index));
   }
@@ -252,6 +251,8 @@ void VolumeImage::copy(const PointBox& box, std::byte* to) const noexcept {
       const std::size_t first =
           as_size(box.first.x) + as_size(points.x) * (as_size(y) + as_size(points.y) * as_size(z));
       std::memcpy(to, bytes.data() + first * size, row);
+      if (type == ScalarType::kUint8) flip<std::uint8_t>(to, row, sign_bit<std::uint8_t>(*this));
+      if (type == ScalarType::kUint16) flip<std::uint16_t>(to, row, sign_bit<std::uint16_t>(*this));
     }
   }
 }
@@ -310,13 +311,14 @@ std::shared_ptr<const VolumeImage> make_volume_image(const DataSet& block, const
     return image;
   }
   if (fits(block, *values)) {
-    image->type = values->type;
+    const bool narrow = byte_size(values->type) < sizeof(float);
+    image->type = !narrow                        ? ScalarType::kFloat32
+                  : byte_size(values->type) == 1 ? ScalarType::kUint8
+                                                 : ScalarType::kUint16;
+    if (values->type == ScalarType::kInt8) image->offset = std::numeric_limits<std::int8_t>::min();
+    if (values->type == ScalarType::kInt16) image->offset = std::numeric_limits<std::int16_t>::min();
     image->bytes = values->bytes;
     image->owner = values->owner;
-  } else if (values->components == 1 && block.visible.empty() && values->type == ScalarType::kInt8) {
-    shift_signed<std::int8_t, std::uint8_t>(*image, *values, ScalarType::kUint8);
-  } else if (values->components == 1 && block.visible.empty() && values->type == ScalarType::kInt16) {
-    shift_signed<std::int16_t, std::uint16_t>(*image, *values, ScalarType::kUint16);
   } else {
     convert_to_floats(*image, block, *values, component);
   }

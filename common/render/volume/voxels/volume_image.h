@@ -29,8 +29,9 @@ struct VolumeImage {
   std::shared_ptr<const LatticeLines> lines;  ///< where points lie between; null: at even steps
   ScalarType type = ScalarType::kFloat32;     ///< kUint8, kUint16 or kFloat32
   ScalarType stored = ScalarType::kFloat32;   ///< of the numbers of the data that it is made from
-  std::span<const std::byte> bytes;           ///< points.x * points.y * points.z numbers, x fastest
-  std::shared_ptr<const void> owner;          ///< keeps `bytes` alive
+  /// points.x * points.y * points.z numbers, x fastest; signed ones of 8 and 16 bits as they are (sign_bit.h).
+  std::span<const std::byte> bytes;
+  std::shared_ptr<const void> owner;  ///< keeps `bytes` alive
   /// Where not null, the numbers stand here, in single precision, and `bytes` are none.
   std::shared_ptr<const SparseNumbers> sparse;
   /// A colour for each point, sRGB with an unused fourth byte, for parts that are drawn in it

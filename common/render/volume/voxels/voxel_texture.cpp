@@ -1,7 +1,7 @@
 #include "common/render/volume/voxels/voxel_texture.h"
 
 #include <algorithm>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -68,18 +68,18 @@ void upload_voxels(const GlTexture& texture, const Index3& first, const Index3& 
 GlTexture upload_whole(const VolumeImage& image) {
   const Index3 n = image.points;
   GlTexture texture = make_voxel_texture(n, image.type, "voxels");
-  if (!image.sparse) {
+  const bool is_signed = image.stored == ScalarType::kInt8 || image.stored == ScalarType::kInt16;
+  if (!image.sparse && !is_signed) {
     upload_voxels(texture, Index3(0), n, image.type, image.bytes.data());
     return texture;
   }
   // Some layers at a time, so that they are not all there at once.
-  std::vector<float> layers;
+  std::vector<std::byte> layers;
   for (int z = 0; z < n.z; z += kBlockSide) {
     const PointBox box{{0, 0, z}, {n.x, n.y, std::min(n.z, z + kBlockSide)}};
-    layers.resize(box.count());
-    image.sparse->copy(box, layers.data());
-    upload_voxels(texture, box.first, box.end - box.first, image.type,
-                  std::as_bytes(std::span(layers)).data());
+    layers.resize(box.count() * byte_size(image.type));
+    image.copy(box, layers.data());
+    upload_voxels(texture, box.first, box.end - box.first, image.type, layers.data());
   }
   return texture;
 }

@@ -1,12 +1,18 @@
 #include "common/render/volume/voxels/volume_image.h"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/render/volume/voxels/brick_map.h"
+#include "common/render/volume/voxels/coarse_image.h"
 #include "tests/common/render/volume/sample_volumes.h"
 
 namespace palpate::test {
@@ -39,6 +45,26 @@ TEST(VolumeImage, KeepsTheValuesOfSignedNumbers) {
   const auto bytes = image_of<std::int8_t>({-128, 5, 127}, ScalarType::kInt8);
   EXPECT_EQ(bytes->type, ScalarType::kUint8);
   EXPECT_EQ(bytes->value(1), 5.0);
+}
+
+TEST(VolumeImage, SharesSignedNumbersAndGivesThemInOrder) {
+  const DataSet block = block_of<std::int16_t>(
+      {3, 3, 1}, Vec3(1.0), {-32768, -1024, -1, 0, 1, 40, 1000, 3071, 32767}, ScalarType::kInt16);
+  const auto image = make_volume_image(block, "s", "test");
+  EXPECT_EQ(image->bytes.data(), block.arrays[0].bytes.data());
+  std::array<std::uint16_t, 4> some{};
+  image->copy({{0, 0, 0}, {2, 2, 1}}, std::as_writable_bytes(std::span(some)).data());
+  EXPECT_EQ(some, (std::array<std::uint16_t, 4>{0, 32768 - 1024, 32768, 32769}));
+  const BrickRanges ranges = brick_ranges(*image);
+  ASSERT_EQ(ranges.ranges.size(), 1U);
+  EXPECT_EQ(ranges.ranges[0].lowest, 0.0F);
+  EXPECT_EQ(ranges.ranges[0].highest, 65535.0F);
+
+  const DataSet even =
+      block_of<std::int16_t>({5, 5, 5}, Vec3(1.0), std::vector<std::int16_t>(125, -700), ScalarType::kInt16);
+  const auto coarse = coarse_image(*make_volume_image(even, "s", "test"), 1);
+  EXPECT_EQ(coarse->value(13), -700.0);
+  EXPECT_EQ(coarse_image(*coarse, 1)->value(0), -700.0);
 }
 
 TEST(VolumeImage, ScalesWhatSinglePrecisionCannotHold) {
