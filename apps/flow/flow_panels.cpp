@@ -64,7 +64,7 @@ std::optional<double> seen_at_probe(const PanelState& state, const VolumeView& v
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Which scalar of a flow is a volume, and from how many points. What lies on no image is resampled as soon
+/// Which scalar of a flow is a volume, and from how many points. What lies on no grid along straight axes is resampled as soon
 /// as it is chosen, which is what asks for it.
 void choose_flow_volume(VolumeOptions& settings, const SceneInfo& info, std::vector<std::string>& volumes) {
   constexpr const char* kNothing = "nothing";

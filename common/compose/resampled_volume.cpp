@@ -5,10 +5,12 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/compose/line_color.h"
 #include "common/compose/volume_fields.h"
 #include "common/field/field_grid.h"
+#include "common/field/grid/lattice_lines.h"
 #include "common/scene/volume_source.h"
 
 namespace palpate {
@@ -30,39 +32,55 @@ std::optional<ScalarChoice> array_of(const Input& input, const std::string& name
 
 bool is_derived(const std::string& name) { return name == kSpeed || measure_of(name).has_value(); }
 
-/// The grid of an image, in the order of the field's own points; nothing for another grid.
-std::optional<UniformTopology> image_lattice(const VectorField& field) {
+/// The grid of an image or a rectilinear one, in the order of the field's own points; nothing for another grid.
+std::optional<UnevenLattice> own_lattice(const VectorField& field) {
   const BoxGrid* const grid = field.box_grid();
-  if (grid == nullptr || !grid->uniform()) return std::nullopt;
+  if (grid == nullptr) return std::nullopt;
+  UnevenLattice lattice;
+  if (!grid->uniform()) {
+    RectilinearTopology lines;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = 0; i < grid->points()[axis]; ++i)
+        lines.coordinates[as_size(axis)].push_back(grid->coordinate(axis, i));
+    }
+    lattice.lines = uneven_lattice(lines).lines;
+  }
   const LocalFrame& frame = field.frame();
   const Box box = grid->bounds();
-  UniformTopology lattice;
-  lattice.points = grid->points();
-  lattice.origin = frame.data_from_local(grid->in_frame(box.lower));
-  const Vec3 step = box.size() / Vec3(lattice.points - 1);
+  lattice.mean.points = grid->points();
+  lattice.mean.origin = frame.data_from_local(grid->in_frame(box.lower));
+  const Vec3 step = box.size() / Vec3(lattice.mean.points - 1);
   for (int axis = 0; axis < 3; ++axis) {
     Vec3 along{0.0};
     along[axis] = step[axis];
-    lattice.axes[axis] = frame.data_from_local(grid->in_frame(along));
+    lattice.mean.axes[axis] = frame.data_from_local(grid->in_frame(along));
   }
   return lattice;
 }
 
-/// An array on an image, in the type of its file.
+/// `sampler` at the points of the lattice, asked for at those of its mean one.
+ScalarSampler at_lines(ScalarSampler sampler, const UnevenLattice& lattice) {
+  if (!lattice.lines) return sampler;
+  return [sampler = std::move(sampler), lattice, back = glm::inverse(lattice.mean.axes)](const Vec3& x,
+                                                                                         CellHint& hint) {
+    const UniformTopology& mean = lattice.mean;
+    return sampler(mean.origin + mean.axes * lattice.lines->mean(back * (x - mean.origin)), hint);
+  };
+}
+
+/// An array on an image or a rectilinear grid, in the type of its file.
 std::shared_ptr<const VolumeImage> own_voxels(Input& input, const ScalarChoice& choice, Progress* progress) {
   if (progress) progress->begin("reading " + choice.array, 0);
   return make_volume_image(volume_source(input.read({choice.array}, progress), choice, file_of(input)),
                            choice.array, file_of(input));
 }
 
-UniformTopology lattice_for(const VectorField& field, const std::string& name, const std::string& resample) {
-  const std::optional<UniformTopology> image = image_lattice(field);
-  if (!resample.empty()) {
-    return lattice_over(field.bounds(), resample_points(field.bounds(), resample));
-  }
-  if (image) return *image;
+UnevenLattice lattice_for(const VectorField& field, const std::string& name, const std::string& resample) {
+  if (!resample.empty())
+    return {lattice_over(field.bounds(), resample_points(field.bounds(), resample)), nullptr};
+  if (const std::optional<UnevenLattice> own = own_lattice(field)) return *own;
   throw usage_error("--volume " + name +
-                    ": the data lies on no image; --resample 128 draws it from a grid "
+                    ": the data lies on no grid along straight axes; --resample 128 draws it from a grid "
                     "of 128 points along its longest edge, and says how far that is from it");
 }
 
@@ -78,7 +96,7 @@ std::vector<std::string> flow_scalars(const Input& input) {
   return names;
 }
 
-bool needs_resampling(const VectorField& field) { return !image_lattice(field); }
+bool needs_resampling(const VectorField& field) { return field.box_grid() == nullptr; }
 
 std::vector<std::string> flow_volume_names(const Input& input, const VolumeOptions& options) {
   std::vector<std::string> asked;
@@ -143,14 +161,16 @@ FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorFiel
     const std::optional<ScalarChoice> array = is_derived(name) ? std::nullopt : array_of(input, name);
     if (!is_derived(name) && !array) {
       image = load_file_field(name, progress);
-    } else if (array && resample.empty() && image_lattice(*field)) {
+    } else if (array && resample.empty() && !needs_resampling(*field)) {
       image = own_voxels(input, *array, progress);
     } else {
-      const UniformTopology lattice = lattice_for(*field, name, resample);
-      const ScalarSampler sampler = flow_sampler(name, input, field, threads, progress);
-      const DataSet block = take_scalar(sampler, name, lattice, threads, progress);
-      volume.taken.push_back({name, lattice.points, lattice_error(sampler, block, threads, progress)});
-      image = make_volume_image(block, name, input.title());
+      const UnevenLattice lattice = lattice_for(*field, name, resample);
+      const ScalarSampler sampler = at_lines(flow_sampler(name, input, field, threads, progress), lattice);
+      const DataSet block = take_scalar(sampler, name, lattice.mean, threads, progress);
+      volume.taken.push_back({name, lattice.mean.points, lattice_error(sampler, block, threads, progress)});
+      auto taken = std::make_shared<VolumeImage>(*make_volume_image(block, name, input.title()));
+      taken->lines = lattice.lines;
+      image = std::move(taken);
     }
     if (name == names.front()) {
       volume.voxels.image = std::move(image);

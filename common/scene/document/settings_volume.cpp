@@ -22,7 +22,7 @@ const Setting kVolumeRows[] = {
     {.name = "resample",
      .place = kVolumeAt<&VolumeOptions::resample>,
      .help = "take it at N points along the longest edge of the data, or so many an axis, and say how far "
-             "that is from it; grids that are no images, and formulas, are drawn in no other way",
+             "that is from it; meshes, curvilinear grids and formulas are drawn in no other way",
      .value = "N|N,N,N",
      .heading = "View",
      .groups = {Group::kView},
