@@ -12,6 +12,7 @@ SceneInfo describe_open_input(const Input& input) {
   for (const auto& path : input.spec().files) info.files.files.push_back(std::filesystem::absolute(path));
   if (input.spec().solution) info.files.solution = std::filesystem::absolute(*input.spec().solution);
   info.files.example = input.spec().example;
+  info.files.series = input.spec().series;
   info.fields = input.fields();
   if (const FileInfo* file = input.file()) {
     info.facts.push_back(file->format);

@@ -74,6 +74,7 @@ class InputModel : public WindowModel {
     document.input.files = files.files;
     document.input.solution = files.solution;
     document.input.example = files.example;
+    document.input.series = files.series;
     take_tables(files, document);
     return show(std::move(document), progress);
   }

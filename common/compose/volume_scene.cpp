@@ -109,12 +109,16 @@ ColorTransfer density_from(const ValueHistogram& histogram, double lower, double
   return make_color_transfer(ColorPreset::kDensity, lower, upper);
 }
 
-// @throws Error (usage) for another word.
-ColorPreset preset_of(const std::string& name) {
+/// None for another word.
+std::optional<ColorPreset> preset_of(const std::string& name) {
   for (int i = 0; i < kColorPresetCount; ++i) {
     const auto preset = static_cast<ColorPreset>(i);
     if (name == name_of(preset)) return preset;
   }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_transfer(const std::string& name) {
   throw usage_error("unknown transfer function '" + name + "'; known: density, mr, ct, " + kBoundariesPreset +
                     ", or a file");
 }
@@ -127,12 +131,14 @@ VolumeTransfer named_transfer(const std::string& name, const VolumeImage& image,
   const bool values = image.lowest <= image.highest;
   const double lower = values ? image.lowest : 0.0;
   const double upper = values ? image.highest : 0.0;
+  // Whatever lies about in the current folder under that name.
+  if (const auto preset = preset_of(name)) return {make_color_transfer(*preset, lower, upper), {}};
   std::error_code ignored;
   if (std::filesystem::exists(name, ignored)) {
     if (is_region_file(name)) return {{}, read_regions(name, range)};
     return {read_color_transfer(name, lower, upper), {}};
   }
-  return {make_color_transfer(preset_of(name), lower, upper), {}};
+  refuse_transfer(name);
 }
 
 /// Whether the preset of Hounsfield units shows something: where all is air, it does not.
@@ -143,13 +149,13 @@ bool shows_tissue(const VolumeImage& image) {
 void check_transfer(const std::string& name) {
   std::error_code ignored;
   const auto any_range = [] { return PlaceRange{{0.0, 0.0}, {1.0, 1.0}}; };
-  if (name.empty() || name == kBoundariesPreset || transfer_from_text(name) ||
+  if (name.empty() || name == kBoundariesPreset || preset_of(name) || transfer_from_text(name) ||
       regions_from_text(name, any_range) || std::filesystem::exists(name, ignored))
     return;
   // A word is a preset; what looks like a path was meant as one.
   if (name.find_first_of("./") != std::string::npos)
     throw input_error({name, "", "no such file", "a transfer function", ""});
-  (void)preset_of(name);
+  refuse_transfer(name);
 }
 
 }  // namespace

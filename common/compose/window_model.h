@@ -36,6 +36,7 @@ struct InputFiles {
   std::filesystem::path session = {};   ///< by which they are shown, or in place of them: those that it names
   std::filesystem::path seeds = {};     ///< a table of places at which lines begin
   std::filesystem::path transfer = {};  ///< a transfer function of a volume
+  std::string series = {};              ///< of a folder that holds several, as --series
 
   bool operator==(const InputFiles&) const = default;
 };

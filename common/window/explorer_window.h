@@ -32,6 +32,7 @@
 #include "common/window/keys.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/probe_plot.h"
+#include "common/window/panels/series_choice.h"
 #include "common/window/panels/start_page.h"
 #include "common/window/picture/window_picture.h"
 #include "common/window/scene_jobs.h"
@@ -142,6 +143,7 @@ class ExplorerWindow {
   CrosshairLink crosshair_;
   bool leave_ = false;  // what is not saved is to be forgotten, or was saved
   StartPage start_page_;
+  SeriesChoice series_choice_;
   bool start_asked_ = false;  // though something is open
   int frame_ = 0, lively_frames_ = 3;
   std::vector<std::string> missing_;  // controls that a script named

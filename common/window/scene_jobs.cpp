@@ -39,8 +39,9 @@ void SceneJobs::start_next(const Document& wanted) {
   }
   if (!to_open_.empty()) {
     kind_ = Kind::kOpen;
-    job_.start([this, files = to_open_.front()](Progress& progress) { return model_.open(files, progress); });
+    opened_ = std::move(to_open_.front());
     to_open_.pop_front();
+    job_.start([this, files = opened_](Progress& progress) { return model_.open(files, progress); });
   } else if (!same_scene(wanted, requested_)) {
     requested_ = wanted;
     kind_ = Kind::kUpdate;

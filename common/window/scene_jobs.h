@@ -35,6 +35,8 @@ class SceneJobs {
     to_open_.assign(beside.begin(), beside.end());
     to_open_.push_front(std::move(files));
   }
+  /// What was opened last.
+  [[nodiscard]] const InputFiles& opened() const noexcept { return opened_; }
   /// What could not be opened has nothing beside it.
   void forget_beside() noexcept { to_open_.clear(); }
   /// Whether something is read or made, or about to be.
@@ -58,6 +60,7 @@ class SceneJobs {
   Kind kind_ = Kind::kStart;
   Document requested_;
   std::deque<InputFiles> to_open_;
+  InputFiles opened_;
   bool to_close_ = false;
   BackgroundJob job_;  // last: its thread uses the model
 };

@@ -50,6 +50,7 @@ std::optional<InputFiles> read_input(const toml::node& node) {
     if (const auto name = file.value<std::string>()) input.files.emplace_back(*name);
   }
   if (const auto name = (*table)["solution"].value<std::string>()) input.solution = *name;
+  if (const auto name = (*table)["series"].value<std::string>()) input.series = *name;
   return input.files.empty() ? std::nullopt : std::optional(input);
 }
 
@@ -78,6 +79,7 @@ toml::table recent_table(const UserSettings& settings) {
     for (const auto& file : input.files) files.push_back(file.string());
     toml::table table{{"files", std::move(files)}};
     if (input.solution) table.insert("solution", input.solution->string());
+    if (!input.series.empty()) table.insert("series", input.series);
     inputs.push_back(std::move(table));
   }
   return toml::table{{"input", std::move(inputs)}};

@@ -56,7 +56,10 @@ void ExplorerWindow::draw_frame(double seconds) {
   work_in_space();
   if (needs_camera_ && scene_) reset_camera();
   update_panels();
-  obey(on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts));
+  PanelActions asked =
+      on_start_page() ? draw_start_page(parts) : draw_panels(options_.panels, state_, view_, parts);
+  if (auto series = series_choice_.draw()) asked.open = std::move(series);
+  obey(asked);
   crosshair_.follow(view_);
   answer_questions();
   if (files_.follow_export()) glfwMakeContextCurrent(glfw_.get());

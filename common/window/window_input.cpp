@@ -100,7 +100,7 @@ PanelActions ExplorerWindow::draw_start_page(const WindowLayout& parts) {
   thumbnails_->draw_missing(start_page_.examples(), [] { glfwPostEmptyEvent(); });
   const StartPage::Actions asked = start_page_.draw(
       state_.recent, [this](const InputFiles& input) { return thumbnails_->of(input); }, scene_.has_value(),
-      state_.message);
+      state_.error.empty() ? state_.message : state_.error);
   draw_overlays(state_, parts);
   PanelActions actions;
   actions.ask_to_open = asked.ask_to_open;

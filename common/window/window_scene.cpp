@@ -12,6 +12,7 @@
 #include "common/compose/line_view.h"
 #include "common/hand/drawn/drawn_lines.h"
 #include "common/hand/probe_picture.h"
+#include "common/load/series_list.h"
 #include "common/window/explorer_window.h"
 #include "common/window/shown_scene.h"
 #include "common/window/user_settings.h"
@@ -190,7 +191,12 @@ void ExplorerWindow::fail(const std::exception_ptr& error) {
   } catch (const Cancelled&) {
     state_.say(kCancelled);
   } catch (const std::exception& e) {
-    state_.fail(e.what(), true);
+    std::vector<std::string> series = asked_series(e.what());
+    if (jobs_.kind() != Kind::kOpen || series.empty()) {
+      state_.fail(e.what(), true);
+    } else {
+      series_choice_.ask(jobs_.opened(), std::move(series));
+    }
   }
 }
 

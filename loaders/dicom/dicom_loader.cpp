@@ -15,6 +15,7 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/dicom_mark.h"
+#include "common/load/series_list.h"
 #include "common/load/volume_block.h"
 #include "common/math/lattice.h"
 #include "loaders/dicom/dicom_pixels.h"
@@ -65,13 +66,10 @@ struct Listed {
   std::vector<std::string> files;
 };
 
-std::string list_of(const std::vector<Listed>& all) {
-  std::string text;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    text += (i > 0 ? ", " : "") + std::to_string(i + 1) + " (" + all[i].title + ", " +
-            counted(all[i].files.size(), "file") + ")";
-  }
-  return text;
+std::vector<ListedSeries> listed(const std::vector<Listed>& all) {
+  std::vector<ListedSeries> series;
+  for (const Listed& one : all) series.push_back({one.title, one.files.size()});
+  return series;
 }
 
 /// Series with images, in the order of their first files. A file that is damaged costs that file and a word in `lost`.
@@ -115,7 +113,8 @@ const Listed& chosen(const std::vector<Listed>& all, const std::string& asked, c
   if (number && *number >= 1 && *number <= all.size()) return all[*number - 1];
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const Listed& one) { return one.series == asked; });
-  if (found == all.end()) throw usage_error("--series " + asked + ": " + place + " has " + list_of(all));
+  if (found == all.end())
+    throw usage_error("--series " + asked + ": " + place + " has " + series_list(listed(all)));
   return *found;
 }
 
@@ -310,8 +309,7 @@ class DicomLoader : public Loader {
       series = &chosen(all, request.series, place);
     } else if (several) {
       if (all.size() > 1) {
-        throw usage_error(place + ": holds " + std::to_string(all.size()) + " series: " + list_of(all) +
-                          "; choose one by --series NUMBER");
+        throw usage_error(series_question(place, listed(all)));
       }
       series = &all.front();
     } else {

@@ -209,6 +209,7 @@ std::optional<FileDialog::Paths> FileDialog::accept() {
     return std::nullopt;
   }
   if (on_entry) return accept_entry(FolderEntry(*entry));
+  if (typed_.empty() && request_->shows && request_->shows(folder_, true)) return Paths{folder_};
   notice_ = typed_.empty() ? "choose a file" : "nothing here is called " + typed_;
   return std::nullopt;
 }
@@ -252,7 +253,7 @@ void FileDialog::draw_entry(std::size_t place) {
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) accepts_ = true;
     takes_focus_ = true;
   }
-  if (entry.folder && entry.offered) hint("can be opened as a whole; Right goes into it");
+  if (entry.folder && entry.offered) hint("can be opened as a whole; Right, or 'Go into', goes into it");
   if (shows_current_ && entry.name == current_) {
     ImGui::SetScrollHereY();
     shows_current_ = false;
@@ -279,6 +280,13 @@ bool FileDialog::draw_buttons() {
   if (!request_->writes) {
     if (checkbox("all files", &all_)) list();
     hint("also those whose names say that they cannot be opened here");
+    const auto entry =
+        std::ranges::find_if(list_.entries, [&](const FolderEntry& e) { return e.name == current_; });
+    if (entry != list_.entries.end() && entry->folder && entry->offered) {
+      ImGui::SameLine();
+      if (button("Go into")) go_to(folder_ / std::string(entry->name));
+      hint("the folder, which double clicks and Open take as a whole");
+    }
     ImGui::SameLine();
   }
   const float left = ImGui::GetWindowContentRegionMax().x - 2.0F * size.x - ImGui::GetStyle().ItemSpacing.x;

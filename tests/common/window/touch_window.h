@@ -16,6 +16,7 @@
 
 #include "common/base/error.h"
 #include "common/compose/view_keep.h"
+#include "common/load/series_list.h"
 #include "common/scene/document/setting.h"
 #include "common/servo/recording.h"
 #include "common/trace/trace.h"
@@ -53,6 +54,8 @@ class HelixModel final : public WindowModel {
   SceneState open(const InputFiles& files, Progress&) override {
     last_opened = files;
     all_opened.push_back(files);
+    if (!several.empty() && files.series.empty())
+      throw usage_error(series_question(files.files.front().string(), several));
     Document document;
     if (!files.session.empty()) document = of_session;
     document.common.session = files.session;
@@ -76,6 +79,7 @@ class HelixModel final : public WindowModel {
   std::vector<std::filesystem::path> saved_to;
   InputFiles last_opened;
   std::vector<InputFiles> all_opened;
+  std::vector<ListedSeries> several;  ///< what is opened holds these
   std::atomic<int> closed{0};
 
  private:

@@ -69,6 +69,30 @@ TEST_F(FileWindow, AFileIsOpenedByTheMouseAndWhatCannotBeOpenedIsNotListed) {
   EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"notes.txt"});
 }
 
+TEST_F(FileWindow, OneOfSeveralSeriesIsChosenByTheMouse) {
+  model_.several = {{"T1 axial", 40}, {"Head", 96}};
+  control('O');
+  press("b.vtk");
+  press("Open");
+  press("2  Head, 96 files");
+  const WindowResult result = run();
+  InputFiles wanted{{folder_.path("b.vtk")}};
+  wanted.series = "2";
+  EXPECT_EQ(model_.last_opened, wanted);
+  EXPECT_EQ(result.missing, std::vector<std::string>{});
+}
+
+TEST_F(FileWindow, NoneOfSeveralSeriesIsOpenedWhereNoneIsWanted) {
+  model_.several = {{"T1 axial", 40}, {"Head", 96}};
+  control('O');
+  press("b.vtk");
+  press("Open");
+  press("Cancel");
+  key(kEscape);
+  (void)run();
+  EXPECT_EQ(model_.all_opened.size(), 1U);
+}
+
 TEST_F(FileWindow, SeveralAreMarkedAndOpenedTogether) {
   constexpr int kInsert = 260, kDown = 264;
   control('O');
