@@ -6,12 +6,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/parallel.h"
+#include "common/base/read_as.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
@@ -26,6 +29,7 @@
 #include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
 #include "common/load/volume_block.h"
+#include "common/render/volume/voxels/sign_bit.h"
 #include "common/render/volume/voxels/value_gradient.h"
 #include "common/scene/volume_source.h"
 
@@ -94,8 +98,49 @@ ValueHistogram counted_between(const VolumeImage& image, double lower, double up
       image.point_count(), [&image](std::size_t i) { return image.value(i); }, lower, upper, kBins, threads);
 }
 
+/// How often each number of 8 or 16 bits occurs, by its bits in memory.
+template <typename T>
+std::vector<std::uint64_t> number_counts(const VolumeImage& image, int threads) {
+  constexpr std::size_t kNumbers = std::size_t{1} << (8 * sizeof(T));
+  std::vector<std::uint64_t> counts(kNumbers, 0);
+  std::mutex joining;
+  parallel_for(image.point_count(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<std::uint64_t> own(kNumbers, 0);
+    for (std::size_t i = first; i < last; ++i) ++own[read_as<T>(image.bytes, i)];
+    const std::lock_guard lock(joining);
+    for (std::size_t n = 0; n < kNumbers; ++n) counts[n] += own[n];
+  });
+  return counts;
+}
+
+/// As histogram_of() does, of numbers of which there are few: the voxels are gone through once.
+template <typename T>
+ValueHistogram histogram_of_numbers(const VolumeImage& image, int threads) {
+  constexpr std::size_t kBins = 1024;
+  const std::vector<std::uint64_t> counts = number_counts<T>(image, threads);
+  return bulk_histogram(
+      [&](double lower, double upper) {
+        ValueHistogram histogram{
+            .lower = lower, .upper = upper, .counts = std::vector<std::uint64_t>(kBins, 0)};
+        const HistogramBins bins(lower, upper, kBins);
+        for (std::size_t bits = 0; bits < counts.size(); ++bits) {
+          const auto number = static_cast<T>(static_cast<T>(bits) ^ sign_bit<T>(image));
+          const auto bin = bins.of(image.offset + image.scale * static_cast<double>(number));
+          if (!bin) continue;
+          histogram.counts[*bin] += counts[bits];
+          histogram.total += counts[bits];
+        }
+        return histogram;
+      },
+      image.lowest, image.highest);
+}
+
 /// Where all values lie but a few far ones.
 ValueHistogram histogram_of(const VolumeImage& image, int threads) {
+  if (!image.sparse && image.type == ScalarType::kUint8)
+    return histogram_of_numbers<std::uint8_t>(image, threads);
+  if (!image.sparse && image.type == ScalarType::kUint16)
+    return histogram_of_numbers<std::uint16_t>(image, threads);
   return bulk_histogram(
       [&](double lower, double upper) { return counted_between(image, lower, upper, threads); }, image.lowest,
       image.highest);

@@ -4,10 +4,16 @@
 #include <cstdint>
 #include <cstdio>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <span>
 #include <type_traits>
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
+#include "common/base/parallel.h"
+#include "common/base/read_as.h"
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/cells/boundary_values.h"
 #include "common/field/cells/cell_values.h"
@@ -68,6 +74,48 @@ bool share_values(const FieldGrid& grid, const std::vector<DataSet>& used, const
       return share<std::int16_t>(array, values);
     case ScalarType::kUint16:
       return share<std::uint16_t>(array, values);
+    default:
+      return false;
+  }
+}
+
+template <typename T>
+void reorder(const FieldGrid& grid, const DataArray& array, int threads, PointScalars& values) {
+  const Index3& n = grid.box->points();
+  const auto row = as_size(n.x);
+  const std::shared_ptr<T[]> numbers(new T[array.tuples]);
+  parallel_for(as_size(n.y) * as_size(n.z), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      const int y = static_cast<int>(i % as_size(n.y)), z = static_cast<int>(i / as_size(n.y));
+      const std::size_t from = grid.data_index(n, {0, y, z});
+      const bool falls = grid.data_index(n, {1, y, z}) < from;
+      T* const to = numbers.get() + i * row;
+      for (std::size_t x = 0; x < row; ++x) to[x] = read_as<T>(array.bytes, falls ? from - x : from + x);
+    }
+  });
+  values.values = std::span<const T>(numbers.get(), array.tuples);
+  values.owner = numbers;
+}
+
+/// Takes whole numbers of 8 or 16 bits in the order of a box grid whose axes run the other way than the data's: the axes of
+/// most medical images do. @return false, nothing done, for others.
+bool reorder_values(const FieldGrid& grid, const std::vector<DataSet>& used, const ScalarChoice& choice,
+                    int threads, PointScalars& values) {
+  if (!grid.box || grid.blanked || used.size() != 1 || choice.association != Association::kPoint ||
+      choice.component != 0)
+    return false;
+  const DataArray& array = *used.front().find(choice.array, Association::kPoint);
+  if (array.components != 1 || array.sparse || array.tuples != grid.point_count()) return false;
+  switch (array.type) {
+    case ScalarType::kUint8:
+      reorder<std::uint8_t>(grid, array, threads, values);
+      return true;
+    case ScalarType::kInt16:
+      reorder<std::int16_t>(grid, array, threads, values);
+      return true;
+    case ScalarType::kUint16:
+      reorder<std::uint16_t>(grid, array, threads, values);
+      return true;
     default:
       return false;
   }
@@ -145,7 +193,9 @@ class ScalarFieldBuilder {
                                                       int threads) {
     auto field = on_grid(std::move(grid), choice.array);
     field->notes_ = std::move(notes);
-    if (!share_values(*field->grid_, used, choice, field->values_)) gather(used, choice, threads, *field);
+    if (!share_values(*field->grid_, used, choice, field->values_) &&
+        !reorder_values(*field->grid_, used, choice, threads, field->values_))
+      gather(used, choice, threads, *field);
     take_range(*field, threads);
     return field;
   }
@@ -256,6 +306,17 @@ class ScalarFieldBuilder {
     field.lowest_ = std::numeric_limits<double>::infinity();
     field.highest_ = -std::numeric_limits<double>::infinity();
     std::size_t bad = 0;
+    std::mutex joining;
+    const auto include_whole = [&]<typename T>(std::span<const T> values) {
+      parallel_for(values.size(), threads, [&](std::size_t first, std::size_t last) {
+        const auto [least, most] = std::minmax_element(values.begin() + static_cast<std::ptrdiff_t>(first),
+                                                       values.begin() + static_cast<std::ptrdiff_t>(last));
+        const double lowest = *least, highest = *most;
+        const std::lock_guard lock(joining);
+        field.lowest_ = std::min(field.lowest_, lowest);
+        field.highest_ = std::max(field.highest_, highest);
+      });
+    };
     const auto include = [&](const auto& values) {
       for (const auto stored : values) {
         const auto value = static_cast<double>(stored);
@@ -274,6 +335,8 @@ class ScalarFieldBuilder {
             field.lowest_ = range.lowest;
             field.highest_ = range.highest;
             bad = range.not_finite;
+          } else if constexpr (std::is_integral_v<typename std::decay_t<decltype(values)>::value_type>) {
+            include_whole(values);
           } else {
             include(values);
           }

@@ -267,6 +267,23 @@ TEST(ScalarField, StandsAloneOnVolumesOfAnyType) {
     EXPECT_NEAR(field->sample(x, hint).value, at.x + 4.0 * (at.y + 5.0 * at.z), 1e-12);
     EXPECT_LT(glm::distance(field->gradient(x, hint).value, Vec3(2.0, 8.0, 40.0)), 1e-12);
   }
+  // Along axes that run the other way, in the type that it has.
+  for (const DataArray& each : {arrays[1], arrays[2], arrays[3]}) {
+    DataSet block;
+    UniformTopology mirrored = topology;
+    mirrored.axes[0] *= -1.0;
+    mirrored.axes[1] *= -1.0;
+    block.topology = mirrored;
+    block.arrays = {each};
+    const auto field = make_scalar_field({block}, {"t"}, "test");
+    EXPECT_FALSE(std::holds_alternative<std::span<const float>>(field->values().values));
+    EXPECT_EQ(field->lowest(), 0.0);
+    EXPECT_EQ(field->highest(), 119.0);
+    CellHint hint;
+    const Vec3 at{1.25, 2.5, 3.75};
+    const Vec3 x = mirrored.origin + mirrored.axes * at;
+    EXPECT_NEAR(field->sample(x, hint).value, at.x + 4.0 * (at.y + 5.0 * at.z), 1e-12);
+  }
   // What the type already holds is not copied.
   DataSet block;
   block.topology = topology;
