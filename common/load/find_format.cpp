@@ -141,6 +141,7 @@ Format find_format(const std::filesystem::path& path) {
     if (row.recognise_folder(folder)) return row.format;
     refuse(path, "marks no folder of " + std::string(row.folder), std::string(row.marks) + " beside it");
   }
+  if (ending == ".h5") ending = lower_ending(path.stem()) + ending;
   if (head.file_size == 0) refuse(path, "is empty", readable());
   if (const auto header = header_of_pair(path, head.bytes)) return find_format(*header);
   const bool packed = is_gzip(head.bytes);
@@ -160,6 +161,10 @@ Format find_format(const std::filesystem::path& path) {
     refuse(path, "a gzip file" + (of.empty() ? "" : " of " + of), readable(),
            known && !sniffed.remedy.empty() ? sniffed.remedy : "unpack it first");
   }
+  // Of a kind that is known what to do comes first.
+  const bool named = sniffed.found.starts_with("a ") || sniffed.found.starts_with("an ");
+  if (!sniffed.format && named && !sniffed.remedy.empty())
+    refuse(path, "is " + sniffed.found + ", which is not read", "", sniffed.remedy);
   if (!sniffed.format) refuse(path, sniffed.found, readable(), sniffed.remedy);
   return *sniffed.format;
 }

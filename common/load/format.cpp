@@ -336,12 +336,18 @@ bool is_analyze(const FileHead& head) {
 
 constexpr const char* kByMeshio = "convert it: 'meshio convert THIS out.vtu'";
 constexpr const char* kByParaview = "write it as .vtu or .vtm, in ParaView for one";
+constexpr const char* kByLateParaview = "write it as .vtu in ParaView 5.12 or later, which reads UGRID";
+constexpr const char* kUgrid = "a netCDF file of a mesh (UGRID)";
+constexpr const char* kBySu2 = "add PARAVIEW to OUTPUT_FILES of SU2's configuration, and open the .vtu";
 
 Sniffed hdf5_file(const FileHead& head) {
   const std::string_view text = text_of(head);
-  if (is_ugrid(text)) return {{}, "a netCDF file of a mesh (UGRID)", kByParaview};
-  if (head.ending == ".h5" && has(text, "settings"))
-    return {{}, "an HDF5 file, perhaps of Fluent (.cas.h5, .dat.h5)", kByParaview};
+  if (is_ugrid(text)) return {{}, kUgrid, kByLateParaview};
+  if (head.ending == ".cas.h5" || head.ending == ".dat.h5")
+    return {{},
+            "a Fluent file in HDF5",
+            "write it from Fluent as .cas and .dat without HDF5, or in ParaView as .vtu"};
+  if (head.ending == ".silo") return {{}, "a Silo file", "write it as .vtk, in VisIt for one"};
   if (head.ending == ".med") return {{}, "a MED file (in HDF5)", kByMeshio};
   return {{}, "an HDF5 file", "read from HDF5 are Exodus II (.ex2, .exo, .e), CGNS, VTKHDF and netCDF (.nc)"};
 }
@@ -367,6 +373,8 @@ std::optional<Sniffed> known_mesh(const FileHead& head) {
       Known{"solid ", "an STL surface", "a flow is in a volume: open the solution"},
       Known{"ply\n", "a PLY surface", "a flow is in a volume: open the solution"},
       Known{"prostar", "a STAR-CD file", "export the solution as EnSight Gold"},
+      Known{"\"pointid\"", "a table of SU2's", kBySu2},
+      Known{"gid post", "a file of GiD", kByMeshio},
       Known{"begin bulk", "a Nastran file", kByMeshio},
       Known{"nastran", "a Nastran file", kByMeshio}};
   const std::string start = lowered(trimmed(text.substr(0, 256)));
@@ -379,6 +387,19 @@ std::optional<Sniffed> known_mesh(const FileHead& head) {
   if (fluent && ending == ".msh")
     return Sniffed{{}, "a Fluent mesh, which holds no flow", "open the .cas of a solution"};
   if (ending == ".nek5000") return Sniffed{{}, "a Nek5000 index", kByParaview};
+  if (ending == ".re2")
+    return Sniffed{
+        {}, "a mesh of Nek5000, which holds no flow", "open the .nek5000 file in ParaView, and write a .vtu"};
+  if (ending == ".ugrid") return Sniffed{{}, "an AFLR3 mesh, which holds no flow", "open the solution"};
+  if (ending == ".res" && has(text.substr(0, 256), "CFX"))
+    return Sniffed{{}, "a result of CFX", "export it as CGNS or EnSight Gold"};
+  if (text.starts_with("\x07") && (ending == ".inp" || ending == ".ucd" || ending == ".avs"))
+    return Sniffed{{}, "an AVS UCD file in binary", "write it as text, or as .vtu in ParaView"};
+  constexpr std::string_view kSu2Mark("\xec\x2b\x08\0", 4);  // 535532
+  if (text.starts_with(kSu2Mark)) return Sniffed{{}, "a restart file of SU2", kBySu2};
+  if (ending == ".ccm" || ending == ".ccmg" || ending == ".ccmp" || ending == ".ccmt")
+    return Sniffed{{}, "a STAR-CCM+ file", "export the solution as EnSight Gold"};
+  if (ending == ".bdf" || ending == ".nas") return Sniffed{{}, "a Nastran file", kByMeshio};
   if (ending == ".sim") return Sniffed{{}, "a STAR-CCM+ file", "export the solution as EnSight Gold"};
   if (ending == ".unv") return Sniffed{{}, "an I-DEAS universal file", "convert it to .vtu"};
   if (has(text.substr(0, 256), "C Binary") || start.starts_with("ensight"))
@@ -400,7 +421,7 @@ std::optional<Sniffed> known_other(const FileHead& head) {
         {}, "a VTK XML file of type " + type, "write its pieces as .vti, .vtr, .vts, .vtu or .vtm"};
   }
   if (is_xml(head)) return Sniffed{{}, "an XML file that is not VTK's", ""};
-  if (is_netcdf(text)) return Sniffed{{}, "a netCDF file of a mesh (UGRID)", kByParaview};
+  if (is_netcdf(text)) return Sniffed{{}, kUgrid, kByLateParaview};
   if (is_hdf5(text)) return hdf5_file(head);
   if (auto mesh = known_mesh(head)) return *std::move(mesh);
   if (head.ending == ".toml" && has(text, "format = ") && has(text, "program = "))

@@ -27,6 +27,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/load/volume_block.h"
 
 namespace palpate {
@@ -288,21 +289,27 @@ std::vector<std::uint8_t> visible_points(vtkDataSet* data, const std::vector<std
   return visible;
 }
 
-/// Without the cells that are hidden, or that another piece owns too: these would lie twice in a joined mesh.
-vtkSmartPointer<vtkDataSet> without_ghost_cells(vtkUnstructuredGrid* grid) {
+/// One byte a cell, 1 where it is hidden or another piece owns it too: it would lie twice in a joined mesh.
+std::vector<std::uint8_t> ghost_cells(vtkUnstructuredGrid* grid) {
   constexpr unsigned kGone = kHiddenCell | vtkDataSetAttributes::DUPLICATECELL;
   const std::vector<unsigned> marks = ghosts_of(grid->GetCellData(), grid->GetNumberOfCells());
-  if (std::none_of(marks.begin(), marks.end(), [](unsigned mark) { return (mark & kGone) != 0; }))
-    return grid;
+  std::vector<std::uint8_t> gone(marks.size());
+  std::transform(marks.begin(), marks.end(), gone.begin(),
+                 [](unsigned mark) { return static_cast<std::uint8_t>((mark & kGone) != 0 ? 1 : 0); });
+  return gone;
+}
+
+vtkSmartPointer<vtkDataSet> without_ghost_cells(vtkUnstructuredGrid* grid) {
+  const std::vector<std::uint8_t> ghosts = ghost_cells(grid);
+  if (std::find(ghosts.begin(), ghosts.end(), 1) == ghosts.end()) return grid;
   const auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
   copy->ShallowCopy(grid);
   const auto gone = vtkSmartPointer<vtkUnsignedCharArray>::New();
   gone->SetName(vtkDataSetAttributes::GhostArrayName());
   gone->SetNumberOfTuples(grid->GetNumberOfCells());
-  for (std::size_t c = 0; c < marks.size(); ++c) {
-    constexpr unsigned kDuplicate = vtkDataSetAttributes::DUPLICATECELL;
-    gone->SetValue(static_cast<vtkIdType>(c),
-                   static_cast<unsigned char>((marks[c] & kGone) != 0 ? kDuplicate : 0U));
+  for (std::size_t c = 0; c < ghosts.size(); ++c) {
+    constexpr unsigned char kDuplicate = vtkDataSetAttributes::DUPLICATECELL;
+    gone->SetValue(static_cast<vtkIdType>(c), ghosts[c] != 0 ? kDuplicate : 0U);
   }
   copy->GetCellData()->AddArray(gone);
   copy->RemoveGhostCells();
@@ -402,6 +409,17 @@ std::string why_not_volume(vtkDataSet* data) {
   return "";
 }
 
+std::size_t ghost_cell_count(vtkDataSet* data) {
+  auto* const grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid == nullptr) return 0;
+  const std::vector<std::uint8_t> gone = ghost_cells(grid);
+  return as_size(std::count(gone.begin(), gone.end(), 1));
+}
+
+std::string ghost_cells_note(std::size_t count) {
+  return counted(count, "cell") + " left out: marked as hidden, or as another piece's too (vtkGhostType)";
+}
+
 std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const std::string& kind,
                                     const std::string& file, std::vector<std::string>* notes) {
   std::vector<VtkBlock> volumes;
@@ -424,6 +442,9 @@ std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const s
   }
   if (volumes.empty() && flats.empty()) throw input_error({file, "", why, "a " + kind + " of volume cells"});
   if (notes != nullptr) {
+    std::size_t ghosts = 0;
+    for (const VtkBlock& block : volumes) ghosts += ghost_cell_count(block.data);
+    if (ghosts > 0) notes->push_back(ghost_cells_note(ghosts));
     notes->insert(notes->end(), left_out.begin(), left_out.end());
     if (!volumes.empty()) notes->insert(notes->end(), flat_left_out.begin(), flat_left_out.end());
   }

@@ -156,6 +156,7 @@ class VtkFiles : public Loader {
                              "': six numbers taken as a tensor in VTK's order (xx yy zz xy yz xz)");
       }
     }
+    if (ghost_cells_ > 0) info.notes.push_back(ghost_cells_note(ghost_cells_));
     const auto& first = steps_.front().pieces;
     if (std::ranges::any_of(first, [](const FilePiece& piece) { return piece.level > 0; }))
       info.notes.emplace_back("where levels of refinement lie over one another, the finest counts");
@@ -350,6 +351,7 @@ class VtkFiles : public Loader {
         continue;
       }
       BlockInfo about = describe_block(block.data, name);
+      ghost_cells_ += ghost_cell_count(block.data);
       if (opened.xml) {
         about.arrays.clear();
         for (const XmlArray& array : opened.xml->scan().arrays) {
@@ -389,6 +391,7 @@ class VtkFiles : public Loader {
   bool tensors_ = false;    ///< asked for: arrays of six numbers are symmetric tensors
   bool has_volume_ = true;  ///< of the first step: then what is no volume is left out
   std::size_t open_step_ = 0;
+  std::size_t ghost_cells_ = 0;  ///< of the first step
   std::map<std::string, OpenFile> open_files_;
 };
 

@@ -18,6 +18,11 @@ using test::TempFolder;
 
 Source opened(const std::filesystem::path& file) { return Source::open({.files = {file}, .solution = {}}); }
 
+bool noted(const Source& source, const std::string& words) {
+  return std::ranges::any_of(source.info().notes,
+                             [&](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
 /// The message of a refusal as bad input.
 std::string refusal(const std::filesystem::path& file) {
   try {
@@ -208,14 +213,17 @@ TEST(TextDialects, HiddenCellsOneLayerThickStayHidden) {
 
 TEST(TextDialects, HiddenCellsOfAMeshAreNotThere) {
   const TempFolder folder;
-  for (const char* type : {"UInt8", "Int32"}) {
-    std::string second = cube_piece(1, velocity(1.0));
-    std::string first = cube_piece(0, velocity(1.0));
-    const std::string cells = "<CellData>";
-    first.insert(first.find("<Points>"), cells + array("vtkGhostType", type, 1, "32") + "</CellData>");
-    second.insert(second.find("<Points>"), cells + array("vtkGhostType", type, 1, "0") + "</CellData>");
-    Source source = opened(folder.write("a.vtu", mesh(first + second)));
-    EXPECT_EQ(source.read({"U"}).at(0).cell_count(), 1U) << type;
+  for (const char* mark : {"32", "1"}) {  // hidden, another piece's too
+    for (const char* type : {"UInt8", "Int32"}) {
+      std::string second = cube_piece(1, velocity(1.0));
+      std::string first = cube_piece(0, velocity(1.0));
+      const std::string cells = "<CellData>";
+      first.insert(first.find("<Points>"), cells + array("vtkGhostType", type, 1, mark) + "</CellData>");
+      second.insert(second.find("<Points>"), cells + array("vtkGhostType", type, 1, "0") + "</CellData>");
+      Source source = opened(folder.write("a.vtu", mesh(first + second)));
+      EXPECT_EQ(source.read({"U"}).at(0).cell_count(), 1U) << type;
+      EXPECT_TRUE(noted(source, "1 cell left out")) << mark;
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include "common/load/format.h"
 
+#include <array>
 #include <map>
 #include <set>
 
@@ -172,10 +173,30 @@ TEST(Sniff, OthersAreDescribed) {
                                                         {"*HEADING\n", "Abaqus"},
                                                         {"\x89HDF\r\n\x1a\n", "HDF5"},
                                                         {"MeshVersionFormatted 2", "Medit"},
+                                                        {std::string("\xec\x2b\x08\0\5", 5), "SU2"},
+                                                        {"\"PointID\",\"x\"", "SU2"},
                                                         {"", "not recognised"}}) {
     const Sniffed result = sniffed(content);
     EXPECT_FALSE(result.format) << content;
     EXPECT_NE(result.found.find(word), std::string::npos) << result.found;
+  }
+}
+
+TEST(Sniff, EndingsNameWhatTheBytesDoNot) {
+  const std::string hdf5 = "\x89HDF\r\n\x1a\n";
+  for (const auto& [content, ending, word] : std::vector<std::array<std::string, 3>>{
+           {hdf5, ".cas.h5", "Fluent"},
+           {hdf5, ".dat.h5", "Fluent"},
+           {hdf5, ".silo", "Silo"},
+           {std::string("\x07\0\0\0\x08", 5), ".inp", "AVS UCD file in binary"},
+           {"Adf Database", ".ccm", "STAR-CCM+"},
+           {"8 0 0 0 0 0 1\n", ".ugrid", "AFLR3"},
+           {"#v002 512 3", ".re2", "Nek5000"},
+           {"CEND\nBEGIN BULK\n", ".bdf", "Nastran"}}) {
+    const Sniffed result = sniffed(content, ending);
+    EXPECT_FALSE(result.format) << ending;
+    EXPECT_NE(result.found.find(word), std::string::npos) << ending << ": " << result.found;
+    EXPECT_FALSE(result.remedy.empty()) << ending;
   }
 }
 
@@ -221,6 +242,18 @@ TEST(FindFormat, AnEmptyFoamFileMarksTheCaseAroundIt) {
   folder.write("constant/x", "");
   EXPECT_EQ(find_format(foam), Format::kOpenFoam);
   EXPECT_EQ(find_format(folder.path()), Format::kOpenFoam);
+}
+
+TEST(FindFormat, OfAKnownKindItSaysWhatToDoAlone) {
+  const test::TempFolder folder;
+  EXPECT_EQ(
+      refusal(folder.write("a.f00001", "#std 4 6 6 6")),
+      folder.path("a.f00001").string() +
+          ": is a Nek5000 file, which is not read; open the .nek5000 file beside it in ParaView, and write a .vtu");
+  const std::string fluent = refusal(folder.write("a.cas.h5", "\x89HDF\r\n\x1a\n"));
+  EXPECT_NE(fluent.find("is a Fluent file in HDF5, which is not read; write it from Fluent"),
+            std::string::npos)
+      << fluent;
 }
 
 TEST(FindFormat, AnUnknownFileOrFolderIsAnsweredWithAllThatCanBeOpened) {

@@ -1,6 +1,9 @@
-// A loader of images with its library behind it. The build names its folder, how it is made, and its format.
-#include PALPATE_FUZZ_HEADER
+// A loader of one file with its library behind it. The build names how it is made, and its format.
 #include "tests/fuzz/reader_fuzz.h"
+
+namespace palpate {
+[[nodiscard]] std::unique_ptr<Loader> PALPATE_FUZZ_MAKE();
+}
 
 using namespace palpate;
 
