@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/text.h"
+#include "loaders/cfd/fluent_faces.h"
 
 namespace palpate {
 namespace {
@@ -29,33 +30,14 @@ std::optional<std::uint64_t> hexadecimal(std::string_view word) {
   return value;
 }
 
-/// Where the section of text that begins at `at` ends, behind its last bracket; npos where it does not. Brackets count as
-/// VTK counts them: within quotation marks, too.
-std::size_t end_of_text_section(std::string_view text, std::size_t at) {
-  std::size_t depth = 0;
-  for (std::size_t i = text.find_first_of("()", at); i != std::string_view::npos;
-       i = text.find_first_of("()", i + 1)) {
-    depth = text[i] == '(' ? depth + 1 : depth - 1;
-    if (depth == 0) return i + 1;
-  }
-  return std::string_view::npos;
-}
-
 /// What is wrong with the sections of a Fluent file one after the other, or empty. VTK's reader goes on without end for
 /// what has none.
 std::string sections_problem(std::string_view text) {
-  for (std::size_t at = text.find('('); at != std::string_view::npos; at = text.find('(', at)) {
-    const std::size_t digits = std::min(text.find_first_not_of("0123456789", at + 1), text.size());
-    const std::string number(text.substr(at + 1, digits - at - 1));
-    if (number.empty() || digits == text.size() || text[digits] != ' ')
-      return "has a section '" + printable(text.substr(at, 24)) + "' without a number and a blank behind it";
-    const bool binary = number.size() > 3;
-    const std::string words = "End of Binary Section   " + number + ")";
-    const std::size_t end = binary ? text.find(words, digits) : end_of_text_section(text, at);
-    if (end == std::string_view::npos) return "has a section " + number + " that does not end";
-    at = binary ? end + words.size() : end;
+  std::string problem;
+  std::size_t at = 0;
+  while (next_fluent_section(text, at, problem)) {
   }
-  return {};
+  return problem;
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include <vtkCellType.h>
 #include <vtkFLUENTReader.h>
 #include <vtkGAMBITReader.h>
 #include <vtkProStarReader.h>
@@ -15,6 +17,7 @@
 #include "common/base/index.h"
 #include "common/load/helper/chosen_loader.h"
 #include "loaders/cfd/cfd_check.h"
+#include "loaders/cfd/fluent_faces.h"
 #include "loaders/vtk/one_reader.h"
 
 namespace palpate {
@@ -34,6 +37,7 @@ class FluentReader : public OneReader {
     if (!std::filesystem::exists(values, error))
       throw input_error({file, "", "has no values beside it", "its data in " + values});
     refuse(values, fluent_problem(MappedFile(values).text()));
+    file_ = file;
     reader_ = vtkSmartPointer<vtkFLUENTReader>::New();
     reader_->SetFileName(file.c_str());
     return reader_;
@@ -44,8 +48,17 @@ class FluentReader : public OneReader {
       reader_->SetCellArrayStatus(name.c_str(), wanted == nullptr || wanted->count(name) > 0 ? 1 : 0);
     }
   }
+  /// VTK leaves polyhedra as sets of points.
+  void finish(DataSet& block) override {
+    auto& mesh = std::get<UnstructuredTopology>(block.topology);
+    if (std::ranges::find(mesh.types, VTK_CONVEX_POINT_SET) == mesh.types.end()) return;
+    if (!faces_) faces_ = read_fluent_faces(MappedFile(file_).text());
+    refuse(file_, restore_polyhedra(mesh, *faces_));
+  }
 
  private:
+  std::string file_;
+  std::optional<FluentFaces> faces_;  ///< read where there are polyhedra
   vtkSmartPointer<vtkFLUENTReader> reader_;
 };
 

@@ -10,6 +10,7 @@
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
 #include "loaders/cfd/cfd_check.h"
+#include "loaders/cfd/fluent_faces.h"
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight/ensight_check.h"
@@ -82,6 +83,21 @@ void read_foam(std::string_view text) {
   }
 }
 
+/// Polyhedra of Fluent from whatever faces: two cells of four and five points.
+void read_fluent(std::string_view text) {
+  const FluentFaces faces = read_fluent_faces(text);
+  if (!faces.problem.empty()) return;
+  if (faces.begin.size() != faces.cells.size() + 1 || faces.begin.back() != faces.points.size())
+    __builtin_trap();
+  UnstructuredTopology mesh;
+  mesh.types = {41, 41, 10};
+  mesh.offsets = {0, 4, 9, 13};
+  mesh.connectivity = {0, 1, 2, 3, 1, 2, 3, 4, 5, 0, 1, 2, 4};
+  if (!restore_polyhedra(mesh, faces).empty()) return;
+  if (mesh.types[0] != 42 || mesh.offsets.back() != static_cast<std::int64_t>(mesh.connectivity.size()))
+    __builtin_trap();
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -134,6 +150,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       break;
     case 10:
       (void)fluent_problem(text);
+      read_fluent(text);
       break;
     case 11:
       (void)gambit_problem(text);

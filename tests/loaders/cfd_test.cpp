@@ -13,6 +13,7 @@
 #include "common/base/text.h"
 #include "common/load/load.h"
 #include "loaders/cfd/cfd_check.h"
+#include "loaders/cfd/fluent_faces.h"
 #include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
@@ -41,11 +42,12 @@ std::string hex(int value) {
 
 /// Fluent's user guide, "Case and data file formats": faces with their two cells, the first on the side that a right
 /// hand's thumb points away from.
-std::string fluent_case(const std::string& nodes = hex(4 * (kCubes + 1))) {
+/// @param polyhedra the cubes are polyhedra of polygons.
+std::string fluent_case(const std::string& nodes = hex(4 * (kCubes + 1)), bool polyhedra = false) {
   std::string inner, outer;
   int of_inner = 0, of_outer = 0;
-  const auto face = [](std::array<int, 4> corners, int cell, int other) {
-    std::string out;
+  const auto face = [&](std::array<int, 4> corners, int cell, int other) {
+    std::string out = polyhedra ? "4 " : "";
     for (const int corner : corners) out += hex(corner) + " ";
     return out + hex(cell) + " " + hex(other) + "\n";
   };
@@ -64,11 +66,12 @@ std::string fluent_case(const std::string& nodes = hex(4 * (kCubes + 1))) {
       (shared ? of_inner : of_outer) += 1;
     }
   }
-  const std::string cells = hex(kCubes), faces = hex(of_inner + of_outer);
+  const std::string cells = hex(kCubes), faces = hex(of_inner + of_outer), of_faces = polyhedra ? "5" : "4";
   return "(0 \"a row of cubes\")\n(2 3)\n(10 (0 1 " + nodes + " 0 3))\n(10 (1 1 " + hex(4 * (kCubes + 1)) +
          " 1 3)(\n" + places_of_points(false) + "))\n(12 (0 1 " + cells + " 0))\n(12 (2 1 " + cells +
-         " 1 4))\n(13 (0 1 " + faces + " 0))\n(13 (3 1 " + hex(of_inner) + " 2 4)(\n" + inner +
-         "))\n(13 (4 " + hex(of_inner + 1) + " " + faces + " 3 4)(\n" + outer +
+         (polyhedra ? " 1 7" : " 1 4") + "))\n(13 (0 1 " + faces + " 0))\n(13 (3 1 " + hex(of_inner) + " 2 " +
+         of_faces + ")(\n" + inner + "))\n(13 (4 " + hex(of_inner + 1) + " " + faces + " 3 " + of_faces +
+         ")(\n" + outer +
          "))\n(45 (2 fluid fluid-2)())\n(45 (3 interior default-interior)())\n(45 (4 wall wall-4)())\n";
 }
 
@@ -119,6 +122,48 @@ TEST(Fluent, CasesAreReadWithTheirValues) {
     for (int cell = 0; cell < kCubes; ++cell)
       EXPECT_EQ(array->at(static_cast<std::size_t>(cell)), value_of(variable, cell));
   }
+}
+
+// Each cube of its six faces, all seen from outside.
+TEST(Fluent, PolyhedraHaveTheirFaces) {
+  const TempFolder folder;
+  const std::string text = fluent_case(hex(4 * (kCubes + 1)), true);
+  const auto file = folder.write("a.cas", text);
+  (void)folder.write("a.dat", fluent_values());
+  Source source = Source::open({{file}, {}});
+  const DataSet block = source.read({"X_VELOCITY"}).at(0);
+  const auto& mesh = std::get<UnstructuredTopology>(block.topology);
+  ASSERT_EQ(mesh.types, (std::vector<std::uint8_t>(kCubes, 42)));
+  for (std::size_t c = 0; c < kCubes; ++c) {
+    const Vec3 middle{static_cast<double>(c) + 0.5, 0.5, 0.5};
+    auto at = static_cast<std::size_t>(mesh.offsets[c]);
+    ASSERT_EQ(mesh.connectivity.at(at++), 6);
+    Vec3 sides{0.0};
+    for (int face = 0; face < 6; ++face) {
+      ASSERT_EQ(mesh.connectivity.at(at++), 4);
+      std::array<Vec3, 4> x;
+      for (Vec3& corner : x) {
+        const auto p = static_cast<std::size_t>(mesh.connectivity.at(at++));
+        corner = {mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)};
+      }
+      const Vec3 normal = glm::cross(x[1] - x[0], x[2] - x[0]);
+      const Vec3 outwards = 0.5 * (x[0] + x[2]) - middle;
+      EXPECT_EQ(normal, 2.0 * outwards) << "cube " << c << ", face " << face;
+      sides += glm::abs(outwards);
+    }
+    EXPECT_EQ(sides, Vec3{1.0});
+    EXPECT_EQ(static_cast<std::int64_t>(at), mesh.offsets[c + 1]);
+  }
+  EXPECT_EQ(read_fluent_faces(text).cells.size(), 16U);
+  std::string hanging = text;
+  hanging.insert(hanging.find("(45 (2"), "(59 (1 1 4 3)(2 5 6))\n");
+  Source parted = Source::open({{folder.write("a.cas", hanging)}, {}});
+  EXPECT_THROW((void)parted.read({"X_VELOCITY"}), Error);
+  EXPECT_NE(read_fluent_faces(hanging).problem.find("hanging nodes"), std::string::npos);
+  EXPECT_NE(read_fluent_faces("(13 (3 1 2 2 5)(\n4 1 2 3 4 1 0))").problem.find("fewer faces"),
+            std::string::npos);
+  EXPECT_NE(read_fluent_faces("(13 (3 1 1 2 5)(\nfffffff 1 2))").problem.find("a face of 268435455"),
+            std::string::npos);
 }
 
 TEST(Fluent, WhatIsMissingOrClaimedIsSaid) {
