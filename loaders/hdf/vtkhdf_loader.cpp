@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/text.h"
 #include "common/load/helper/serve.h"
 #include "common/load/step_times.h"
 #include "loaders/hdf/hdf5_check.h"
@@ -79,8 +80,8 @@ class VtkHdfLoader : public Loader {
     const std::vector<double> version = root.numbers("Version");
     constexpr double kRead = 2.0;
     if (version.empty() || version[0] <= kRead) return;
-    throw input_error({file_, "", "is VTKHDF of version " + std::to_string(static_cast<int>(version[0])),
-                       "version 1 or 2", kWayOut});
+    throw input_error(
+        {file_, "", "is VTKHDF of version " + short_number(version[0]), "version 1 or 2", kWayOut});
   }
 
   void find_sets(const Hdf5Group& root, std::vector<std::string>& notes) {
