@@ -13,84 +13,11 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "loaders/hdf/cgns_file.h"
+#include "loaders/hdf/cgns_shape.h"
 
 namespace palpate {
 namespace {
-
-constexpr std::array<std::uint64_t, 22> kNodesOfElement{0,  0, 1,  2, 3,  3,  6, 4,  8,  9, 4,
-                                                        10, 5, 14, 6, 15, 18, 8, 20, 27, 0, 13};
-
-class CgnsFile {
- public:
-  explicit CgnsFile(const std::string& file) : file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
-  ~CgnsFile() {
-    if (file_ >= 0) H5Fclose(file_);
-  }
-  CgnsFile(const CgnsFile&) = delete;
-  CgnsFile& operator=(const CgnsFile&) = delete;
-
-  [[nodiscard]] hid_t id() const { return file_; }
-  [[nodiscard]] bool has(const std::string& node) const {
-    return H5Lexists(file_, node.c_str(), H5P_DEFAULT) > 0;
-  }
-  [[nodiscard]] std::string label(const std::string& node) const {
-    constexpr std::size_t kLength = 33;
-    if (H5Aexists_by_name(file_, node.c_str(), "label", H5P_DEFAULT) <= 0) return {};
-    const hid_t attribute = H5Aopen_by_name(file_, node.c_str(), "label", H5P_DEFAULT, H5P_DEFAULT);
-    const hid_t type = H5Tcopy(H5T_C_S1);
-    H5Tset_size(type, kLength);
-    std::array<char, kLength + 1> text{};
-    H5Aread(attribute, type, text.data());
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return text.data();
-  }
-  /// How many numbers a node holds.
-  [[nodiscard]] std::uint64_t count(const std::string& node) const {
-    const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
-    if (set < 0) return 0;
-    const hid_t space = H5Dget_space(set);
-    const hssize_t count = H5Sget_simple_extent_npoints(space);
-    H5Sclose(space);
-    H5Dclose(set);
-    return count < 0 ? 0 : static_cast<std::uint64_t>(count);
-  }
-  /// The whole numbers of a node, few of them.
-  [[nodiscard]] std::vector<std::int64_t> numbers(const std::string& node) const {
-    constexpr std::uint64_t kMost = 512;
-    const std::uint64_t n = has(node + "/ data") ? count(node) : 0;
-    if (n == 0 || n > kMost) return {};
-    std::vector<std::int64_t> out(n);
-    const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
-    const bool read = H5Dread(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) >= 0;
-    H5Dclose(set);
-    return read ? out : std::vector<std::int64_t>{};
-  }
-  /// The names below a node, in alphabetical order.
-  [[nodiscard]] std::vector<std::string> children(const std::string& node) const {
-    std::vector<std::string> names;
-    const hid_t group = H5Gopen2(file_, node.c_str(), H5P_DEFAULT);
-    if (group < 0) return names;
-    H5Literate(
-        group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr,
-        [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
-          static_cast<std::vector<std::string>*>(data)->emplace_back(name);
-          return 0;
-        },
-        &names);
-    H5Gclose(group);
-    return names;
-  }
-  /// The characters of a node: few of them, too.
-  [[nodiscard]] std::string word(const std::string& node) const {
-    std::string text;
-    for (const std::int64_t c : numbers(node)) text += static_cast<char>(c);
-    return text;
-  }
-
- private:
-  hid_t file_;
-};
 
 struct Walk {
   const CgnsFile& file;
@@ -121,8 +48,7 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
     const std::vector<std::int64_t> about = file.numbers(group),
                                     range = file.numbers(group + "/ElementRange");
     if (about.empty() || range.size() != 2 || range[1] < range[0]) return std::nullopt;
-    if (about[0] < 0 || as_size(about[0]) >= kNodesOfElement.size()) return std::nullopt;
-    const std::uint64_t nodes = kNodesOfElement[as_size(about[0])];
+    const std::uint64_t nodes = nodes_of_element(about[0]);
     std::uint64_t count = 0;
     if (nodes == 0 ||
         __builtin_mul_overflow(static_cast<std::uint64_t>(range[1] - range[0]) + 1, nodes, &count))
@@ -253,6 +179,8 @@ std::string look_at_bases(const CgnsFile& opened, const std::string& file, std::
 std::string check_cgns(const std::string& file, std::vector<std::string>& notes) {
   const CgnsFile opened(file);
   if (opened.id() < 0) return {};
+  if (const CgnsProblem wrong = find_cgns_problem(opened); !wrong.problem.empty())
+    throw input_error({file, "'" + wrong.node + "'", wrong.problem, "", "the file may be damaged"});
   Walk walk{.file = opened, .node = {}, .problem = {}};
   H5Ovisit(opened.id(), H5_INDEX_NAME, H5_ITER_NATIVE, check_node, &walk);
   if (!walk.problem.empty())

@@ -1,9 +1,13 @@
 /// netCDF by the CF conventions through vtkNetCDFCFReader: the variables along one set of three axes, as they stand, and
 /// time.
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <netcdf.h>
 #include <vtkInformation.h>
@@ -54,8 +58,44 @@ class Attributes {
     }
     return false;
   }
+  /// What VTK's reader fails at, with what to do, or nothing: an axis longer than the file can fill, for which it makes places, and
+  /// variables along a fourth axis that is not told to be time.
+  [[nodiscard]] std::optional<std::array<std::string, 2>> problem(std::uint64_t file_size) const {
+    constexpr std::uint64_t kMostPacked = 1100;  // deflate makes no more of a byte
+    int axes = 0, variables = 0;
+    if (!opened_ || nc_inq(file_, &axes, &variables, nullptr, nullptr) != NC_NOERR) return std::nullopt;
+    for (int axis = 0; axis < axes; ++axis) {
+      std::size_t length = 0;
+      if (nc_inq_dimlen(file_, axis, &length) != NC_NOERR || length / kMostPacked <= file_size) continue;
+      return {{"has an axis '" + name_of_axis(axis) + "' of " + std::to_string(length) + " places",
+               "the file may be damaged"}};
+    }
+    for (int id = 0; id < variables; ++id) {
+      int rank = 0;
+      if (nc_inq_varndims(file_, id, &rank) != NC_NOERR || rank < 4) continue;
+      std::vector<int> along(static_cast<std::size_t>(rank));
+      if (nc_inq_vardimid(file_, id, along.data()) != NC_NOERR) continue;
+      const std::string first = name_of_axis(along[0]);
+      int of_axis = 0;
+      if (nc_inq_varid(file_, first.c_str(), &of_axis) == NC_NOERR &&
+          !(text_of(of_axis, "units") + text_of(of_axis, "standard_name") + text_of(of_axis, "axis")).empty())
+        continue;
+      std::array<char, NC_MAX_NAME + 1> name{};
+      if (nc_inq_varname(file_, id, name.data()) != NC_NOERR) continue;
+      return {
+          {"does not say that '" + printable(first) + "', the first axis of '" + printable(name.data()) +
+               "', is time",
+           "give its variable units, for example 'ncatted -a units," + printable(first) + ",c,c,s THIS'"}};
+    }
+    return std::nullopt;
+  }
 
  private:
+  [[nodiscard]] std::string name_of_axis(int axis) const {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    return nc_inq_dimname(file_, axis, name.data()) == NC_NOERR ? name.data() : "";
+  }
+
   [[nodiscard]] std::string text_of(int variable, const char* name) const {
     constexpr std::size_t kLongest = 200;
     std::size_t length = 0;
@@ -79,8 +119,12 @@ class NetcdfLoader : public OneReader {
     attributes_.emplace(file);
     if (attributes_->of_mesh()) {
       throw input_error({file, "", "is a mesh by the UGRID conventions, which VTK 9.1 has no reader of",
-                         "a grid by the CF conventions", "open it in ParaView and save it as .vtu"});
+                         "a grid by the CF conventions",
+                         "open it in ParaView 5.12 or later, which reads UGRID, and save it as .vtu"});
     }
+    std::error_code ignored;
+    if (const auto wrong = attributes_->problem(std::filesystem::file_size(file, ignored)))
+      throw input_error({file, "", wrong->at(0), "", wrong->at(1)});
     reader_ = vtkSmartPointer<vtkNetCDFCFReader>::New();
     reader_->SetFileName(file.c_str());
     reader_->SphericalCoordinatesOff();

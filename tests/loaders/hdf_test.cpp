@@ -121,6 +121,75 @@ TEST(Cgns, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(folder.write("a.cgns", "@(#)ADF Database Version B02012>")), "");
 }
 
+/// A tetrahedron, and what of it is wrong.
+struct OneTetrahedron {
+  std::vector<std::int32_t> base{3, 3}, zone{4, 1, 0}, about{10, 0}, range{1, 1}, corners{1, 2, 3, 4};
+  std::string type = "Unstructured", place = "Vertex";
+  std::vector<std::string> axes{"X", "Y", "Z"};
+  std::vector<std::int32_t> rind, offsets;
+
+  [[nodiscard]] std::string bytes() const {
+    const CgnsTree tree;
+    tree.whole("/Base", "CGNSBase_t", base);
+    tree.whole("/Base/Zone", "Zone_t", zone, {3, zone.size() / 3});
+    tree.text("/Base/Zone/ZoneType", "ZoneType_t", type);
+    tree.empty("/Base/Zone/GridCoordinates", "GridCoordinates_t");
+    for (const std::string& axis : axes) {
+      const std::size_t moved = axis == "X" ? 1 : axis == "Y" ? 2 : 3;
+      std::vector<double> places(4, 0.0);
+      places[moved] = 1.0;
+      tree.real("/Base/Zone/GridCoordinates/Coordinate" + axis, "DataArray_t", places, true);
+    }
+    tree.whole("/Base/Zone/Cells", "Elements_t", about);
+    tree.whole("/Base/Zone/Cells/ElementRange", "IndexRange_t", range);
+    tree.whole("/Base/Zone/Cells/ElementConnectivity", "DataArray_t", corners);
+    if (!offsets.empty()) tree.whole("/Base/Zone/Cells/ElementStartOffset", "DataArray_t", offsets);
+    tree.empty("/Base/Zone/Flow", "FlowSolution_t");
+    tree.text("/Base/Zone/Flow/GridLocation", "GridLocation_t", place);
+    if (!rind.empty()) tree.whole("/Base/Zone/Flow/Rind", "\"int[2*IndexDimension]\"", rind);
+    for (const char axis : {'X', 'Y', 'Z'})
+      tree.real(std::string("/Base/Zone/Flow/Velocity") + axis, "DataArray_t", {1.0, 1.0, 1.0, 1.0}, true);
+    return tree.bytes();
+  }
+};
+
+TEST(Cgns, WhatDoesNotFitTogetherIsRefusedByName) {
+  const TempFolder folder;
+  const auto line = [&](const OneTetrahedron& one) { return refusal(folder.write("a.cgns", one.bytes())); };
+  EXPECT_EQ(
+      Source::open({{folder.write("good.cgns", OneTetrahedron{}.bytes())}, {}}).read({}).at(0).cell_count(),
+      1U);
+  EXPECT_EQ(
+      Source::open({{folder.write("mixed.cgns",
+                                  OneTetrahedron{.about = {20, 0}, .corners = {10, 1, 2, 3, 4}}.bytes())},
+                    {}})
+          .read({})
+          .at(0)
+          .cell_count(),
+      1U);
+  const std::vector<std::pair<OneTetrahedron, std::string>> kWrong{
+      {{.base = {3, 5}}, "other dimensions"},
+      {{.base = {0, 3}}, "other dimensions"},
+      {{.zone = {4, 1, 0, 0, 0, 0}}, "another number of axes"},
+      {{.zone = {-4, 1, 0}}, "sizes that are of no grid"},
+      {{.type = "Elsewhere"}, "whether it is structured"},
+      {{.axes = {"X", "Y"}}, "no CoordinateZ"},
+      {{.about = {0, 0}}, "elements of no kind"},
+      {{.range = {1, 9}}, "fewer points than elements"},
+      {{.range = {3, 1}}, "elements of no numbers"},
+      {{.corners = {1, 2, 3, 5}}, "points that are not there"},
+      {{.corners = {0, 1, 2, 3}}, "points that are not there"},
+      {{.about = {20, 0}, .corners = {10, 1, 2, 3}}, "elements of no kind"},
+      {{.about = {20, 0}, .corners = {10, 1, 2, 3, 4, 10, 1, 2, 3, 4}}, "2 elements, expected 1"},
+      {{.about = {20, 0}, .corners = {10, 1, 2, 3, 9}}, "points that are not there"},
+      {{.about = {22, 0}, .corners = {1, 2, 3}, .offsets = {0, 4}}, "offsets that do not fit"},
+      {{.about = {22, 0}, .corners = {1, 2, 9}, .offsets = {0, 3}}, "faces of points"},
+      {{.place = "Nowhere"}, "no place that values can have"},
+      {{.rind = {1, 1, 1}}, "other layers"}};
+  for (const auto& [one, words] : kWrong)
+    EXPECT_NE(line(one).find(words), std::string::npos) << words << ": " << line(one);
+}
+
 /// One zone of the lattice with the flow at its nodes. @param names of the three coordinates. @param solutions that have it.
 std::string lattice_cgns(const std::vector<std::string>& names, int solutions, const std::string& unit) {
   const CgnsTree tree;
@@ -461,6 +530,22 @@ TEST(Netcdf, DamagedFilesAreRefused) {
   flat.dimensions = {{"y", 3}, {"x", 4}};
   flat.variables = {{"a", {0, 1}, {}, std::vector<double>(12, 1.0)}};
   EXPECT_NE(refusal(folder.write("flat.nc", flat.bytes())).find("three axes"), std::string::npos);
+  ClassicFile endless = ocean("m");
+  endless.dimensions.emplace_back("far", 2013265920);
+  EXPECT_NE(refusal(folder.write("endless.nc", endless.bytes())).find("an axis 'far' of 2013265920 places"),
+            std::string::npos);
+}
+
+TEST(Netcdf, WhatTimeIsNotToldFromIsSaid) {
+  const TempFolder folder;
+  ClassicFile file = ocean("m");
+  file.variables[0].words.clear();
+  const std::string why = refusal(folder.write("a.nc", file.bytes()));
+  EXPECT_NE(why.find("'time', the first axis of 'u', is time"), std::string::npos) << why;
+  EXPECT_NE(why.find("ncatted -a units,time,c,c,s"), std::string::npos) << why;
+  file.variables[0].words = {{"units", "s"}};
+  EXPECT_EQ(Source::open({{folder.write("b.nc", file.bytes())}, {}}).info().times,
+            (std::vector<double>{10.0, 20.0}));
 }
 
 }  // namespace
