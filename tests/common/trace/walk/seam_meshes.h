@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -129,8 +130,9 @@ inline std::vector<Vec3> seeds(int count) {
   return out;
 }
 
-/// Every line follows the helix up to z = 2 or to a side of the box; within `tolerance`, and what it states.
-inline void expect_helices(const Field& field, double tolerance) {
+/// Every line follows the helix up to z = 2 or to a side of the box, within `tolerance`.
+/// @param stated and within the error that it states, up to rounding
+inline void expect_helices(const Field& field, double tolerance, bool stated = false) {
   const std::vector<Vec3> from = seeds(40);
   for (const Integrator integrator : {Integrator::kExact, Integrator::kDp54, Integrator::kRodas4}) {
     SCOPED_TRACE(name_of(integrator));
@@ -148,6 +150,10 @@ inline void expect_helices(const Field& field, double tolerance) {
       for (const LinePoint& p : line.points) {
         const double off = glm::distance(p.position, on_helix(from[line.seed], p.time));
         ASSERT_LE(off, tolerance) << "seed " << line.seed << " t " << p.time;
+        constexpr double kRounding = 1e-12;
+        if (stated) {
+          ASSERT_LE(off, p.error + kRounding) << "seed " << line.seed << " t " << p.time;
+        }
       }
     }
   }
@@ -163,7 +169,32 @@ inline bool noted(const Field& field, const std::string& words) {
 /// Kinds of block: an image, a rectilinear grid, a curvilinear one, or cells of a type that share no points.
 inline constexpr std::array<int, 7> kBlockKinds{-1, -2, -3, 10, 12, 13, 14};
 
+/// Kinds of block whose cells share their points, by the type of these.
+inline constexpr std::array<int, 4> kJoinedKinds{-10, -12, -13, -14};
+
+/// The same cells, with one point where several coincide.
+inline DataSet joined(DataSet block) {
+  auto& mesh = std::get<UnstructuredTopology>(block.topology);
+  std::map<std::array<double, 3>, std::int64_t> points;
+  std::vector<double> position, value;
+  const std::vector<std::int64_t> before = mesh.connectivity;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const auto p = static_cast<std::size_t>(before[i]);
+    const std::array<double, 3> x{mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)};
+    const auto [at, made] = points.try_emplace(x, static_cast<std::int64_t>(points.size()));
+    mesh.connectivity[i] = at->second;
+    for (int axis = 0; made && axis < 3; ++axis) {
+      position.push_back(x[static_cast<std::size_t>(axis)]);
+      value.push_back(block.arrays[0].at(p, axis));
+    }
+  }
+  mesh.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
+  block.arrays = {make_array("velocity", Association::kPoint, 3, std::span<const double>(value))};
+  return block;
+}
+
 inline DataSet block_of(int kind, const Index3& n, const Vec3& lower, const Vec3& upper) {
+  if (kind <= -10) return joined(block_of(-kind, n, lower, upper));
   if (kind > 0) {
     OwnPoints cells(0.0, 0.0);
     cells.add_box(static_cast<std::uint8_t>(kind), lower, upper, n);
