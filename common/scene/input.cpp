@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "common/base/clock.h"
@@ -49,10 +50,12 @@ bool moves(const std::vector<DataSet>& blocks, const VectorChoice& choice) {
 }
 
 /// The first step after that of the input at which something moves: many runs start from rest, and a field that is
-/// zero shows nothing. Empty where its own does, or none of the next ones and not the last. Errors are left to the
-/// read that is asked for.
-std::optional<std::size_t> moving_step(Input& input, bool& failed, Progress* progress) {
-  constexpr std::size_t kMostTried = 16;
+/// zero shows nothing. Empty where its own does, or none of the next ones and not the last. Steps that cannot be read are passed
+/// over; errors of its own are left to the read that is asked for.
+/// @param reopen after an error: a helper that a step has ended answers no more. @param lost steps that cannot be read.
+std::optional<std::size_t> moving_step(Input& input, const std::function<void()>& reopen,
+                                       std::vector<std::size_t>& lost, Progress* progress) {
+  constexpr std::size_t kMostTried = 16, kMostLost = 4;
   const std::size_t own = input.time().step;
   std::optional<std::size_t> found;
   try {
@@ -62,14 +65,21 @@ std::optional<std::size_t> moving_step(Input& input, bool& failed, Progress* pro
     const auto first = as_size(std::ranges::find(order, own) - order.begin());
     for (std::size_t i = first; i < order.size() && !found; ++i) {
       if (i > first + kMostTried) i = order.size() - 1;
-      input.set_time_step(order[i]);
-      if (moves(input.read(chosen.arrays, progress), chosen)) found = order[i];
+      try {
+        input.set_time_step(order[i]);
+        if (moves(input.read(chosen.arrays, progress), chosen)) found = order[i];
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error&) {
+        reopen();
+        if (order[i] == own || lost.size() == kMostLost) break;
+        lost.push_back(order[i]);
+      }
     }
   } catch (const Cancelled&) {
     throw;
   } catch (const Error&) {
     found.reset();
-    failed = true;
   }
   input.set_time_step(own);
   return found == own ? std::nullopt : found;
@@ -127,12 +137,14 @@ Input Input::open(const InputOptions& spec, Progress* progress) {
   input.set_regions(spec.regions);
   input.set_paint(spec.paint);
   if (spec.kind == FieldKind::kVector && spec.time.empty() && input.times().size() > 1) {
-    bool failed = false;
-    const auto step = moving_step(input, failed, progress);
-    if (failed) input.open_files(progress);  // a helper that a later step has ended answers no more
+    std::vector<std::size_t> lost;
+    const auto step = moving_step(
+        input, [&] { input.open_files(progress); }, lost, progress);
     if (step) {
       const std::vector<double>& times = input.times();
       FileInfo info = *input.file();
+      for (const std::size_t bad : lost)
+        info.notes.push_back("WARNING: time " + exact_number(times[bad]) + " cannot be read: passed over");
       info.notes.push_back("nothing moves at time " + exact_number(times[input.time_.step]) + ": opened at " +
                            exact_number(times[*step]) + " (--time first opens the first)");
       input.set_time_step(*step);

@@ -88,8 +88,9 @@ class EnsightCase {
       for (std::size_t t = 0; t < part.tuples; ++t)
         for (int c = 0; c < part.components; ++c) missing += std::isnan(part.at(t, c)) ? 1 : 0;
     const std::size_t values = tuples * as_size(parts.front().components);
-    check_ensight_values(file, parts.front().name, parts.front().association, values,
-                         std::min(missing, values), step, steps);
+    EnsightCounts due{parts.front().association, as_size(parts.front().components), {}};
+    for (const DataArray& part : parts) due.tuples.push_back(part.tuples);
+    check_ensight_values(file, parts.front().name, due, values, std::min(missing, values), step, steps);
   }
 
  private:

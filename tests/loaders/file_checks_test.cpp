@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "loaders/nrrd/nrrd_check.h"
+#include "loaders/vtk/ensight/ensight_counts.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/netcdf_check.h"
 #include "loaders/vtk/xml_scan.h"
@@ -363,6 +364,55 @@ TEST(NrrdCheck, NumberedDataFilesAreExpanded) {
   const NrrdClaims claims =
       read_nrrd_claims("NRRD0004\ntype: short\nsizes: 2 2 2\ndata file: slice%03d.raw 8 12 2\n");
   EXPECT_EQ(claims.data_files, (std::vector<std::string>{"slice008.raw", "slice010.raw", "slice012.raw"}));
+}
+
+std::string ensight_word(const std::string& text) { return text + std::string(80 - text.size(), '\0'); }
+
+/// Vectors of two parts of three and two nodes, the first with `extra` numbers more.
+std::string gold_vectors(bool text, int extra, const std::string& kind = "coordinates") {
+  std::string out = text ? "flow\n" : ensight_word("flow");
+  for (const int part : {1, 2}) {
+    const int numbers = part == 1 ? 9 + extra : 6;
+    if (text) {
+      out += "part\n         " + std::to_string(part) + "\n" + kind + "\n";
+      if (kind.ends_with("undef")) out += "-9.99000e+02\n";
+      for (int i = 0; i < numbers; ++i) out += " 1.00000e+00\n";
+    } else {
+      out += ensight_word("part") + std::string({static_cast<char>(part), 0, 0, 0}) + ensight_word(kind);
+      out += std::string(static_cast<std::size_t>(4 * (numbers + (kind.ends_with("undef") ? 1 : 0))), '\1');
+    }
+  }
+  return out;
+}
+
+TEST(EnsightCounts, OneNumberTooManyOrTooFewIsFound) {
+  const EnsightCounts both{Association::kPoint, 3, {3, 2}};
+  for (const bool text : {true, false}) {
+    for (const char* kind : {"coordinates", "coordinates undef"}) {
+      SCOPED_TRACE(kind);
+      EXPECT_EQ(gold_counts_problem(gold_vectors(text, 0, kind), text, both), "");
+      for (const int extra : {1, -1, 4}) {
+        const std::string problem = gold_counts_problem(gold_vectors(text, extra, kind), text, both);
+        EXPECT_NE(problem.find("a part, number 1, of"), std::string::npos) << extra << ": " << problem;
+      }
+      // A whole vector more.
+      EXPECT_NE(gold_counts_problem(gold_vectors(text, 3, kind), text, both).find("no part with 9 numbers"),
+                std::string::npos);
+    }
+    // Surfaces between are not read.
+    EXPECT_EQ(gold_counts_problem(gold_vectors(text, 0), text, {Association::kPoint, 3, {2}}), "");
+    EXPECT_NE(gold_counts_problem(gold_vectors(text, 0), text, {Association::kPoint, 1, {8}}), "");
+    const EnsightCounts cells{Association::kCell, 3, {3, 2}};
+    EXPECT_EQ(gold_counts_problem(gold_vectors(text, 0, "hexa8"), text, cells), "");
+    EXPECT_NE(gold_counts_problem(gold_vectors(text, 1, "hexa8"), text, cells), "");
+  }
+  std::string stars = gold_vectors(true, 0);
+  stars.replace(stars.find(" 1.0"), 12, "************");
+  EXPECT_NE(gold_counts_problem(stars, true, both).find("'************' in line 5"), std::string::npos);
+  const std::string six =
+      "flow\n 1.00000e+00 2.00000e+00 3.00000e+00-1.00000e+00-2.00000e+00-3.00000e+00\n 1.00000e+00\n";
+  EXPECT_EQ(ensight6_counts_problem(six, 7), "");
+  EXPECT_EQ(ensight6_counts_problem(six, 6), "has 7 numbers, expected 6");
 }
 
 }  // namespace

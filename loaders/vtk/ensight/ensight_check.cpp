@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/base/files/mapped_file.h"
 #include "common/load/find_format.h"
 
 namespace palpate {
@@ -190,13 +191,14 @@ std::vector<EnsightVariable> ensight_variables(std::string_view case_text) {
   return variables;
 }
 
-void check_ensight_values(const std::string& case_file, const std::string& variable, Association association,
+void check_ensight_values(const std::string& case_file, const std::string& variable, const EnsightCounts& due,
                           std::size_t values, std::size_t missing, std::size_t step, std::size_t steps) {
   constexpr std::size_t kTextBytes = 12;
   constexpr std::size_t kBinaryBytes = 4;
   const std::filesystem::path folder = std::filesystem::path(case_file).parent_path();
-  for (const EnsightVariable& known : ensight_variables(read_head(case_file, kCaseBytes).bytes)) {
-    if (known.name != variable || known.association != association) continue;
+  const std::string case_text = read_head(case_file, kCaseBytes).bytes;
+  for (const EnsightVariable& known : ensight_variables(case_text)) {
+    if (known.name != variable || known.association != due.association) continue;
     std::filesystem::path path = folder / known.pattern;
     if (known.pattern.find('*') != std::string::npos) {
       const auto files = matching_files(path.parent_path(), path.filename().string());
@@ -218,6 +220,14 @@ void check_ensight_values(const std::string& case_file, const std::string& varia
            "at least " + std::to_string(values * each) + " for " + std::to_string(values) + " values",
            "it may be truncated"});
     }
+    const MappedFile mapped(path);
+    std::string problem;
+    if (!is_ensight6(case_text)) {
+      problem = gold_counts_problem(mapped.text(), text, due);
+    } else if (text && due.association == Association::kPoint) {
+      problem = ensight6_counts_problem(mapped.text(), values);
+    }
+    if (!problem.empty()) throw input_error({path.string(), "", problem, "", "the file may be damaged"});
     return;
   }
 }

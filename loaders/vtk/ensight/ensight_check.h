@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "loaders/vtk/ensight/ensight_counts.h"
 
 namespace palpate {
 
@@ -34,9 +35,9 @@ struct EnsightVariable {
 
 /// Checks that the file of a variable at time step `step` of `steps` is large enough for `values` numbers: 12
 /// characters each in text, 4 bytes in binary (EnSight User Manual, ch. 9). Of these the file need not hold
-/// `missing` ones, those that were read as NaN, where it has a block "partial".
+/// `missing` ones, those that were read as NaN, where it has a block "partial". And that its parts have as many as `due` says.
 /// @throws Error (bad input).
-void check_ensight_values(const std::string& case_file, const std::string& variable, Association association,
+void check_ensight_values(const std::string& case_file, const std::string& variable, const EnsightCounts& due,
                           std::size_t values, std::size_t missing, std::size_t step, std::size_t steps);
 
 }  // namespace palpate

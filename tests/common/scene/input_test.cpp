@@ -1,5 +1,7 @@
 #include "common/scene/input.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
@@ -120,6 +122,21 @@ TEST(Input, ATransientOpensWhereSomethingMoves) {
 
   EXPECT_EQ(opened_at(Input::open(transient(folder, {2.0, 3.0}))), 0.0);
   EXPECT_FALSE(says_why(Input::open(transient(folder, {2.0, 3.0}))));
+}
+
+// A step whose file is damaged costs itself and a word.
+TEST(Input, ATransientPassesOverAStepThatCannotBeRead) {
+  const TempFolder folder;
+  const InputOptions spec = transient(folder, {0.0, 0.0, 3.0});
+  (void)folder.write("t1.vtk",
+                     "# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n");
+  Input input = Input::open(spec);
+  EXPECT_EQ(opened_at(input), 2.0);
+  EXPECT_TRUE(says_why(input));
+  EXPECT_TRUE(std::ranges::any_of(input.notes(), [](const std::string& note) {
+    return note.find("WARNING: time 1 cannot be read: passed over") != std::string::npos;
+  }));
+  EXPECT_EQ(input.load_field(1)->max_speed(), 3.0);
 }
 
 TEST(Input, ATransientOpensAtTheTimeThatIsAskedFor) {
