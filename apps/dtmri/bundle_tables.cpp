@@ -41,22 +41,6 @@ std::shared_ptr<const ScalarField> profiled_field(const Document& options, const
   return make_scalar_field({block}, {options.output.measure}, title, threads);
 }
 
-void write_profile(const std::filesystem::path& path, const BundleProfile& profile, bool overwrite) {
-  OutputFile file(path, overwrite);
-  file.write("node,part,x,y,z,lines,valueless,mean,deviation,lower,median,upper\n");
-  for (std::size_t n = 0; n < profile.nodes.size(); ++n) {
-    const BundleNode& node = profile.nodes[n];
-    std::string row = std::to_string(n);
-    add_number(row, static_cast<double>(n) / static_cast<double>(profile.nodes.size() - 1));
-    for (int axis = 0; axis < 3; ++axis) add_number(row, node.place[axis]);
-    row += ',' + std::to_string(node.lines) + ',' + std::to_string(node.valueless);
-    for (const double value : {node.mean, node.deviation, node.lower, node.median, node.upper})
-      add_number(row, value);
-    file.write(row += '\n');
-  }
-  file.finish();
-}
-
 std::string profile_note(const OutputOptions& output, const BundleProfile& profile) {
   const std::string what = output.profiled.empty() ? output.measure : output.profiled.filename().string();
   double sum = 0.0;
@@ -78,6 +62,22 @@ std::string profile_note(const OutputOptions& output, const BundleProfile& profi
 
 }  // namespace
 
+void write_profile(const std::filesystem::path& path, const BundleProfile& profile, bool overwrite) {
+  OutputFile file(path, overwrite);
+  file.write("node,part,x,y,z,lines,valueless,mean,deviation,lower,median,upper\n");
+  for (std::size_t n = 0; n < profile.nodes.size(); ++n) {
+    const BundleNode& node = profile.nodes[n];
+    std::string row = std::to_string(n);
+    add_number(row, static_cast<double>(n) / static_cast<double>(profile.nodes.size() - 1));
+    for (int axis = 0; axis < 3; ++axis) add_number(row, node.place[axis]);
+    row += ',' + std::to_string(node.lines) + ',' + std::to_string(node.valueless);
+    for (const double value : {node.mean, node.deviation, node.lower, node.median, node.upper})
+      add_number(row, value);
+    file.write(row += '\n');
+  }
+  file.finish();
+}
+
 void check_bundle_options(const Document& options) {
   const OutputOptions& output = options.output;
   if (output.profile.empty() && !output.profiled.empty())
@@ -92,7 +92,9 @@ void check_bundle_options(const Document& options) {
     (void)westin_from_name(output.westin);
     OutputFile(output.profile, options.common.force);
   }
-  if (!output.density.empty()) check_image_output(output.density, options.common.force);
+  for (const std::filesystem::path& image : {output.density, output.lines_mask}) {
+    if (!image.empty()) check_image_output(image, options.common.force);
+  }
 }
 
 void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage& made,
@@ -112,26 +114,41 @@ void write_bundle(const Document& options, const VerbContext& context, Input& in
     context.interrupt.keep(output.profile);
     notes.push_back(profile_note(output, profile));
   }
-  if (!output.density.empty()) {
-    context.progress.begin("counting lines", 0);
-    const UniformTopology& voxels = *field.voxels();
-    const BundleDensity density = bundle_density(lines, {voxels.points, voxels.axes, voxels.origin});
-    ImageOrigin origin = origin_of(input);
-    if (origin.header) origin.header = origin.header->of_others();
+  if (output.density.empty() && output.lines_mask.empty()) return;
+  context.progress.begin("counting lines", 0);
+  const UniformTopology& voxels = *field.voxels();
+  const BundleDensity density = bundle_density(lines, {voxels.points, voxels.axes, voxels.origin});
+  ImageOrigin origin = origin_of(input);
+  if (origin.header) origin.header = origin.header->of_others();
+  for (const auto& [file, is_mask] : {std::pair{output.density, false}, std::pair{output.lines_mask, true}}) {
+    if (file.empty()) continue;
     const std::vector<std::string> lost =
-        write_image(output.density, voxels, ImageContent::kScalar, density.lines, ImageConvention::kMrtrix,
-                    options.common.force, origin);
-    context.interrupt.keep(output.density);
-    const float most = *std::max_element(density.lines.begin(), density.lines.end());
-    std::string text = output.density.string() + ": " + counted(density.voxels, "voxel") + " with " +
-                       (most == 1.0F ? "a line" : "1 to " + short_number(most) + " lines") + ", " +
-                       short_number(density.volume) + " mm^3";
-    if (density.outside > 0)
-      text += ". WARNING: " + counted(density.outside, "line") + " of " + std::to_string(lines.line_count()) +
-              " leave the image; what lies outside is not counted";
-    notes.push_back(std::move(text));
-    for (const std::string& line : lost) notes.push_back(output.density.string() + ": " + line);
+        write_density(file, density, is_mask, voxels, origin, options.common.force);
+    context.interrupt.keep(file);
+    notes.push_back(file.string() + ": " + density_text(density, lines.line_count()));
+    for (const std::string& line : lost) notes.push_back(file.string() + ": " + line);
   }
+}
+
+std::vector<std::string> write_density(const std::filesystem::path& file, const BundleDensity& density,
+                                       bool mask, const UniformTopology& voxels, const ImageOrigin& origin,
+                                       bool overwrite) {
+  std::vector<float> values = density.lines;
+  if (mask) std::ranges::transform(values, values.begin(), [](float v) { return v > 0.0F ? 1.0F : 0.0F; });
+  return write_image(file, voxels, ImageContent::kScalar, values, ImageConvention::kMrtrix, overwrite,
+                     origin);
+}
+
+std::string density_text(const BundleDensity& density, std::size_t lines) {
+  const float most =
+      density.lines.empty() ? 0.0F : *std::max_element(density.lines.begin(), density.lines.end());
+  std::string text = counted(density.voxels, "voxel") + " with " +
+                     (most == 1.0F ? "a line" : "1 to " + short_number(most) + " lines") + ", " +
+                     short_number(density.volume) + " mm^3";
+  if (density.outside > 0)
+    text += ". WARNING: " + counted(density.outside, "line") + " of " + std::to_string(lines) +
+            " leave the image; what lies outside is not counted";
+  return text;
 }
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 /// A bundle of tracts as a table along it and as an image.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,20 +9,33 @@
 #include "common/cli/verbs.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/geometry/tractogram.h"
+#include "common/load/write/image_origin.h"
 #include "common/scene/input.h"
 #include "common/scene/tensor/tensor_image.h"
+#include "common/trace/tract/bundle.h"
 
 namespace palpate {
 
-/// What can be refused of --profile and --density before any work is done.
+/// What can be refused of --profile, --density and --bundle-mask before any work is done.
 /// @throws Error (usage), (work failed) as OutputFile.
 void check_bundle_options(const Document& options);
 
-/// Writes what --profile and --density ask for, and adds a sentence for each to `notes`. The profile's table has a row
+/// Writes what these ask for, and adds a sentence for each to `notes`. The profile's table has a row
 /// a node: node,part,x,y,z,lines,valueless,mean,deviation,lower,median,upper.
 /// @param made the tensors of `input`.
 /// @throws Error as the writers; (bad input) where the profile's image cannot be read; Cancelled.
 void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage& made,
                   const TensorField& field, const Tractogram& lines, std::vector<std::string>& notes);
+
+/// The table of --profile.
+/// @throws Error as OutputFile.
+void write_profile(const std::filesystem::path& path, const BundleProfile& profile, bool overwrite);
+/// The image of --density, or with `mask` that of --bundle-mask. @return what its format has lost.
+/// @throws Error as write_image().
+std::vector<std::string> write_density(const std::filesystem::path& file, const BundleDensity& density,
+                                       bool mask, const UniformTopology& voxels, const ImageOrigin& origin,
+                                       bool overwrite);
+/// What is said of it: voxels, lines and volume. @param lines that the bundle has.
+[[nodiscard]] std::string density_text(const BundleDensity& density, std::size_t lines);
 
 }  // namespace palpate

@@ -5,11 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/dtmri/bundle_text.h"
+#include "apps/dtmri/bundles.h"
 #include "apps/dtmri/region_text.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/compose/bundle_view.h"
 #include "common/compose/slice_panes_text.h"
 #include "common/compose/view_keep.h"
 #include "common/field/tensor/tensor_measure.h"
@@ -40,9 +43,14 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
   const auto show = [&](const std::shared_ptr<const TractBundle>& bundle) {
     state.tracts = make_tract_view(bundle, document.tract_appearance);
   };
+  const auto shown_before = [&] {
+    if (before == nullptr) return std::shared_ptr<const TractBundle>();
+    if (before->bundles) return before->bundles->tracts;  // without the bundles beside them
+    return before->tracts ? before->tracts->bundle : nullptr;
+  };
   if (document.tracts.seeds.empty() && document.tract_appearance.file.empty()) return;
-  if (before != nullptr && before->tracts && same_tracts(document, shown)) {
-    show(before->tracts->bundle);
+  if (const auto same = shown_before(); same && same_tracts(document, shown)) {
+    show(same);
     state.seeds = before->seeds;
     state.seconds_trace = before->seconds_trace;
   } else if (document.tracts.seeds.empty()) {
@@ -63,6 +71,28 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
     if (traced.bundle->order.empty()) state.notes.push_back("no tract: " + traced.why_none);
     if (!traced.left_out.empty()) state.notes.push_back(traced.left_out);
   }
+}
+
+/// The bundles of the document beside the tracts that are shown. @pre tensors with a volume are.
+void show_bundles(const Document& document, const SceneState* before, const Document& shown,
+                  const DataArray* cones, Progress& progress, SceneState& state) {
+  const bool same = before != nullptr && before->tensors && before->tensors->image == state.tensors->image &&
+                    document.common.seed == shown.common.seed;
+  const std::vector<SliceImage>& images = state.volume->slice_images;
+  const auto set = make_bundles({.document = document,
+                                 .voxels = *state.tensors->image,
+                                 .cones = cones,
+                                 .before = same ? before->bundles.get() : nullptr,
+                                 .progress = &progress},
+                                images, state.notes);
+  if (!set) return;
+  const auto beside = std::make_shared<BundleSet>(*set);
+  if (state.tracts) beside->tracts = state.tracts->bundle;
+  state.bundles = beside;
+  const auto drawn = drawn_together(beside->tracts, *beside, images, state.notes);
+  state.tracts = drawn ? std::optional(make_tract_view(drawn, document.tract_appearance)) : std::nullopt;
+  if (!drawn) return;
+  if (std::string note = tracts_left_out(*drawn); !note.empty()) state.notes.push_back(std::move(note));
 }
 
 /// What the verdict advises, where nothing was turned by hand yet: two turns together are none that a button can say.
@@ -143,11 +173,14 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
   }
   if (made.tensors) {
     complete_panes(document.panes, *state.tensors, *state.volume);
+    show_bundles(with, before, shown, content->cones ? &*content->cones : nullptr, progress, state);
     if (state.volume->panes.layout > 1) {
       if (std::string note = panes_note(*state.volume); !note.empty()) state.notes.push_back(std::move(note));
     }
     return state;
   }
+  if (!document.tract_appearance.bundles.empty())
+    state.notes.emplace_back("WARNING: bundles are shown with tensors alone: there are none here");
   // Where there are no tensors, the scene is as large as what is shown in their place.
   const SceneView view =
       make_tensor_scene(input, {.tensors = state.tensors, .tracts = state.tracts}, document, 1.0);
@@ -162,8 +195,16 @@ std::optional<Document> DtmriModel::join(const InputFiles& files, const Document
   Document with = now;
   switch (role_of(input)) {
     case FileRole::kTracts:
-      with.tract_appearance.file = std::filesystem::absolute(files.files.front()).string();
-      with.tracts.seeds.clear();
+      if (const std::filesystem::path file = std::filesystem::absolute(files.files.front());
+          now.tract_appearance.file.empty()) {
+        with.tract_appearance.file = file.string();
+        with.tracts.seeds.clear();
+      } else {
+        std::vector<std::string>& bundles = with.tract_appearance.bundles;
+        bundles.push_back(bundle_text({.name = file.stem().string(),
+                                       .color = first_color(bundles.size()),
+                                       .steps = {{"file", file.string()}}}));
+      }
       return with;
     case FileRole::kScalar:
       with.tensors.underlay = std::filesystem::absolute(files.files.front()).string();

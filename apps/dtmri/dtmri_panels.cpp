@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "apps/dtmri/bundle_panel.h"
 #include "apps/dtmri/dtmri_model.h"
 #include "apps/dtmri/regions_panel.h"
 #include "apps/dtmri/slice_images.h"
@@ -327,7 +328,7 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
 }  // namespace
 
 std::vector<PanelPart> dtmri_panels() {
-  return {[choice = TractSeedChoice(), regions = RegionsPanel(),
+  return {[choice = TractSeedChoice(), regions = RegionsPanel(), bundles = BundlePanel(),
            texts = ReadingTexts()](PanelContext& on) mutable {
     if (on.scene.tensors && on.view.tensors) {
       draw_tensors(on.state, on.scene, choice, on.view);
@@ -339,6 +340,7 @@ std::vector<PanelPart> dtmri_panels() {
       }
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
       if (on.view.tensors->image->field) draw_regions(regions, on);
+      if (on.view.tensors->image->field && on.view.volume) draw_bundles(bundles, on);
     } else if (on.view.tracts) {
       if (section("TRACTS")) draw_tract_appearance(*on.view.tracts);
     }

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/dtmri/bundles.h"
 #include "apps/dtmri/dtmri_verbs.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
@@ -34,13 +35,38 @@ ViewTracts tracts_of(const Document& options, const VerbContext& context,
   return tracts;
 }
 
+/// The bundles of the options beside what is drawn.
+void add_bundles(const Document& options, const VerbContext& context, const TensorImage& made,
+                 DrawnScene& drawn) {
+  if (options.tract_appearance.bundles.empty()) return;
+  SceneView& view = drawn.view;
+  if (!view.tensors || !view.volume)
+    throw usage_error("--bundle: there are no tensors that bundles could be shown with");
+  const std::vector<SliceImage>& images = view.volume->slice_images;
+  std::vector<std::string> notes;
+  const auto set = make_bundles({.document = options,
+                                 .voxels = *view.tensors->image,
+                                 .cones = made.image.find(std::string(kConeArray), Association::kPoint),
+                                 .progress = &context.progress},
+                                images, notes);
+  const auto together = drawn_together(view.tracts ? view.tracts->bundle : nullptr, *set, images, notes);
+  if (together) view.tracts = make_tract_view(together, options.tract_appearance);
+  for (const std::string& note : notes) context.console.note(note);
+  for (const BundleView& bundle : set->bundles) {
+    drawn.lines += bundle.lines->line_count();
+    drawn.points += bundle.lines->points.size();
+  }
+  drawn.what += ", " + counted(set->bundles.size(), "bundle");
+}
+
 DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
   const Document options = with_input_role(given, input);
   DrawnScene drawn;
   TensorSceneParts parts;
   TensorImage made;
   if (role_of(input) == FileRole::kTensors) {
-    const bool details = options.panes.layout != PanesOptions{}.layout || options.tracts.max_cone;
+    const bool details = options.panes.layout != PanesOptions{}.layout || options.tracts.max_cone ||
+                         !options.tract_appearance.bundles.empty();
     auto field = input.load_tensor(options.common.threads, &context.progress, details ? &made : nullptr);
     if (details) parts.made = &made;
     for (const std::string& line : field->notes().lines) context.console.note(line);
@@ -67,6 +93,7 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
     drawn.what += ", an underlay of " + counted(underlay.image->point_count(), "voxel");
   }
   drawn.view = make_tensor_scene(input, std::move(parts), options, aspect);
+  add_bundles(options, context, made, drawn);
   return drawn;
 }
 

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "apps/dtmri/bundle_text.h"
 #include "apps/dtmri/region_text.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -32,23 +33,6 @@ constexpr std::size_t kMostSeeds = 100'000'000;
 /// What stands behind "kind:", or empty where `text` is of another kind.
 std::string_view after(std::string_view text, std::string_view kind) {
   return text.starts_with(kind) ? text.substr(kind.size()) : std::string_view();
-}
-
-std::vector<TractRegion> parse_regions(const std::vector<std::string>& texts, const std::string& option,
-                                       bool left_handed, std::vector<MaskFile>& masks, Progress* progress) {
-  std::vector<TractRegion> regions;
-  for (const std::string& text : texts) {
-    std::string refusal = option;
-    refusal.append(" ").append(text).append(": ").append(kRegionGrammar);
-    const RegionShape shape = parse_region(text, refusal);
-    if (const auto* const file = std::get_if<std::string>(&shape)) {
-      masks.push_back(read_mask(*file, progress, left_handed));
-      regions.emplace_back(masks.back().mask);
-    } else {
-      regions.push_back(tract_region(shape));
-    }
-  }
-  return regions;
 }
 
 /// Refuses a mask beside `image`, and says what it may have to be asked about.
@@ -116,9 +100,27 @@ std::vector<Vec3> random_seeds(std::size_t count, const UniformTopology& image, 
 
 }  // namespace
 
+std::vector<TractRegion> read_regions(const std::vector<std::string>& texts, const std::string& option,
+                                      bool left_handed, std::vector<MaskFile>& masks, Progress* progress) {
+  std::vector<TractRegion> regions;
+  for (const std::string& text : texts) {
+    std::string refusal = option;
+    refusal.append(" ").append(text).append(": ").append(kRegionGrammar);
+    const RegionShape shape = parse_region(text, refusal);
+    if (const auto* const file = std::get_if<std::string>(&shape)) {
+      masks.push_back(read_mask(*file, progress, left_handed));
+      regions.emplace_back(masks.back().mask);
+    } else {
+      regions.push_back(tract_region(shape));
+    }
+  }
+  return regions;
+}
+
 void check_view_tracts(const TractTracingOptions& options, const TractAppearance& appearance) {
   if (!appearance.file.empty() && !options.seeds.empty())
     throw usage_error("give either --tracts, a file, or --seeds, to trace some; not both");
+  for (const std::string& text : appearance.bundles) (void)parse_bundle(text);
   // Regions name files, which are read when they are needed.
   TractTracingOptions numbers = options;
   numbers.include.clear();
@@ -210,9 +212,9 @@ TractRequest tract_request(const TractTracingOptions& options, bool left_handed,
   tracts.sense = sense_from_name(options.direction);
   tracts.max_steps = options.max_steps;
   check_tract_options(tracts);
-  tracts.include = parse_regions(options.include, "--include", left_handed, request.masks, progress);
-  tracts.exclude = parse_regions(options.exclude, "--exclude", left_handed, request.masks, progress);
-  tracts.stop = parse_regions(options.stop, "--stop", left_handed, request.masks, progress);
+  tracts.include = read_regions(options.include, "--include", left_handed, request.masks, progress);
+  tracts.exclude = read_regions(options.exclude, "--exclude", left_handed, request.masks, progress);
+  tracts.stop = read_regions(options.stop, "--stop", left_handed, request.masks, progress);
   tracts.threads = threads;
   return request;
 }

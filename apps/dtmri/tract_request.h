@@ -32,6 +32,12 @@ struct TractRequest {
 [[nodiscard]] TractRequest tract_request(const TractTracingOptions& options, bool left_handed, int threads,
                                          Progress* progress = nullptr);
 
+/// Regions as texts have them; files of masks are read into `masks`. @param option the first word of an error.
+/// @param left_handed LoadRequest::left_handed. @throws Error (usage), (bad input) naming a mask; Cancelled.
+[[nodiscard]] std::vector<TractRegion> read_regions(const std::vector<std::string>& texts,
+                                                    const std::string& option, bool left_handed,
+                                                    std::vector<MaskFile>& masks, Progress* progress);
+
 /// What the user should know of masks over `image`. @throws Error (bad input) where one lies beside it.
 [[nodiscard]] std::vector<std::string> check_regions(const TractRequest& request, const DataSet& image);
 

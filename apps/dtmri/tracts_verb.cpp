@@ -1,9 +1,15 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "apps/dtmri/bundle_tables.h"
+#include "apps/dtmri/bundle_text.h"
+#include "apps/dtmri/bundles.h"
 #include "apps/dtmri/dtmri_verbs.h"
+#include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
@@ -12,14 +18,57 @@
 #include "common/load/read_tractogram.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_tractogram.h"
+#include "common/render/tensor/tensor_voxels.h"
+#include "common/trace/tract/tract_edit.h"
 
 namespace palpate {
 namespace {
 
+/// All bundles of the options, one behind the other; of several, each is a group of the lines.
+TractogramFile lines_of_bundles(const Document& options, const VerbContext& context, const TensorImage& made,
+                                std::shared_ptr<const TensorField> field, const std::string& title) {
+  TractogramFile all;
+  const auto voxels = make_tensor_voxels(std::move(field), title, options.common.threads);
+  const std::vector<std::string>& texts = options.tract_appearance.bundles;
+  BundleSet set;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const BundleText bundle = parse_bundle(texts[i]);
+    Tractogram lines =
+        *make_bundle_lines(bundle,
+                           {.document = options,
+                            .voxels = *voxels,
+                            .cones = made.image.find(std::string(kConeArray), Association::kPoint),
+                            .progress = &context.progress},
+                           set, all.info.notes);
+    if (texts.size() > 1) {
+      const std::string name = bundle.name.empty() ? std::to_string(i + 1) : bundle.name;
+      lines.of_lines.push_back(
+          {.name = "group " + name, .values = std::vector<float>(lines.line_count(), 1.0F)});
+    }
+    append_lines(lines, all.lines);
+  }
+  for (auto& column : all.lines.of_lines) {
+    if (!column.name.starts_with("group ")) continue;
+    std::ranges::replace_if(
+        column.values, [](float v) { return std::isnan(v); }, 0.0F);
+  }
+  if (all.lines.line_count() == 0) throw work_error("--bundle: no tract is left");
+  return all;
+}
+
+/// Whether a bundle is traced with --max-cone.
+bool asks_for_cones(const std::string& text) {
+  return std::ranges::any_of(parse_bundle(text).steps,
+                             [](const BundleStep& step) { return step.key == "max-cone"; });
+}
+
 ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
-  if (options.output.tracts.empty())
-    throw usage_error("tracts needs a file of lines: try --tracts tracts.tck");
+  const std::vector<std::string>& bundles = options.tract_appearance.bundles;
+  if (options.output.tracts.empty() == bundles.empty())
+    throw usage_error(bundles.empty() ? "tracts needs lines: try --tracts tracts.tck"
+                                      : "give either --tracts, a file, or --bundle; not both");
+  for (const std::string& text : bundles) (void)parse_bundle(text);
   std::optional<TractTurn> turn;
   if (!options.output.turn.empty()) turn = parse_tract_turn(options.output.turn);
   if (turn && options.output.file.empty())
@@ -27,18 +76,21 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
   check_bundle_options(options);
 
-  TractogramFile file = read_tractogram(options.output.tracts, &context.progress);
+  TractogramFile file;
+  if (bundles.empty()) file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
-  const bool cones = options.output.measure == name_of(TensorMeasure::kCone);
-  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress,
-                                                   cones && !options.output.profile.empty());
+  const bool cones =
+      (options.output.measure == name_of(TensorMeasure::kCone) && !options.output.profile.empty()) ||
+      std::ranges::any_of(bundles, asks_for_cones);
+  const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress, cones);
   const auto field =
       make_tensor_field(made.image, made.choice, input.title(), options.common.threads, made.notes);
+  if (!bundles.empty()) file = lines_of_bundles(options, context, made, field, input.title());
   context.progress.begin("comparing", 0);
 
   TractFitSummary summary;
   summary.input = input.title();
-  summary.tracts = options.output.tracts.string();
+  summary.tracts = bundles.empty() ? options.output.tracts.string() : "bundles";
   summary.fit = fit_of_tracts(*field, file.lines, options.common.threads);
   summary.notes = file.info.notes;
   summary.notes.push_back(fit_sentence(summary.fit, "--turn"));
@@ -73,7 +125,8 @@ Verb tracts_verb(std::vector<UsageExample> examples) {
   return {
       .name = "tracts",
       .summary =
-          "hold tracts against an image, measure along them, turn them on request, and write them in another format",
+          "hold tracts against an image, edit them, measure along them, turn them on request, and write them in another "
+          "format",
       .groups = {Group::kInput, Group::kOut, Group::kTurn},
       .examples = std::move(examples),
       .run = run_tracts};

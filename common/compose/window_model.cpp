@@ -24,10 +24,11 @@ auto scene_of(const Document& d) {
   const bool scalars = d.input.kind != FieldKind::kTensor;
   return std::tuple(d.input.field, d.input.secondary, d.input.time, d.input.tensor, d.input.regions,
                     d.input.paint, d.heart.walls, d.heart.cut_face, d.tracing, d.common.seed, d.tracts,
-                    d.tract_appearance.file, d.tensors.underlay, color_array_of(d), d.volume.scalar,
-                    d.volume.resample, scalars ? d.volume.transfer : std::string(),
-                    scalars ? d.volume.focus : std::string(), d.heart.layer, d.heart.angle, d.heart.cut,
-                    d.heart.contours, d.heart.lens_angle, d.heart.lens.empty());
+                    d.tract_appearance.file, d.tract_appearance.bundles, d.tract_appearance.bundle_profile,
+                    d.tensors.underlay, color_array_of(d), d.volume.scalar, d.volume.resample,
+                    scalars ? d.volume.transfer : std::string(), scalars ? d.volume.focus : std::string(),
+                    d.heart.layer, d.heart.angle, d.heart.cut, d.heart.contours, d.heart.lens_angle,
+                    d.heart.lens.empty());
 }
 
 }  // namespace

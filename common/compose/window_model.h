@@ -62,13 +62,15 @@ struct SceneInfo {
   bool anatomical = false;  ///< coordinates are RAS+
 };
 
-/// A scene with its lines, or its volume.
+struct BundleSet;  // bundle_view.h
+
 /// Settings that mend what a note warns of, by name and text.
 struct SceneFix {
   std::string note;
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
+/// A scene with its lines, or its volume.
 struct SceneState {
   std::shared_ptr<const SceneInfo> info;
   Document document;                                 ///< as used; what was left to a default is filled in
@@ -79,13 +81,14 @@ struct SceneState {
   std::string haptic_scalar_key;                     ///< tells it from other scalars of the same field
   /// What the document colours the lines by, where that is no quantity of theirs.
   std::shared_ptr<const LineArray> color_array;
-  std::vector<SurfaceView> surfaces;      ///< drawn with the lines
-  std::optional<ColorLens> color_lens;    ///< where the document has one
-  std::optional<VolumeView> volume;       ///< in place of lines, or of a flow around them
-  std::string volume_label;               ///< what its values are
-  std::vector<std::string> volume_notes;  ///< what resampling it cost, one line each
-  std::optional<TensorView> tensors;      ///< likewise, also with a volume
-  std::optional<TractView> tracts;        ///< through them
+  std::vector<SurfaceView> surfaces;         ///< drawn with the lines
+  std::optional<ColorLens> color_lens;       ///< where the document has one
+  std::optional<VolumeView> volume;          ///< in place of lines, or of a flow around them
+  std::string volume_label;                  ///< what its values are
+  std::vector<std::string> volume_notes;     ///< what resampling it cost, one line each
+  std::optional<TensorView> tensors;         ///< likewise, also with a volume
+  std::optional<TractView> tracts;           ///< through them
+  std::shared_ptr<const BundleSet> bundles;  ///< that the document lists; null: none
   /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
   std::vector<Lens> appearances;
   /// Whether a volume of scalars is all that there is.

@@ -56,6 +56,7 @@ ExplorerWindow::ExplorerWindow(WindowModel& model, const WindowOptions& options)
   state_.touch = &touch_;
   state_.region = &controls_.region();
   state_.brush = &controls_.brush();
+  state_.tract_pick = &controls_.tract_pick();
   state_.recent = options_.recent;
   state_.plotted = options_.plotted;
   state_.play_rate = options_.play_rate;

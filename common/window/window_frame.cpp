@@ -143,6 +143,7 @@ SceneView ExplorerWindow::with_focus() {
   const bool on_layer = scene_ && scene_->info->layers;
   if ((hand || !view_.surfaces.empty()) && !on_layer && touch_.choice().fade_rest) fade_lines(picture);
   controls_.decorate(controlled(), picture);
+  picture.notes.insert(picture.notes.end(), state_.marks.begin(), state_.marks.end());
   return picture;
 }
 

@@ -17,6 +17,11 @@ struct Point {
 };
 layout(std430, binding = 0) readonly buffer Points { Point points[]; };
 
+#ifdef COLORED
+// Of each point: sRGB in three numbers of eight bits, of 255, from the lowest on; bit 31: by direction.
+layout(std430, binding = 1) readonly buffer Colors { uint colors[]; };
+#endif
+
 layout(location = 0) uniform float width;    // at the focal point, pixels
 layout(location = 1) uniform float fading;   // share of the depth cue
 layout(location = 2) uniform float dimming;  // share of the background at any depth
@@ -66,8 +71,12 @@ void main() {
   const float kEdge = 0.35;
   vec2 shine = line_light(dot(t, light_direction()), dot(t, view));
   float diffuse = pow(shine.x, kDiffuseExponent);
-  vec3 middle = shade(abs(t), diffuse, pow(shine.y, kShininess));
-  vec3 edge = shade(abs(t), kEdge * diffuse, 0.0);
+  vec3 matter = abs(t);
+#ifdef COLORED
+  if ((colors[index] >> 31u) == 0u) matter = unpackUnorm4x8(colors[index]).rgb;
+#endif
+  vec3 middle = shade(matter, diffuse, pow(shine.y, kShininess));
+  vec3 edge = shade(matter, kEdge * diffuse, 0.0);
   // Depth cue: farther lines take on the background, which is linear in the picture.
   float far = mix(fading * fading_at(depth), 1.0, dimming);
 #ifdef SLAB

@@ -1,33 +1,22 @@
 // Slices of tensors side by side, by command line and in the window: what they show, which tracts lie over them, regions
 // that trace them, and the cone of the main direction.
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <stb_image.h>
 
-#include "apps/dtmri/dtmri_model.h"
-#include "apps/dtmri/dtmri_verbs.h"
-#include "common/cli/command_line.h"
-#include "common/cli/window_touch.h"
-#include "common/compose/line_view.h"
-#include "common/hand/mode/haptic_mode.h"
-#include "common/window/panels/panel.h"
 #include "common/window/window.h"
-#include "tests/e2e/explorer_test.h"
+#include "tests/e2e/dtmri_window.h"
 
 namespace palpate::test {
 namespace {
 
-class DtmriPanes : public ExplorerTest {
+class DtmriPanes : public DtmriWindow {
  protected:
-  DtmriPanes() : ExplorerTest("dtmri") {}
-
   Image picture_of(std::vector<std::string> arguments) {
     for (const char* word : {"--size", "402x302", "--out", "p.png", "--force"}) arguments.emplace_back(word);
     (void)json(std::move(arguments));
@@ -58,59 +47,6 @@ class DtmriPanes : public ExplorerTest {
     }
     return count;
   }
-
-  WindowResult open(const std::vector<std::string>& arguments) {
-    const ParsedCommand parsed = parse_command_line(explorer_, arguments);
-    Progress progress;
-    InterruptGuard interrupt(progress, "dtmri");
-    Console console("dtmri", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "dtmri"};
-    WindowOptions window{.program = "dtmri",
-                         .width = kWidth,
-                         .height = kHeight,
-                         .angles = camera_angles(parsed.options.view.camera),
-                         .session = folder_.path("a.palpate.toml"),
-                         .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kTensor), parsed.options, context),
-                         .panels = dtmri_panels(),
-                         .script = script_,
-                         .hidden = true};  // a screen is lower than the panel
-    window.frames = next_ + 30;
-    window.screenshot = folder_.path("window.png");
-    DtmriModel model(parsed.options, "dtmri");
-    WindowResult result = run_window(model, window);
-    EXPECT_EQ(result.missing, std::vector<std::string>()) << "controls that no panel had";
-    if (const char* folder = std::getenv("PALPATE_PICTURES"))
-      std::filesystem::copy(window.screenshot,
-                            std::filesystem::path(folder) / (std::string("dtmri_") + name() + ".png"),
-                            std::filesystem::copy_options::overwrite_existing);
-    return result;
-  }
-  static std::string name() { return ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
-
-  void at(InputEvent event, const std::string& control = {}) {
-    script_.push_back({.frame = next_ += 3, .event = std::move(event), .control = control});
-  }
-  void press(const std::string& control) {
-    at({.kind = InputKind::kMove}, control);
-    at({.kind = InputKind::kPress});
-    at({.kind = InputKind::kRelease});
-    next_ += 6;
-  }
-  void key(int key, int modifiers = 0) {
-    at({.kind = InputKind::kKeyDown, .key = key, .modifiers = modifiers});
-    at({.kind = InputKind::kKeyUp, .key = key, .modifiers = modifiers});
-    next_ += 4;
-  }
-  std::string session() {
-    std::ifstream in(folder_.path("a.palpate.toml"));
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
-
-  static constexpr int kWidth = 1000, kHeight = 3000;  // the panel whole
-  const Explorer explorer_{.name = "dtmri", .kind = FieldKind::kTensor, .verbs = {open_tensors_verb({})}};
-  std::vector<ScriptedEvent> script_;
-  int next_ = 90;
 };
 
 TEST_F(DtmriPanes, SlicesShowDirectionsOrAnisotropyAndTractsWithinTheirSlab) {

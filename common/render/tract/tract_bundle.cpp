@@ -17,6 +17,18 @@ void shuffle(std::vector<std::uint32_t>& order) {
   for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random() % i]);
 }
 
+/// One number in [0, 1] a colour, by which two that follow each other on a scale differ.
+std::vector<float> brightness(std::span<const std::uint32_t> colors) {
+  constexpr float kWhite = 255.0F * 7.0F;
+  std::vector<float> shades;
+  shades.reserve(colors.size());
+  for (const std::uint32_t color : colors) {
+    const std::uint32_t red = color & 255U, green = color >> 8U & 255U, blue = color >> 16U & 255U;
+    shades.push_back(static_cast<float>(2 * red + 4 * green + blue) / kWhite);
+  }
+  return shades;
+}
+
 }  // namespace
 
 std::uint32_t packed_tangent(const Vec3f& tangent) noexcept {
@@ -26,25 +38,45 @@ std::uint32_t packed_tangent(const Vec3f& tangent) noexcept {
   return bits(tangent.x) | bits(tangent.y) << 10U | bits(tangent.z) << 20U;
 }
 
+std::uint32_t packed_color(const Vec3f& srgb) noexcept {
+  const auto bits = [](float x) {
+    return static_cast<std::uint32_t>(std::lround(255.0F * std::clamp(x, 0.0F, 1.0F)));
+  };
+  return bits(srgb.x) | bits(srgb.y) << 8U | bits(srgb.z) << 16U;
+}
+
 std::vector<TractPoint> piece_points(const TractBundle& bundle, std::size_t piece, const SceneFrame& frame,
-                                     double tolerance) {
+                                     double tolerance, std::vector<std::uint32_t>* colors) {
   const auto [first, last] = bundle.pieces[piece];
   std::vector<std::span<const Vec3f>> lines;
+  std::vector<std::uint32_t> color_of;  // of the vertices
   lines.reserve(last - first);
-  for (std::size_t i = first; i < last; ++i) lines.push_back(bundle.lines->line(bundle.order[i]));
+  for (std::size_t i = first; i < last; ++i) {
+    const std::size_t line = bundle.order[i];
+    lines.push_back(bundle.lines->line(line));
+    if (colors == nullptr) continue;
+    color_of.insert(color_of.end(),
+                    bundle.colors.begin() + static_cast<std::ptrdiff_t>(bundle.lines->starts[line]),
+                    bundle.colors.begin() + static_cast<std::ptrdiff_t>(bundle.lines->starts[line + 1]));
+  }
   const LineGeometry whole = make_line_geometry(lines, frame);
-  const std::vector<LineSegment> segments = simplify(whole, {}, tolerance);
+  const std::vector<LineSegment> segments = simplify(whole, brightness(color_of), tolerance);
 
   std::vector<TractPoint> points;
   points.reserve(segments.size() + 2 * lines.size());
   const auto add = [&](std::uint32_t number) {
     const LineVertex& vertex = whole.vertices[number];
     points.push_back({vertex.position, packed_tangent(vertex.tangent)});
+    if (colors != nullptr) colors->push_back(color_of[number]);
   };
+  if (colors != nullptr) colors->clear();
   std::uint32_t end = 0;
   for (const LineSegment& segment : segments) {
     if (points.empty() || segment.first != end) {
-      if (!points.empty()) points.push_back({.tangent = TractPoint::kBetweenLines});
+      if (!points.empty()) {
+        points.push_back({.tangent = TractPoint::kBetweenLines});
+        if (colors != nullptr) colors->push_back(TractBundle::kByDirection);
+      }
       add(segment.first);
     }
     add(segment.last);
@@ -53,7 +85,8 @@ std::vector<TractPoint> piece_points(const TractBundle& bundle, std::size_t piec
   return points;
 }
 
-std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines) {
+std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines,
+                                                     std::vector<std::uint32_t> colors) {
   auto bundle = std::make_shared<TractBundle>();
   for (std::size_t i = 0; i < lines->line_count(); ++i) {
     if (lines->line(i).size() > 1) bundle->order.push_back(static_cast<std::uint32_t>(i));
@@ -71,6 +104,7 @@ std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tract
     if (is_finite(Vec3(point))) bundle->bounds.include(Vec3(point));
   }
   bundle->lines = std::move(lines);
+  bundle->colors = std::move(colors);
   return bundle;
 }
 

@@ -24,13 +24,19 @@ struct TractBundle {
   /// Parts of `order`, [first, last): each of about kPiecePoints points, one line at least.
   std::vector<std::pair<std::size_t, std::size_t>> pieces;
   Box bounds;  ///< of the finite points
+  std::vector<std::uint32_t>
+      colors;  ///< packed_color() of each point, or kByDirection; empty: all by direction
 
+  static constexpr std::uint32_t kByDirection = 1U << 31U;
   /// So few that a picture in motion, of at least one piece, keeps to its time without a graphics card too.
   static constexpr std::size_t kPiecePoints = 1U << 14U;
 };
 
-/// @param lines not null.
-[[nodiscard]] std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines);
+/// @param lines not null. @param colors as TractBundle::colors.
+[[nodiscard]] std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines,
+                                                                   std::vector<std::uint32_t> colors = {});
+/// sRGB in three numbers of eight bits, of 255; red in the lowest ones.
+[[nodiscard]] std::uint32_t packed_color(const Vec3f& srgb) noexcept;
 
 /// 64 Mi points as they come; a third of them are left in a picture of the whole, all when it is enlarged: a
 /// gigabyte at most.
@@ -52,7 +58,7 @@ struct TractSlab {
   bool operator==(const TractSlab&) const = default;
 };
 
-/// Lines coloured by their direction.
+/// Lines coloured by their direction, or as the bundle says.
 struct TractView {
   std::shared_ptr<const TractBundle> bundle;  ///< not null
   double width = 1.5;                         ///< at the focal point, in thousandths of the picture's height
@@ -79,8 +85,10 @@ struct TractPoint {
 
 /// The lines of a piece, each without the points that a picture does not need, and a point between every two
 /// of them: what is left lies within `tolerance` (scene frame) of the lines, with tangents of the whole ones.
-/// Segments whose ends coincide, or are not finite, are left out. @pre piece < bundle.pieces.size().
+/// Segments whose ends coincide, or are not finite, are left out. @param colors gets those of the points; null: not
+/// asked for. @pre piece < bundle.pieces.size(); `colors` only of a bundle that has some.
 [[nodiscard]] std::vector<TractPoint> piece_points(const TractBundle& bundle, std::size_t piece,
-                                                   const SceneFrame& frame, double tolerance);
+                                                   const SceneFrame& frame, double tolerance,
+                                                   std::vector<std::uint32_t>* colors = nullptr);
 
 }  // namespace palpate

@@ -27,7 +27,7 @@ enum Uniform : GLint {
   kSlab = 5,
   kSlabHalf = 6
 };
-constexpr GLuint kPointBuffer = 0;
+constexpr GLuint kPointBuffer = 0, kColorBuffer = 1;
 
 }  // namespace
 
@@ -43,12 +43,16 @@ void TractPass::update(const std::shared_ptr<const TractBundle>& bundle, const S
 void TractPass::draw_piece(const TractDraw& how, std::size_t number) {
   Piece& piece = pieces_[number];
   if (piece.tolerance != how.tolerance) {
-    const std::vector<TractPoint> points = piece_points(*bundle_, number, frame_, how.tolerance);
+    std::vector<std::uint32_t> colors;
+    const std::vector<TractPoint> points =
+        piece_points(*bundle_, number, frame_, how.tolerance, bundle_->colors.empty() ? nullptr : &colors);
     piece.points = make_buffer(std::span<const TractPoint>(points));
+    if (!bundle_->colors.empty()) piece.colors = make_buffer(std::span<const std::uint32_t>(colors));
     piece.vertices = static_cast<int>(2 * points.size());
     piece.tolerance = how.tolerance;
   }
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kPointBuffer, piece.points.name());
+  if (piece.colors) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kColorBuffer, piece.colors.name());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, piece.vertices);
 }
 
@@ -64,10 +68,12 @@ std::size_t TractPass::draw(const TractDraw& how, std::size_t first, std::size_t
   const Stopwatch watch;
   const bool screened = how.opacity < 1.0F;
   if (how.slab && !(how.slab->half > 0.0)) return last;
-  GlProgram& program = programs_[(screened ? 1U : 0U) + (how.slab ? 2U : 0U)];
+  const bool colored = !bundle_->colors.empty();
+  GlProgram& program = programs_[(screened ? 1U : 0U) + (how.slab ? 2U : 0U) + (colored ? 4U : 0U)];
   if (!program) {
-    const std::vector<std::string> defines =
-        how.slab ? std::vector<std::string>{"SLAB"} : std::vector<std::string>();
+    std::vector<std::string> defines;
+    if (how.slab) defines.emplace_back("SLAB");
+    if (colored) defines.emplace_back("COLORED");
     program = compile_program("tract/tract.vert", screened ? "tract/screened.frag" : "tract/tract.frag",
                               shader_files(), defines);
   }

@@ -44,13 +44,14 @@ class TractPass {
   /// What has been uploaded of a piece.
   struct Piece {
     GlBuffer points;
+    GlBuffer colors;  ///< of a bundle that has some
     int vertices = 0;
     double tolerance = -1.0;  ///< of the lines; below zero: nothing has
   };
   void draw_piece(const TractDraw& how, std::size_t number);
 
-  /// Compiled at the first use: opaque, screened, and both in a slab.
-  std::array<GlProgram, 4> programs_;
+  /// Compiled at the first use: opaque, screened, both in a slab, and all of these with colours of their own.
+  std::array<GlProgram, 8> programs_;
   GlVertexArray no_vertices_;
   std::shared_ptr<const TractBundle> bundle_;
   SceneFrame frame_;

@@ -177,6 +177,8 @@ struct TractAppearance {
   double width = 1.5;          ///< thousandths of the picture's height
   double opacity = 1.0;        ///< in (0, 1]
   std::optional<double> slab;  ///< TractView::slab_thickness
+  std::vector<std::string> bundles;  ///< grammar of bundle_text.h
+  std::string bundle_profile;        ///< name of a SliceImage, measured along all bundles; empty: nothing
 };
 
 /// What of a heart is traced, drawn and mapped.
@@ -280,6 +282,7 @@ struct OutputOptions {
       profiled;     ///< tracts: the image whose values that are; empty: `measure` of the tensors
   int nodes = 100;  ///< tracts: places of the profile
   std::filesystem::path density;      ///< tracts: where lines a voxel are written; empty: nowhere
+  std::filesystem::path lines_mask;   ///< tracts: where the voxels with lines are written; empty: nowhere
   std::string size;                   ///< WxH; empty: 1280x960, or that of the screen
   int repeat = 0;                     ///< render: frames to be timed after the first one
   int turntable = 0;                  ///< render: frames of a turn of the camera; 0: no film

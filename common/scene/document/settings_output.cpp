@@ -270,6 +270,14 @@ const Setting kOutputRows[] = {
      .groups = {Group::kTurn},
      .kinds = kTensors,
      .saved = false},
+    {.name = "bundle-mask",
+     .place = kOutputAt<&OutputOptions::lines_mask>,
+     .help = "write an image that is 1 in the voxels that lines pass, 0 in others",
+     .value = "FILE",
+     .heading = "Output",
+     .groups = {Group::kTurn},
+     .kinds = kTensors,
+     .saved = false},
 };
 
 }  // namespace

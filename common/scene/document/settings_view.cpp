@@ -305,6 +305,27 @@ const Setting kViewRows[] = {
      .groups = {Group::kView},
      .kinds = kTensors,
      .file = true},
+    {.name = "bundle",
+     .place = kTractAppearanceAt<&TractAppearance::bundles>,
+     .help =
+         "a bundle of tracts: fields between '|', such as name=Left|color=#ff8000|file=left.trk|smooth=1; color= is "
+         "direction, #rrggbb, or what slices show of the image (fa, md); shown=off hides it. Tracts come from file=, "
+         "from line=x,y,z,…, or from seeds= and other options of trace, ended by trace=; what follows edits them: "
+         "delete=N,N; cut=N,x,y,z; part=nx,ny,nz,d (all lines, at a plane); join=N,M; smooth=MM; resample=MM; "
+         "length=LEAST,MOST; keep=, drop=, crop= REGION; also= and all= enclose tracts that are edited by themselves; may be "
+         "repeated",
+     .value = "TEXT",
+     .heading = "View",
+     .groups = {Group::kView, Group::kTurn},
+     .kinds = kTensors},
+    {.name = "bundle-profile",
+     .place = kTractAppearanceAt<&TractAppearance::bundle_profile>,
+     .help = "window: plot this along each bundle: fa, md, of images that are fitted b0 and cone, or underlay",
+     .value = "NAME",
+     .heading = "View",
+     .groups = {Group::kView},
+     .kinds = kTensors,
+     .otherwise = "nothing"},
     {.name = "tract-width",
      .place = kTractAppearanceAt<&TractAppearance::width>,
      .help = "of tracts, in thousandths of the picture's height",

@@ -52,8 +52,11 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
   const bool leaves_lens = event.kind == InputKind::kPress && (lens_.followed() || color_lens_.followed());
   bool lens = false;
   const bool of_pane = !of_panel && view.volume && handle_pane(event, on);
-  if (!of_panel && !of_pane && !menu_.handle(event, area, view.camera) && !handle_region(event, on) &&
-      !handle_plane_image(event, on) && !(leaves_lens && (lens = handle_lens(event, on))) &&
+  const bool picks = !of_panel && !of_pane && !touch_control_.grabbed() &&
+                     tract_pick_.handle(event, area, seeing(on), std::nullopt);
+  if (!of_panel && !of_pane && !picks && !menu_.handle(event, area, view.camera) &&
+      !handle_region(event, on) && !handle_plane_image(event, on) &&
+      !(leaves_lens && (lens = handle_lens(event, on))) &&
       !touch_control_.handle(event, area, view, on.time, over_panel) && !(lens = handle_lens(event, on)) &&
       !(view.tensors && slice_.handle(event, area, view.camera, *view.tensors))) {
     view_.handle(event, area, view.bounds, view.camera);
@@ -76,7 +79,9 @@ bool SceneControls::handle_pane(const InputEvent& event, const ControlledScene& 
     session_.notes().add(*place);
     return true;
   }
-  if (brush_.handle(event, pane_control_.place(on.panes, on.view))) return true;
+  const std::optional<Vec3> under = pane_control_.place(on.panes, on.view);
+  if (brush_.handle(event, under)) return true;
+  if (under && tract_pick_.handle(event, sight->area, sight->camera, under)) return true;
   if (touch_control_.grabbed() || touch_control_.waiting()) {
     // The hand moves in the plane of the slice.
     const Camera own = std::exchange(on.view.camera, sight->camera);
@@ -172,6 +177,7 @@ void SceneControls::let_go() {
   plane_image_.let_go();
   region_.let_go();
   brush_.let_go();
+  tract_pick_.let_go();
   touch_control_.let_go();
   touch_control_.mark(false);
 }

@@ -17,6 +17,7 @@
 #include "common/window/controls/region_control.h"
 #include "common/window/controls/slice_control.h"
 #include "common/window/controls/touch_control.h"
+#include "common/window/controls/tract_pick_control.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/immersive/hand_in_space.h"
 #include "common/window/immersive/menu_control.h"
@@ -89,6 +90,7 @@ class SceneControls {
   [[nodiscard]] MenuControl& menu() noexcept { return menu_; }
   [[nodiscard]] RegionControl& region() noexcept { return region_; }
   [[nodiscard]] BrushControl& brush() noexcept { return brush_; }
+  [[nodiscard]] TractPickControl& tract_pick() noexcept { return tract_pick_; }
   /// The view or a slice follows a drag.
   [[nodiscard]] bool moves_view() const noexcept { return view_.dragging() || slice_.dragging(); }
   /// Whether nothing is dragged that an edit would be of.
@@ -121,6 +123,7 @@ class SceneControls {
   PlaneImageControl plane_image_;
   RegionControl region_;
   BrushControl brush_;
+  TractPickControl tract_pick_;
   ViewHold view_hold_;
   TouchControl touch_control_;
   bool lens_moved_ = false;

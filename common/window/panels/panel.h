@@ -14,6 +14,7 @@
 #include "common/render/tensor/tensor_view.h"
 #include "common/window/controls/brush_control.h"
 #include "common/window/controls/seed_choice.h"
+#include "common/window/controls/tract_pick_control.h"
 #include "common/window/controls/view_control.h"
 #include "common/window/panels/message_log.h"
 #include "common/window/panels/series_panel.h"
@@ -51,6 +52,8 @@ struct PanelState {
   std::optional<SeriesPlot> series;  ///< none where nothing is plotted
   RegionControl* region = nullptr;   ///< of a volume
   BrushControl* brush = nullptr;     ///< on slices
+  TractPickControl* tract_pick = nullptr;
+  std::vector<NoteView> marks;  ///< that panels put into the picture of this frame
   ProbeSession* touch = nullptr;     ///< null or not available(): no such part
   bool grabbed = false;
   bool marking = false;                                                  ///< clicks mark places

@@ -1,0 +1,205 @@
+// Bundles of tracts by the mouse and without a window: kept, picked, edited, undone, measured, saved, and back with the
+// session; the corpus callosum and both cortico-spinal tracts of a whole head.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "common/geometry/tractogram.h"
+#include "common/load/read_tractogram.h"
+#include "common/render/camera.h"
+#include "tests/e2e/dtmri_window.h"
+#include "tests/support/project_folders.h"
+#include "tests/support/shared_data.h"
+
+namespace palpate::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class DtmriBundles : public DtmriWindow {
+ protected:
+  void SetUp() override {
+    before_ = fs::current_path();
+    fs::current_path(folder_.path());  // files are saved where the program runs
+  }
+  void TearDown() override { fs::current_path(before_); }
+
+  static const std::vector<std::string>& bundles(const WindowResult& result) {
+    return result.document.tract_appearance.bundles;
+  }
+  static std::size_t shown(const WindowResult& result) {
+    return result.view.tracts ? result.view.tracts->bundle->order.size() : 0;
+  }
+
+ private:
+  fs::path before_;
+};
+
+constexpr int kKeyS = 'S', kKeyZ = 'Z';
+constexpr float kLetterHeight = 14.0F;  // [pixels] of the panel
+
+TEST_F(DtmriBundles, AreEditedMeasuredAndWrittenWithoutAWindow) {
+  const std::string traced = "seeds=fa:0.6|trace=";
+  const auto lines = [&](const std::string& text) {
+    return json({"tracts", "--example", "helix", "--bundle", text})["lengths"]["lines"].get<std::size_t>();
+  };
+  const std::size_t all = lines(traced);
+  ASSERT_GT(all, 10U);
+  EXPECT_EQ(lines(traced + "|delete=1,2,3"), all - 3);
+  EXPECT_EQ(lines(traced + "|keep=box:-1000,-1000,-1000,1000,1000,1000"), all);
+  EXPECT_EQ(lines(traced + "|line=0,0,0,10,0,0"), all + 1);
+
+  (void)json({"tracts", "--example", "helix", "--bundle", "name=one|" + traced, "--bundle",
+              "name=two|line=0,0,0,10,0,0|resample=1", "--out", "both.trx", "--profile", "p.csv", "--density",
+              "d.nii.gz", "--bundle-mask", "m.nii.gz"});
+  const Tractogram both = read_tractogram(folder_.path("both.trx")).lines;
+  ASSERT_EQ(both.line_count(), all + 1);
+  for (const char* name : {"group one", "group two"}) {
+    const auto column = std::ranges::find(both.of_lines, name, &Tractogram::Column::name);
+    ASSERT_NE(column, both.of_lines.end()) << name;
+    EXPECT_EQ(column->values.front() != 0.0F, std::string(name) == "group one");
+    EXPECT_EQ(column->values.back() != 0.0F, std::string(name) == "group two");
+  }
+  EXPECT_TRUE(fs::exists(folder_.path("p.csv")) && fs::exists(folder_.path("d.nii.gz")) &&
+              fs::exists(folder_.path("m.nii.gz")));
+  const ProgramResult none = run({"tracts", "--example", "helix", "--bundle", traced + "|length=1e6,2e6"});
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("no tract is left"), std::string::npos) << none.err;
+  EXPECT_EQ(run({"tracts", "--example", "helix", "--bundle", traced, "--tracts", "both.trx"}).exit_code, 2);
+  EXPECT_EQ(run({"tracts", "--example", "helix", "--bundle", "smooth=no"}).exit_code, 2);
+}
+
+TEST_F(DtmriBundles, AreKeptPickedCutUndoneAndBackWithTheSession) {
+  if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+  press("Keep as bundle");
+  press("Smooth");
+  press("Resample");
+  key(kKeyZ, kModifierControl);
+  press("Cut nearest");
+  choose("profile of", "fa");
+  press("Save bundle");
+  press("Save mask");
+  press("Save profile");
+  key(kKeyS, kModifierControl);
+  const WindowResult first = open({"open", "--example", "helix", "--seeds", "fa:0.6"});
+  ASSERT_EQ(bundles(first).size(), 1U);
+  const std::string text = bundles(first).front();
+  EXPECT_NE(text.find("seeds=fa:0.6|trace=|smooth="), std::string::npos) << text;
+  EXPECT_EQ(text.find("resample"), std::string::npos) << "undone: " << text;
+  EXPECT_NE(text.find("|cut="), std::string::npos) << text;
+  EXPECT_TRUE(first.document.tracts.seeds.empty()) << "the next Trace leaves the bundle";
+  const Tractogram saved = read_tractogram(folder_.path("bundle.trx")).lines;
+  EXPECT_EQ(saved.line_count(), shown(first));
+  EXPECT_TRUE(fs::exists(folder_.path("bundle_mask.nii.gz")));
+  EXPECT_TRUE(fs::exists(folder_.path("bundle_fa.csv")));
+
+  // The line under the middle of the picture, by the mouse.
+  const WindowResult again = open({"open", "--session", folder_.path("a.palpate.toml")});
+  EXPECT_EQ(bundles(again), bundles(first));
+  EXPECT_EQ(again.document.tract_appearance.bundle_profile, "fa");
+  ASSERT_EQ(shown(again), shown(first));
+  EXPECT_EQ(again.view.tracts->bundle->lines->points, first.view.tracts->bundle->lines->points)
+      << "traced and edited anew, to the last bit";
+
+  const PictureArea area = layout(width_, height_, kLetterHeight).picture;
+  const auto line = again.view.tracts->bundle->lines->line(shown(again) / 2);
+  const Vec3 place = project(again.view.camera, Vec3(line[line.size() / 2]), static_cast<int>(area.width),
+                             static_cast<int>(area.height));
+  press("pick tracts");
+  click(area.left + place.x, area.top + place.y);
+  press("Delete tract");
+  key(kKeyS, kModifierControl);
+  const WindowResult deleted = open({"open", "--session", folder_.path("a.palpate.toml")});
+  EXPECT_NE(bundles(deleted).front().find("|delete="), std::string::npos) << bundles(deleted).front();
+  EXPECT_EQ(shown(deleted), shown(again) - 1);
+}
+
+/// As a neuroanatomist would, mouse only. PALPATE_WRITE_PAGES makes the pictures of docs/guide/dtmri.md.
+TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
+  if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+  PALPATE_NEED_DATA(head, "dtmri/brain-dwi/3000_DTI_PA-ortho_cl.nii.gz");
+  const std::string session = folder_.path("a.palpate.toml");
+  height_ = 4400;  // three bundles and two regions
+  const auto show = [&](const std::string& step) {
+    const int width = std::exchange(width_, 1500), height = std::exchange(height_, 950);
+    const bool pages = std::getenv("PALPATE_WRITE_PAGES") != nullptr;
+    const fs::path folder = pages ? source_folder() / "docs" / "guide" : fs::path(folder_.path());
+    // The part of the panel for bundles.
+    constexpr int kNotches = 60;
+    for (int i = 0; i < kNotches; ++i) {
+      at({.kind = InputKind::kMove, .x = 100.0, .y = 500.0});
+      at({.kind = InputKind::kWheel, .x = 0.0, .y = -1.0});
+    }
+    const WindowResult result = open({"open", "--session", session}, folder / ("dtmri_" + step + ".png"));
+    width_ = width;
+    height_ = height;
+    return result;
+  };
+  // Places on the sliders: from the first to the last voxel.
+  const auto cross = [&](double x, double y, double z) {
+    press("sagittal", (x + 117.6) / 237.0);
+    press("coronal", (y + 102.5) / 237.0);
+    press("axial", (z + 37.0) / 117.0);
+  };
+  const auto trace_and_keep = [&] {
+    press("Trace");
+    press("Keep as bundle");
+  };
+  key(kKeyS);
+  key(kKeyS);
+  cross(0.0, 16.5, 27.7);
+  trace_and_keep();
+  cross(-22.0, 15.0, 23.0);
+  trace_and_keep();
+  cross(22.7, 18.0, 23.0);
+  trace_and_keep();
+  key(kKeyS, kModifierControl);
+  const WindowResult drawn = open({"open", head.string()});
+  ASSERT_EQ(bundles(drawn).size(), 3U);
+  const std::size_t all = shown(drawn);
+  EXPECT_GT(all, 100U);
+  (void)show("bundles");
+
+  // The left one goes through a ball high up, and does not cross the middle.
+  choose("edit", "2 bundle 2");
+  cross(-19.5, 16.0, 46.0);
+  press("Ball");
+  cross(-3.0, 16.0, 46.0);
+  choose("new region", "exclude");
+  press("Beyond plane");
+  press("Clean by regions");
+  choose("profile of", "fa");
+  press("Save bundle");
+  choose("format", ".trk");
+  press("Save bundle");
+  press("Save profile");
+  key(kKeyS, kModifierControl);
+  const WindowResult cleaned = open({"open", "--session", session});
+  ASSERT_EQ(bundles(cleaned).size(), 3U);
+  EXPECT_NE(bundles(cleaned)[1].find("|keep=sphere:"), std::string::npos) << bundles(cleaned)[1];
+  EXPECT_NE(bundles(cleaned)[1].find("|drop=beyond:"), std::string::npos) << bundles(cleaned)[1];
+  EXPECT_LT(shown(cleaned), all);
+  const Tractogram trx = read_tractogram(folder_.path("bundle.trx")).lines,
+                   trk = read_tractogram(folder_.path("bundle.trk")).lines;
+  EXPECT_GT(trx.line_count(), 5U);
+  ASSERT_EQ(trk.line_count(), trx.line_count());
+  for (std::size_t p = 0; p < trx.points.size(); ++p) {
+    ASSERT_LT(trx.points[p].x, 0.0F) << "left of the middle";
+    ASSERT_LT(glm::distance(trx.points[p], trk.points[p]), 1e-3F);
+  }
+  const WindowResult again = show("cleaned");
+  EXPECT_EQ(bundles(again), bundles(cleaned)) << "all is back";
+  EXPECT_EQ(again.document.tracts.include, cleaned.document.tracts.include);
+  EXPECT_EQ(shown(again), shown(cleaned));
+  if (const char* folder = std::getenv("PALPATE_PICTURES")) {
+    for (const char* name : {"bundle.trx", "bundle.trk", "bundle_fa.csv", "a.palpate.toml"})
+      fs::copy(folder_.path(name), fs::path(folder) / name, fs::copy_options::overwrite_existing);
+  }
+}
+
+}  // namespace
+}  // namespace palpate::test
