@@ -82,8 +82,7 @@ void draw_bundle_plot(const std::string& name, std::span<const BundleCurve> curv
   }
   for (const BundleCurve& curve : curves) draw_curve(frame, curve);
   const ImVec2 below = frame.at(0.0, range.lower);
-  draw.AddText({below.x, below.y + 0.3F * em}, words,
-               (name + " from the left, back or feet to the other end").c_str());
+  draw.AddText({below.x, below.y + 0.3F * em}, words, (name + " from left, back or feet").c_str());
   ImGui::Dummy(room);
   note_control("bundle plot");
 }

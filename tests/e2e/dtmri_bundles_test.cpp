@@ -124,13 +124,13 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   PALPATE_NEED_DATA(head, "dtmri/brain-dwi/3000_DTI_PA-ortho_cl.nii.gz");
   const std::string session = folder_.path("a.palpate.toml");
   height_ = 4400;  // three bundles and two regions
-  const auto show = [&](const std::string& step) {
-    const int width = std::exchange(width_, 1500), height = std::exchange(height_, 950);
+  const auto show = [&](const std::string& step, int notches) {
+    const int width = std::exchange(width_, 1200), height = std::exchange(height_, 800);
     const bool pages = std::getenv("PALPATE_WRITE_PAGES") != nullptr;
     const fs::path folder = pages ? source_folder() / "docs" / "guide" : fs::path(folder_.path());
-    // The part of the panel for bundles.
-    constexpr int kNotches = 60;
-    for (int i = 0; i < kNotches; ++i) {
+    // Bundles alone in the scene, and their part of the panel.
+    for (int slice = 0; slice < 3; ++slice) press("##shown", 0.5, slice);
+    for (int i = 0; i < notches; ++i) {
       at({.kind = InputKind::kMove, .x = 100.0, .y = 500.0});
       at({.kind = InputKind::kWheel, .x = 0.0, .y = -1.0});
     }
@@ -151,8 +151,15 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   };
   key(kKeyS);
   key(kKeyS);
-  cross(0.0, 16.5, 27.7);
-  trace_and_keep();
+  // The corpus callosum where it bends, in its middle and in front, as one; then a tract on either side.
+  for (const Vec3& place : {Vec3(0.0, -8.0, 27.0), Vec3(0.0, 20.0, 40.0), Vec3(0.0, 57.0, 31.0)}) {
+    cross(place.x, place.y, place.z);
+    trace_and_keep();
+  }
+  for (const char* other : {"2 bundle 2", "2 bundle 3"}) {
+    choose("with", other);
+    press("Join bundles");
+  }
   cross(-22.0, 15.0, 23.0);
   trace_and_keep();
   cross(22.7, 18.0, 23.0);
@@ -162,7 +169,7 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   ASSERT_EQ(bundles(drawn).size(), 3U);
   const std::size_t all = shown(drawn);
   EXPECT_GT(all, 100U);
-  (void)show("bundles");
+  (void)show("bundles", 29);
 
   // The left one goes through a ball high up, and does not cross the middle.
   choose("edit", "2 bundle 2");
@@ -191,7 +198,7 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
     ASSERT_LT(trx.points[p].x, 0.0F) << "left of the middle";
     ASSERT_LT(glm::distance(trx.points[p], trk.points[p]), 1e-3F);
   }
-  const WindowResult again = show("cleaned");
+  const WindowResult again = show("cleaned", 45);
   EXPECT_EQ(bundles(again), bundles(cleaned)) << "all is back";
   EXPECT_EQ(again.document.tracts.include, cleaned.document.tracts.include);
   EXPECT_EQ(shown(again), shown(cleaned));

@@ -54,12 +54,16 @@ class DtmriWindow : public ExplorerTest {
   }
   static std::string name() { return ::testing::UnitTest::GetInstance()->current_test_info()->name(); }
 
-  void at(InputEvent event, const std::string& control = {}, double across = 0.5) {
-    script_.push_back({.frame = next_ += 3, .event = std::move(event), .control = control, .across = across});
+  void at(InputEvent event, const std::string& control = {}, double across = 0.5, int which = 0) {
+    script_.push_back({.frame = next_ += 3,
+                       .event = std::move(event),
+                       .control = control,
+                       .which = which,
+                       .across = across});
   }
-  /// @param across where in the control, from its left to its right.
-  void press(const std::string& control, double across = 0.5) {
-    at({.kind = InputKind::kMove}, control, across);
+  /// @param across where in the control, from its left to its right. @param which of several of that label.
+  void press(const std::string& control, double across = 0.5, int which = 0) {
+    at({.kind = InputKind::kMove}, control, across, which);
     at({.kind = InputKind::kPress});
     at({.kind = InputKind::kRelease});
     next_ += 6;

@@ -335,6 +335,7 @@ TEST_F(PanelWalk, EveryControlOfDtmriIsInTheSessionAndThePictureAgain) {
   walk(dtmri, helix,
        {"--seeds", "point:20,0,0", "--glyphs", "ellipsoid", "--underlay", patient_image("t1.nrrd")});
   walk(dtmri, helix, {"--seeds", "point:20,0,0", "--layout", "4", "--flip", "k"});
+  walk(dtmri, helix, {"--bundle", "name=a|color=fa|seeds=point:20,0,0|trace="});
   for (const HapticMode& mode : modes_of(FieldKind::kTensor))
     walk(dtmri, helix, {"--stiffness", "300", "--mode", mode.name});
 }

@@ -173,10 +173,10 @@ struct TensorOptions {
 
 /// Tracts of a file, and how tracts are drawn.
 struct TractAppearance {
-  std::string file;            ///< a tractogram; empty: none
-  double width = 1.5;          ///< thousandths of the picture's height
-  double opacity = 1.0;        ///< in (0, 1]
-  std::optional<double> slab;  ///< TractView::slab_thickness
+  std::string file;                  ///< a tractogram; empty: none
+  double width = 1.5;                ///< thousandths of the picture's height
+  double opacity = 1.0;              ///< in (0, 1]
+  std::optional<double> slab;        ///< TractView::slab_thickness
   std::vector<std::string> bundles;  ///< grammar of bundle_text.h
   std::string bundle_profile;        ///< name of a SliceImage, measured along all bundles; empty: nothing
 };

@@ -320,7 +320,8 @@ const Setting kViewRows[] = {
      .kinds = kTensors},
     {.name = "bundle-profile",
      .place = kTractAppearanceAt<&TractAppearance::bundle_profile>,
-     .help = "window: plot this along each bundle: fa, md, of images that are fitted b0 and cone, or underlay",
+     .help =
+         "window: plot this along each bundle: fa, md, of images that are fitted b0 and cone, or underlay",
      .value = "NAME",
      .heading = "View",
      .groups = {Group::kView},

@@ -53,8 +53,8 @@ struct PanelState {
   RegionControl* region = nullptr;   ///< of a volume
   BrushControl* brush = nullptr;     ///< on slices
   TractPickControl* tract_pick = nullptr;
-  std::vector<NoteView> marks;  ///< that panels put into the picture of this frame
-  ProbeSession* touch = nullptr;     ///< null or not available(): no such part
+  std::vector<NoteView> marks;    ///< that panels put into the picture of this frame
+  ProbeSession* touch = nullptr;  ///< null or not available(): no such part
   bool grabbed = false;
   bool marking = false;                                                  ///< clicks mark places
   std::optional<TensorPick> tensor;                                      ///< under the mouse

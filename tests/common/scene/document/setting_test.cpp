@@ -84,8 +84,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("tensors", a, b, c, d, e, f, g, h, i, j, k, l);
   }
   {
-    const auto& [a, b, c, d] = document.tract_appearance;
-    expect("tract_appearance", a, b, c, d);
+    const auto& [a, b, c, d, e, f] = document.tract_appearance;
+    expect("tract_appearance", a, b, c, d, e, f);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] =
@@ -115,8 +115,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("hand", a, b, c, d, e, f);
   }
   {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = document.output;
-    expect("output", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = document.output;
+    expect("output", a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   }
   {
     const auto& [a, b, c, d, e, f, g, h, i, j] = document.calibration;
