@@ -43,14 +43,15 @@ std::vector<std::function<void(SceneView&)>> edits() {
   SceneView view;
   auto& [bounds, lines, outline, style, units, background, show_outline, show_axes, show_color_bar,
          color_bar_left, show_scale_bar, caption, title, subtitle, camera, aspect, stereo, probe, surfaces,
-         color_lens, volume, slice, tensors, tracts, notes, regions, labels, volume_label, anatomical] = view;
+         color_lens, volume, slice, tensors, tracts, notes, regions, labels, volume_label, anatomical,
+         beside] = view;
   auto& [color_by, array, range, usual, logarithmic, color_map, width, opacity, clearing, halo, depth_cue,
          dimming] = style;
   // What data, seeds, stereo options, hands and annotations make, and what has a keep_…() of its own.
   (void)bounds, (void)lines, (void)outline, (void)units, (void)title, (void)subtitle, (void)stereo;
   (void)probe, (void)surfaces, (void)color_lens, (void)volume, (void)tensors, (void)tracts, (void)notes;
   (void)labels, (void)slice, (void)volume_label, (void)anatomical, (void)array, (void)clearing, (void)dimming,
-      (void)usual, (void)regions;
+      (void)usual, (void)regions, (void)beside;
   // What an edit of these changes of another view.
   (void)background, (void)show_outline, (void)show_axes, (void)show_color_bar, (void)color_bar_left,
       (void)show_scale_bar, (void)caption, (void)camera, (void)color_by, (void)aspect;
