@@ -169,7 +169,9 @@ class InputModel : public WindowModel {
     Input input = Input::open(document.input, &progress);
     complete(document, input, progress);
     Content content = read(input, document, progress);
-    document.input.field = input.field_label();
+    // Of tensors a file may lack any: tracts alone are shown, too.
+    if (document.input.kind != FieldKind::kTensor || !input.fields().empty())
+      document.input.field = input.field_label();
     document.input.secondary = input.spec().secondary;
     if (input.times().size() > 1) set_time_step(document, input.times(), input.time().step);
     SceneState state = present(input, content, document, nullptr, progress);

@@ -118,6 +118,38 @@ TEST_F(DtmriBundles, AreKeptPickedCutUndoneAndBackWithTheSession) {
   EXPECT_EQ(shown(deleted), shown(again) - 1);
 }
 
+TEST_F(DtmriBundles, DroppedTractsJoinTheImageAndASetOpensAsOne) {
+  if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+  PALPATE_NEED_DATA(head, "dtmri/brain-dwi/3000_DTI_PA-ortho_cl.nii.gz");
+  const std::string stem = head.string().substr(0, head.string().size() - std::string(".nii.gz").size());
+  (void)json({"trace", "--example", "helix", "--seeds", "fa:0.6", "--out", "one.trk"});
+  (void)json({"tracts", "--example", "helix", "--tracts", "one.trk", "--out", "two.tck"});
+  (void)json({"trace", head.string(), "--seeds", "sphere:-22,15,23,9", "--out", "left.trk"});
+  const auto drop = [&](std::vector<fs::path> files) {
+    at({.kind = InputKind::kDrop, .files = std::move(files)});
+    next_ += 6;
+  };
+  drop({folder_.path("one.trk")});
+  drop({folder_.path("two.tck")});
+  const WindowResult beside = open({"open", "--example", "helix"});
+  EXPECT_EQ(beside.document.tract_appearance.file, folder_.path("one.trk"));
+  ASSERT_EQ(bundles(beside).size(), 1U) << "the second one does not take the place of the first";
+  EXPECT_NE(bundles(beside).front().find("name=two|"), std::string::npos) << bundles(beside).front();
+  const std::size_t one = read_tractogram(folder_.path("one.trk")).lines.line_count();
+  EXPECT_EQ(shown(beside), 2 * one);
+
+  drop({folder_.path("left.trk"), stem + ".bvec", head, stem + ".bval"});
+  const WindowResult set = open({"open", "--example", "helix"});
+  ASSERT_EQ(set.document.input.files, std::vector<fs::path>{head});
+  EXPECT_EQ(set.document.tract_appearance.file, folder_.path("left.trk"));
+  EXPECT_EQ(shown(set), read_tractogram(folder_.path("left.trk")).lines.line_count());
+  EXPECT_TRUE(set.view.tensors && set.view.tensors->image->field)
+      << "fitted with the table that came with it";
+
+  const WindowResult alone = open({"open", folder_.path("left.trk")});
+  EXPECT_EQ(shown(alone), shown(set)) << "tracts open alone";
+}
+
 /// As a neuroanatomist would, mouse only. PALPATE_WRITE_PAGES makes the pictures of docs/guide/dtmri.md.
 TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
