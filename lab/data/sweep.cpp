@@ -200,7 +200,7 @@ class Sweeper {
     }
   }
 
-  /// vtkStreamTracer on the same mesh, by its steps and by its tolerances.
+  /// vtkStreamTracer on the same mesh, by its steps.
   void add_peer() {
     const TraceOptions& wanted = request_.trace;
     std::string why = VtkTracer::hindrance(field_);
@@ -212,21 +212,12 @@ class Sweeper {
     }
     try {
       VtkTracer vtk(field_, sweep_.spacing, progress_);
-      double step = sweep_.spacing / kFewestStepsPerSpacing;
-      for (int halving = 0; halving < kMostHalvings; ++halving, step *= 0.5) {
-        const double seconds = add_peer_row(vtk, {.adaptive = false, .step = step}, "VTK rk4",
-                                            "step=" + short_number(step), step);
-        if (2.0 * seconds > plan_.seconds_setting) break;
-      }
-      constexpr int kDigits = 9;
-      constexpr double kOrder = 5.0;
-      for (int digit = 3; digit <= kDigits; ++digit) {
-        const double error = std::pow(10.0, -digit);
-        const VtkSetting setting{.adaptive = true,
-                                 .step = sweep_.spacing / kFewestStepsPerSpacing,
-                                 .error = error * field_.diagonal()};
-        const double seconds = add_peer_row(vtk, setting, "VTK rk45", "error=" + short_number(error), error);
-        if (std::pow(10.0, 1.0 / kOrder) * seconds > plan_.seconds_setting) break;
+      for (const bool fifth : {false, true}) {
+        double step = sweep_.spacing / kFewestStepsPerSpacing;
+        for (int halving = 0; halving < kMostHalvings; ++halving, step *= 0.5) {
+          const double seconds = add_peer_row(vtk, {.fifth = fifth, .step = step});
+          if (2.0 * seconds > plan_.seconds_setting) break;
+        }
       }
     } catch (const Cancelled&) {
       throw;
@@ -235,16 +226,17 @@ class Sweeper {
     }
   }
 
-  double add_peer_row(VtkTracer& vtk, const VtkSetting& setting, const std::string& method,
-                      const std::string& parameter, double value) {
-    stage(method + " " + parameter);
-    SweepRow row{.method = method, .parameter = parameter, .setting = value, .judge = sweep_.reference};
+  double add_peer_row(VtkTracer& vtk, const VtkSetting& setting) {
+    SweepRow row{.method = setting.fifth ? "VTK rk45" : "VTK rk4",
+                 .parameter = "step=" + short_number(setting.step),
+                 .setting = setting.step,
+                 .judge = sweep_.reference};
+    stage(row.method + " " + row.parameter);
     const TraceOptions& wanted = request_.trace;
     std::vector<Line> lines;
     for (const TraceDirection direction : {TraceDirection::kForward, TraceDirection::kBackward}) {
       if (!(direction == TraceDirection::kForward ? wanted.forward : wanted.backward)) continue;
-      VtkLines found = vtk.trace(seeds_, direction, setting, sweep_.max_length,
-                                 setting.adaptive ? kMostSweptSteps : kMostPeerSteps);
+      VtkLines found = vtk.trace(seeds_, direction, setting, sweep_.max_length, kMostPeerSteps);
       row.seconds += found.seconds;
       std::move(found.lines.begin(), found.lines.end(), std::back_inserter(lines));
     }

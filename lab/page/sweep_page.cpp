@@ -111,10 +111,10 @@ std::string sweep_section(const Sweep& sweep) {
       "95 % of its lines have one. work_precision_lines.csv has every line of every row.");
   if (std::ranges::any_of(sweep.rows, [](const SweepRow& row) { return row.method.starts_with("VTK"); })) {
     out += paragraph(
-        "Rows of VTK are its vtkStreamTracer, given the same mesh, values and seeds: Runge-Kutta 4 by its step, and Runge-Kutta "
-        "4-5 by the error of a step over the diagonal. Between its points lines are cubic, which counts as its error. It stops "
-        "somewhere before the border, so its lines are not compared at their ends; one that stops farther away than two comparisons "
-        "are apart has failed. It states no error. Its time is that of the processor, with its search for cells.");
+        "Rows of VTK are its vtkStreamTracer, given the same mesh, values and seeds: Runge-Kutta 4 and 4-5 by their step, which is "
+        "kept. Between its points lines are cubic, which counts as its error. It stops somewhere before the border, so its lines are "
+        "not compared at their ends; one that stops farther away than two comparisons are apart has failed. It states no error. Its "
+        "time is that of the processor; on tetrahedra each run builds its search tree, which is most of the time of few lines.");
   }
   if (!sweep.peer_missing.empty()) out += paragraph(sweep.peer_missing);
   out += sweep_table(sweep);

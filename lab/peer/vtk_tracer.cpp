@@ -190,9 +190,8 @@ VtkLines VtkTracer::trace(std::span<const Vec3> seeds, TraceDirection direction,
   }
   MemoryFile memory;
   const Json request{{"request", "trace"},
-                     {"adaptive", setting.adaptive},
+                     {"fifth", setting.fifth},
                      {"step", setting.step / scale},
-                     {"error", setting.error / scale},
                      {"backward", direction == TraceDirection::kBackward},
                      {"length", length / scale},
                      {"steps", steps},

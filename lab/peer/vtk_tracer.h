@@ -5,7 +5,7 @@
 ///
 /// Requests: {"request": "mesh", "points": offset, "point_count", "values": offset, "cells": offset, "cell_count"} for
 /// tetrahedra, with "axes": [{"offset", "count"}, x3] and "uniform" in place of points and cells for boxes; {"request": "trace",
-/// "adaptive", "step", "error", "backward", "length", "steps", "seeds": offset, "seed_count"}. Answers: {} and {"seconds", "lines",
+/// "fifth", "step", "backward", "length", "steps", "seeds": offset, "seed_count"}. Answers: {} and {"seconds", "lines",
 /// "point_count", "first": offset of lines + 1, "seed": offset, "reason": offset, "points": offset, "vectors": offset}; whole
 /// numbers have 64 bits, others are doubles.
 #pragma once
@@ -26,15 +26,14 @@ inline constexpr const char* kVtkTracerProgram = "palpate-vtk-tracer";
 
 /// Of vtkStreamTracer, whose steps are lengths along the line.
 struct VtkSetting {
-  bool adaptive = false;  ///< Runge-Kutta 4-5 with an error per step; else Runge-Kutta 4
-  double step = 0.0;      ///< data units; the longest one, where they adapt
-  double error = 0.0;     ///< of a step, data units; of adaptive ones
+  bool fifth = false;  ///< Runge-Kutta 4-5, which goes on by its fifth order; else Runge-Kutta 4
+  double step = 0.0;   ///< data units
 };
 
 struct VtkLines {
   /// With points at multiples of the spacing. They state no error: it is NaN.
   std::vector<Line> lines;
-  double seconds = 0.0;  ///< processor time of the filter, once its cell locator is built
+  double seconds = 0.0;  ///< processor time of the filter; on tetrahedra its search tree is built within it
 };
 
 class VtkTracer {

@@ -130,13 +130,11 @@ std::string lines_of(vtkDataSet& data, const Json& request, Memory memory, Memor
   tracer->SetInitialIntegrationStep(step);
   // Locations in cells, not from the nearest point: what VTK advises where cells are of uneven size.
   if (data.IsA("vtkUnstructuredGrid") != 0) tracer->SetInterpolatorTypeToCellLocator();
-  if (request.at("adaptive").get<bool>()) {
+  if (request.at("fifth").get<bool>()) {
     tracer->SetIntegratorTypeToRungeKutta45();
-    // A step that would leave the data is the last one: longer ones would stop far from the border.
-    constexpr double kLeast = 1e-3;  // of the longest step
-    tracer->SetMinimumIntegrationStep(kLeast * step);
+    // Of equal length: the step is what is swept.
+    tracer->SetMinimumIntegrationStep(step);
     tracer->SetMaximumIntegrationStep(step);
-    tracer->SetMaximumError(request.at("error"));
   } else {
     tracer->SetIntegratorTypeToRungeKutta4();
   }
