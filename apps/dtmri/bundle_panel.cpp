@@ -21,6 +21,7 @@
 #include "common/math/vec_text.h"
 #include "common/scene/origin_of.h"
 #include "common/trace/tract/tract_edit.h"
+#include "common/window/files/saved_files.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -345,39 +346,38 @@ void join_bundles(BundlePanel& panel, Bundles& bundles) {
   if (panel.with < panel.chosen) --panel.chosen;
 }
 
-/// "left" of "left.trx" and of "left.nii.gz"
-std::filesystem::path beside(const std::string& file, const std::string& ending) {
+/// "left_fa.csv" of "left.trx", or the next name that no file has.
+std::filesystem::path place_of(const std::string& file, const std::string& ending) {
   const std::filesystem::path path(file);
-  return path.parent_path() / (path.stem().string() + ending);
+  return free_place(path.parent_path(), path.stem().string(), ending);
 }
 
+/// @throws Error.
 std::string write_chosen(const BundlePanel& panel, const PanelContext& on, const BundleView& made,
                          std::string_view what) {
-  try {
-    if (what == "bundle") {
-      write_tractogram(panel.file, *made.lines, true);
-      return "saved " + panel.file + ": " + counted(made.lines->line_count(), "tract");
-    }
-    if (what == "profile") {
-      const std::filesystem::path table = beside(panel.file, "_" + made.measure + ".csv");
-      write_profile(table, *made.profile, true);
-      return "saved " + table.string() + ": " + made.measure + " along " +
-             counted(made.profile->lines, "tract");
-    }
-    const bool mask = what == "mask";
-    const TensorVoxels& voxels = *on.view.tensors->image;
-    const BundleDensity density = bundle_density(*made.lines, *made.lines->image);
-    ImageOrigin origin;
-    origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
-    const std::filesystem::path image = beside(panel.file, mask ? "_mask.nii.gz" : "_density.nii.gz");
-    const auto lost =
-        write_density(image, density, mask, {voxels.points, voxels.origin, voxels.axes}, origin, true);
-    std::string said = "saved " + image.string() + ": " + density_text(density, made.lines->line_count());
-    for (const std::string& note : lost) said += "; " + note;
-    return said;
-  } catch (const Error& error) {
-    return error.what();
+  if (what == "bundle") {
+    const std::filesystem::path tracts =
+        place_of(panel.file, std::filesystem::path(panel.file).extension().string());
+    write_tractogram(tracts, *made.lines, false);
+    return "saved " + tracts.string() + ": " + counted(made.lines->line_count(), "tract");
   }
+  if (what == "profile") {
+    const std::filesystem::path table = place_of(panel.file, "_" + made.measure + ".csv");
+    write_profile(table, *made.profile, false);
+    return "saved " + table.string() + ": " + made.measure + " along " +
+           counted(made.profile->lines, "tract");
+  }
+  const bool mask = what == "mask";
+  const TensorVoxels& voxels = *on.view.tensors->image;
+  const BundleDensity density = bundle_density(*made.lines, *made.lines->image);
+  ImageOrigin origin;
+  origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
+  const std::filesystem::path image = place_of(panel.file, mask ? "_mask.nii.gz" : "_density.nii.gz");
+  const auto lost =
+      write_density(image, density, mask, {voxels.points, voxels.origin, voxels.axes}, origin, false);
+  std::string said = "saved " + image.string() + ": " + density_text(density, made.lines->line_count());
+  for (const std::string& note : lost) said += "; " + note;
+  return said;
 }
 
 void draw_files(BundlePanel& panel, const PanelContext& on, const Bundles& bundles) {
@@ -393,7 +393,7 @@ void draw_files(BundlePanel& panel, const PanelContext& on, const Bundles& bundl
   ImGui::BeginDisabled(!some);
   std::string asked;
   if (button("Save bundle")) asked = "bundle";
-  hint("the one that is edited, in place of what stands there");
+  hint("the one that is edited, under the next free name");
   ImGui::SameLine();
   if (button("Save density")) asked = "density";
   hint("how many of its tracts pass each voxel, an image");
@@ -405,7 +405,12 @@ void draw_files(BundlePanel& panel, const PanelContext& on, const Bundles& bundl
   if (button("Save profile")) asked = "profile";
   ImGui::EndDisabled();
   hint("what is plotted, as a table");
-  if (!asked.empty()) on.state.say(write_chosen(panel, on, *made, asked));
+  if (asked.empty()) return;
+  try {
+    on.state.say(write_chosen(panel, on, *made, asked));
+  } catch (const Error& error) {
+    on.state.fail(error.what());
+  }
 }
 
 void draw_profiles(PanelContext& on, const Bundles& bundles) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/scene/origin_of.h"
+#include "common/window/files/saved_files.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -156,21 +158,24 @@ void draw_brush(BrushControl& brush, const TensorVoxels& voxels) {
   hint("in units of the data");
 }
 
-/// Writes them beside the data, as their file says.
+/// Writes them as their file says, under the next free name. @throws Error.
 std::string save_regions(const RegionsPanel& panel, const PanelContext& on) {
   const TensorVoxels& voxels = *on.view.tensors->image;
-  try {
-    ImageOrigin origin;
-    origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
-    const auto notes = write_regions(panel.file, on.state.document.tracts,
-                                     on.state.document.input.tensor.handedness == "left",
-                                     {voxels.points, voxels.origin, voxels.axes}, origin, true);
-    std::string said = "saved " + panel.file;
-    for (const std::string& note : notes) said += "; " + note;
-    return said;
-  } catch (const Error& error) {
-    return error.what();
+  const std::filesystem::path asked(panel.file);
+  std::string ending = asked.extension().string(), stem = asked.stem().string();
+  if (const std::filesystem::path inner(stem); ending == ".gz") {
+    ending = inner.extension().string() + ending;
+    stem = inner.stem().string();
   }
+  const std::filesystem::path file = free_place(asked.parent_path(), stem, ending);
+  ImageOrigin origin;
+  origin.space = on.view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown;
+  const auto notes =
+      write_regions(file, on.state.document.tracts, on.state.document.input.tensor.handedness == "left",
+                    {voxels.points, voxels.origin, voxels.axes}, origin, false);
+  std::string said = "saved " + file.string();
+  for (const std::string& note : notes) said += "; " + note;
+  return said;
 }
 
 }  // namespace
@@ -203,7 +208,13 @@ void draw_regions(RegionsPanel& panel, PanelContext& on) {
     if (!regions.empty()) {
       input_text("regions file", &panel.file);
       hint(".csv: a row each; .nii.gz, .nrrd: an image with the sum of 1 seed, 2 include, 4 exclude, 8 stop");
-      if (button("Save regions")) on.state.say(save_regions(panel, on));
+      if (button("Save regions")) {
+        try {
+          on.state.say(save_regions(panel, on));
+        } catch (const Error& error) {
+          on.state.fail(error.what());
+        }
+      }
       hint("to that file, in place of what stands there");
     }
   }

@@ -24,6 +24,7 @@ std::string trace_counts_text(const TraceSummary& summary) {
 
 std::string trace_error_text(const TraceSummary& summary) {
   const LineErrors& errors = summary.result.errors;
+  if (errors.held == 0 && errors.unheld_seeds.empty()) return {};
   std::string text = "  " + errors_text(errors) + " by their own estimate";
   if (errors.held > 0) text += " (" + short_number(errors.worst / summary.diagonal) + " of the diagonal)";
   if (errors.within) {

@@ -49,7 +49,7 @@ Resample parse_resample(const std::string& text) {
 
 std::string percent(double share) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g %%", 100.0 * share);
+  std::snprintf(text.data(), text.size(), "%.3g %%", 100.0 * share);
   return text.data();
 }
 

@@ -322,8 +322,8 @@ class VectorFieldBuilder {
     std::array<char, 160> text{};
     std::snprintf(
         text.data(), text.size(),
-        "linear tetrahedra differ from trilinear hexahedra by %.2g %% of the largest speed at most, "
-        "%.2g %% rms (%zu cells sampled)",
+        "linear tetrahedra differ from trilinear hexahedra by %.3g %% of the largest speed at most, "
+        "%.3g %% rms (%zu cells sampled)",
         100.0 * difference.max, 100.0 * difference.rms, difference.cells);
     field.notes_.lines.emplace_back(text.data());
   }

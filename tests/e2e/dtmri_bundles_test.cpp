@@ -82,6 +82,7 @@ TEST_F(DtmriBundles, AreKeptPickedCutUndoneAndBackWithTheSession) {
   press("Cut nearest");
   choose("profile of", "fa");
   press("Save bundle");
+  press("Save bundle");
   press("Save mask");
   press("Save profile");
   key(kKeyS, kModifierControl);
@@ -94,6 +95,7 @@ TEST_F(DtmriBundles, AreKeptPickedCutUndoneAndBackWithTheSession) {
   EXPECT_TRUE(first.document.tracts.seeds.empty()) << "the next Trace leaves the bundle";
   const Tractogram saved = read_tractogram(folder_.path("bundle.trx")).lines;
   EXPECT_EQ(saved.line_count(), shown(first));
+  EXPECT_TRUE(fs::exists(folder_.path("bundle-2.trx"))) << "nothing is overwritten";
   EXPECT_TRUE(fs::exists(folder_.path("bundle_mask.nii.gz")));
   EXPECT_TRUE(fs::exists(folder_.path("bundle_fa.csv")));
 

@@ -360,7 +360,7 @@ std::string cell_values_note(const CellDifference& difference) {
   std::snprintf(
       text.data(), text.size(),
       "cell values brought to the points: least squares from the cells around; means over the cells "
-      "then differ from their values by up to %.2g %% of the largest, %.2g %% rms",
+      "then differ from their values by up to %.3g %% of the largest, %.3g %% rms",
       100.0 * difference.largest, 100.0 * difference.rms);
   std::string out = text.data();
   if (difference.flat > 0) {

@@ -70,6 +70,14 @@ DataArray as_stored(const std::vector<double>& values, const VolumeImage& image,
 SavedFiles::SavedFiles(const std::filesystem::path& folder, std::string program)
     : folder_(std::filesystem::absolute(folder)), program_(std::move(program)) {}
 
+std::filesystem::path free_place(const std::filesystem::path& folder, const std::string& stem,
+                                 const std::string& ending) {
+  std::filesystem::path path = folder / (stem + ending);
+  for (int number = 2; std::filesystem::exists(path); ++number)
+    path = folder / std::string(stem).append("-").append(std::to_string(number)).append(ending);
+  return path;
+}
+
 std::filesystem::path SavedFiles::save_lines(const DrawnLines& lines, std::string& name) {
   Lines kept;
   for (const DrawnLines::Entry& entry : lines.entries()) kept.insert(entry.line);
@@ -134,10 +142,7 @@ SavedFiles::SavedRegion SavedFiles::save_region(const VolumeImage& image, const 
 }
 
 std::filesystem::path SavedFiles::free_name(const std::string& stem, const std::string& ending) const {
-  std::filesystem::path path = folder_ / (stem + ending);
-  for (int number = 2; std::filesystem::exists(path); ++number)
-    path = folder_ / std::string(stem).append("-").append(std::to_string(number)).append(ending);
-  return path;
+  return free_place(folder_, stem, ending);
 }
 
 std::filesystem::path SavedFiles::save_picture(const Image& image, const std::vector<PngText>& texts) const {

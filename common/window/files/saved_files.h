@@ -19,6 +19,10 @@
 
 namespace palpate {
 
+/// The place `folder`/`stem` + `ending`, or of the first `stem`-2, `stem`-3, … that nothing has.
+[[nodiscard]] std::filesystem::path free_place(const std::filesystem::path& folder, const std::string& stem,
+                                               const std::string& ending);
+
 /// Writes into one folder, never over a file that this window has not written itself.
 /// Every function returns the absolute path that it wrote, and throws Error where it cannot.
 class SavedFiles {

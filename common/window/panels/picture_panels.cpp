@@ -54,7 +54,9 @@ std::string status_text(const SceneState& scene) {
     text += separator + std::to_string(count) + " " + name;
     separator = ", ";
   }
-  return text + "   " + errors_text(scene.line_errors) + "   traced in " + seconds_text(scene.seconds_trace);
+  if (scene.line_errors.held > 0 || !scene.line_errors.unheld_seeds.empty())
+    text += "   " + errors_text(scene.line_errors);
+  return text + "   traced in " + seconds_text(scene.seconds_trace);
 }
 
 /// What is given up, first what is given up first, and the time.
