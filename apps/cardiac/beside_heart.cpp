@@ -30,7 +30,7 @@ InputOptions input_beside(const Input& input, const std::filesystem::path& file)
     spec.paint.clear();
   } else {
     if (spec.files.empty())
-      throw usage_error("--beside " + file.string() +
+      throw usage_error("--compare " + file.string() +
                         ": a result needs its mesh, and a built-in heart is open; name a heart");
     std::erase_if(spec.files, is_result);
     spec.files.push_back(file);

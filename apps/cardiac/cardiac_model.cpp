@@ -11,7 +11,7 @@
 #include "apps/cardiac/default_appearance.h"
 #include "apps/cardiac/heart_scene.h"
 #include "common/base/text.h"
-#include "common/compose/lens_text.h"
+#include "common/compose/text/lens_text.h"
 #include "common/compose/view_keep.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/layer/wall_layer.h"

@@ -93,13 +93,13 @@ class BesidePanel {
  public:
   void operator()(PanelContext& on) {
     HeartOptions& heart = on.state.document.heart;
-    if (!section("BESIDE", heart.beside.empty() && heart.beside_angle.empty(), {"beside", "beside-angle"}))
+    if (!section("COMPARE", heart.beside.empty() && heart.beside_angle.empty(), {"compare", "compare-angle"}))
       return;
     if (!typing_) typed_ = heart.beside.string();
     (void)input_text("other heart", &typed_);
     if (ImGui::IsItemDeactivatedAfterEdit()) heart.beside = typed_;
     typing_ = ImGui::IsItemActive();
-    explain("beside");
+    explain("compare");
     constexpr const char* kSame = "as this one";
     if (begin_combo("its colour", heart.beside_angle.empty() ? kSame : heart.beside_angle.c_str())) {
       if (selectable(kSame, heart.beside_angle.empty())) heart.beside_angle.clear();
@@ -108,7 +108,7 @@ class BesidePanel {
       }
       ImGui::EndCombo();
     }
-    explain("beside-angle");
+    explain("compare-angle");
     if (has_two_eyes(on.view) && on.view.beside)
       ImGui::TextWrapped("In stereo the heart at the left is shown alone.");
   }

@@ -21,7 +21,7 @@
 #include "common/cli/json/json_output.h"
 #include "common/cli/summaries.h"
 #include "common/cli/verbs.h"
-#include "common/compose/plane_image_text.h"
+#include "common/compose/text/plane_image_text.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/layer/wall_layer.h"

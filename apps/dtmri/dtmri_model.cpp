@@ -13,7 +13,7 @@
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/compose/bundle_view.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/compose/view_keep.h"
 #include "common/field/tensor/tensor_measure.h"
 #include "common/field/transfer/color_transfer.h"

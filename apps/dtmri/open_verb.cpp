@@ -6,7 +6,7 @@
 #include "apps/dtmri/tract_request.h"
 #include "common/cli/verb_open.h"
 #include "common/cli/verbs.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/files/open_window.h"
 

@@ -12,7 +12,7 @@
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/field/tensor/tensor_measure.h"
 
 namespace palpate {

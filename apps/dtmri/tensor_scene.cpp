@@ -12,9 +12,9 @@
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
 #include "common/compose/domain_outline.h"
-#include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/lens_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/compose/volume_scene.h"
 #include "common/load/read_tractogram.h"
 

@@ -7,7 +7,7 @@
 #include "common/base/text.h"
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/compose/volume_fields.h"
 #include "common/compose/volume_scene.h"
 #include "common/hand/haptic_surface_view.h"

@@ -13,8 +13,8 @@
 #include "common/cli/verbs.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
-#include "common/compose/slice_panes_text.h"
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/slice_panes_text.h"
+#include "common/compose/text/stereo_text.h"
 #include "common/device/probe_path.h"
 #include "common/hand/drawn/annotation_list.h"
 #include "common/hand/drawn/drawn_lines.h"
@@ -174,7 +174,7 @@ ExitCode draw_picture(const PictureMaker& maker, const Document& options, const 
     if (pictures.front().stereo.mode != StereoMode::kNone || !options.hand.workbench.empty() ||
         asks_for_film(options)) {
       throw usage_error(
-          "--beside: two hearts are one picture for one eye: leave out --stereo, --workbench, --turntable and "
+          "--compare: two hearts are one picture for one eye: leave out --stereo, --workbench, --turntable and "
           "--path-frames");
     }
     const Pane half = halves_of(width, height).front();

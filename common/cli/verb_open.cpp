@@ -13,7 +13,7 @@
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
 #include "common/compose/slice_plane.h"
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/stereo_text.h"
 #include "common/hand/workbench/head_view.h"
 #include "common/scene/document/setting.h"
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/base/text.h"
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/stereo_text.h"
 #include "common/compose/window_model.h"
 #include "common/scene/document/document.h"
 #include "common/scene/input.h"

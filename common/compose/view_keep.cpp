@@ -8,10 +8,10 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/compose/appearance.h"
-#include "common/compose/lens_text.h"
 #include "common/compose/line_view.h"
-#include "common/compose/plane_image_text.h"
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/lens_text.h"
+#include "common/compose/text/plane_image_text.h"
+#include "common/compose/text/slice_panes_text.h"
 #include "common/math/vec_text.h"
 
 namespace palpate {

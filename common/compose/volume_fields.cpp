@@ -7,7 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
-#include "common/compose/lens_text.h"
+#include "common/compose/text/lens_text.h"
 
 namespace palpate {
 namespace {

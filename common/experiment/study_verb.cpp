@@ -19,7 +19,7 @@
 #include "common/base/version.h"
 #include "common/cli/verbs.h"
 #include "common/cli/window_touch.h"
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/stereo_text.h"
 #include "common/experiment/contact_sheet.h"
 #include "common/experiment/participant_window.h"
 #include "common/hand/mode/haptic_mode.h"

@@ -4,8 +4,8 @@
 
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
-#include "common/compose/slice_panes_text.h"
 #include "common/compose/slice_plane.h"
+#include "common/compose/text/slice_panes_text.h"
 
 namespace palpate {
 namespace {

@@ -127,18 +127,17 @@ class GridWindow : public ExplorerTest {
   int rest_ = 20;  ///< frames behind the last event
 };
 
-// Places in the panel [pixels] as pictures of this window show them.
 TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
   const std::string tooth = folder_.path("tooth.nhdr").string();
-  click(90.0, 145.0);  // the list of modes
-  click(60.0, 188.0);  // its plane-widget
-  drag(40.0, -30.0);   // the sphere of the first plane
-  click(40.0, 316.0);  // + plane
-  click(60.0, 518.0);  // Mark by clicks
+  press("VOLUME");  // folded, or what is below would be out of sight
+  press("mode");
+  press("plane-widget");
+  drag(40.0, -30.0);  // the sphere of the first plane
+  press("+ plane");
+  press("Mark by clicks");
   click(middle_.x - 40.0, middle_.y + 60.0);
   click(middle_.x + 30.0, middle_.y + 80.0);
-  click(60.0, 518.0);  // Stop marking
-  scroll(-30.0);
+  press("Stop marking");
   press("+ lens");
   move(middle_.x - 60.0, middle_.y + 40.0);
   click(middle_.x - 60.0, middle_.y + 50.0);
@@ -219,12 +218,14 @@ TEST_F(GridWindow, ThePictureFollowsATransferFunctionWhileItIsDragged) {
                                            "1",
                                            "--shading",
                                            "off"};
-  // The third point over the histogram [pixels]: from half the height of the editor to its foot.
-  const double x = 140.0, half = 652.0, foot = 715.0;
-  move(x, half);
+  // The third point over the histogram: from half the height of the editor to its foot.
+  const auto over = [&](double down) {
+    script_.push_back({next_ += 2, {.kind = InputKind::kMove}, "points", 0, 0.5, down});
+  };
+  over(0.5);
   at({.kind = InputKind::kPress});
   constexpr int kSteps = 8;
-  for (int i = 1; i <= kSteps; ++i) move(x, half + (foot - half) * i / kSteps);
+  for (int i = 1; i <= kSteps; ++i) over(0.5 + 0.5 * i / kSteps);
   rest_ = 1;
   const WindowResult dragged = open(arguments, "dragged");
   ASSERT_TRUE(dragged.view.volume);

@@ -9,7 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/stereo_text.h"
 #include "common/device/driver_library.h"
 #include "common/device/workbench_option.h"
 #include "common/haptics/workspace.h"

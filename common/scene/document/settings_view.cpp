@@ -416,7 +416,7 @@ const Setting kViewRows[] = {
      .heading = "View",
      .groups = {Group::kView},
      .kinds = kHearts},
-    {.name = "beside",
+    {.name = "compare",
      .place = kHeartAt<&HeartOptions::beside>,
      .help =
          "another heart, or a result (.igb, .dat) of this one, shown at the right by the same camera, layer, cut, time and "
@@ -426,9 +426,10 @@ const Setting kViewRows[] = {
      .groups = {Group::kView},
      .kinds = kHearts,
      .file = true},
-    {.name = "beside-angle",
+    {.name = "compare-angle",
      .place = kHeartAt<&HeartOptions::beside_angle>,
-     .help = "what colours the heart at the right, as --angle; without --beside this heart stands there, too",
+     .help =
+         "what colours the heart at the right, as --angle; without --compare this heart stands there, too",
      .value = "NAME",
      .heading = "View",
      .groups = {Group::kView},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/compose/lens_text.h"
+#include "common/compose/text/lens_text.h"
 #include "common/hand/mode/haptic_surfaces.h"
 #include "common/window/controls/pick_volume.h"
 

@@ -1,4 +1,4 @@
-#include "common/compose/lens_text.h"
+#include "common/compose/text/lens_text.h"
 
 #include <algorithm>
 #include <cmath>

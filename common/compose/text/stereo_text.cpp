@@ -1,4 +1,4 @@
-#include "common/compose/stereo_text.h"
+#include "common/compose/text/stereo_text.h"
 
 #include <algorithm>
 #include <cmath>

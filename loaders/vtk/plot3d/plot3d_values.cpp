@@ -1,4 +1,4 @@
-#include "loaders/vtk/plot3d_values.h"
+#include "loaders/vtk/plot3d/plot3d_values.h"
 
 #include <algorithm>
 #include <array>

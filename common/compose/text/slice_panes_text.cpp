@@ -1,4 +1,4 @@
-#include "common/compose/slice_panes_text.h"
+#include "common/compose/text/slice_panes_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -72,7 +72,7 @@ class CardiacBeside : public ExplorerTest {
 };
 
 TEST_F(CardiacBeside, EachHalfIsThePictureOfItsHeartInOneRange) {
-  const Image both = picture({"a.vtk", "--beside", "b.vtk"}, 2 * kHalf + 2);
+  const Image both = picture({"a.vtk", "--compare", "b.vtk"}, 2 * kHalf + 2);
   EXPECT_EQ(both.width, 2 * kHalf + 2);
   EXPECT_LE(difference(both, 0, picture({"a.vtk", "--range", "0,3"}, kHalf)), 1);
   EXPECT_LE(difference(both, kHalf + 2, picture({"b.vtk", "--range", "0,3"}, kHalf)), 1);
@@ -80,7 +80,7 @@ TEST_F(CardiacBeside, EachHalfIsThePictureOfItsHeartInOneRange) {
 }
 
 TEST_F(CardiacBeside, HeartsInOtherUnitsAreDrawnAsLargeAndThatIsSaid) {
-  const Image both = picture({"a.vtk", "--beside", "tiny.vtk", "--scale-bar", "off"}, 2 * kHalf + 2);
+  const Image both = picture({"a.vtk", "--compare", "tiny.vtk", "--scale-bar", "off"}, 2 * kHalf + 2);
   EXPECT_LE(difference(both, kHalf + 2, picture({"tiny.vtk", "--scale-bar", "off"}, kHalf)), 1);
 }
 
@@ -91,26 +91,26 @@ TEST_F(CardiacBeside, ResultsOfOneMeshStandSideBySide) {
   std::ofstream(folder_.path("one/vm.dat")) << "0\n1\n1\n0\n";
   std::ofstream(folder_.path("two/vm.dat")) << "0\n4\n1\n0\n";
   const Image both =
-      picture({"m.elem", "one/vm.dat", "--angle", "vm", "--beside", "two/vm.dat"}, 2 * kHalf + 2);
+      picture({"m.elem", "one/vm.dat", "--angle", "vm", "--compare", "two/vm.dat"}, 2 * kHalf + 2);
   EXPECT_LE(difference(both, 0, picture({"m.elem", "one/vm.dat", "--angle", "vm", "--range", "0,4"}, kHalf)),
             1);
   EXPECT_LE(difference(both, kHalf + 2,
                        picture({"m.elem", "two/vm.dat", "--angle", "vm", "--range", "0,4"}, kHalf)),
             1);
   const Image colours =
-      picture({"m.elem", "one/vm.dat", "--angle", "vm", "--beside-angle", "region"}, 2 * kHalf + 2);
+      picture({"m.elem", "one/vm.dat", "--angle", "vm", "--compare-angle", "region"}, 2 * kHalf + 2);
   EXPECT_LE(difference(colours, kHalf + 2, picture({"m.elem", "--angle", "region"}, kHalf)), 1);
 }
 
 TEST_F(CardiacBeside, WhatTwoHeartsCannotBeIsRefused) {
   for (const std::vector<std::string>& more :
-       {std::vector<std::string>{"--stereo", "rows"}, {"--turntable", "4"}, {"--beside", "nothing.vtk"}}) {
-    std::vector<std::string> arguments{"render", "a.vtk", "--beside", "b.vtk", "--out", "no.png", "--json"};
+       {std::vector<std::string>{"--stereo", "rows"}, {"--turntable", "4"}, {"--compare", "nothing.vtk"}}) {
+    std::vector<std::string> arguments{"render", "a.vtk", "--compare", "b.vtk", "--out", "no.png", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_NE(run(arguments).exit_code, 0) << more.front();
   }
   const ProgramResult result =
-      run({"render", "--example", "ventricle", "--beside", "vm.igb", "--out", "no.png", "--json"});
+      run({"render", "--example", "ventricle", "--compare", "vm.igb", "--out", "no.png", "--json"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_NE(result.err.find("needs its mesh"), std::string::npos) << result.err;
 }

@@ -16,7 +16,7 @@
 #include "common/base/text.h"
 #include "common/load/find_format.h"
 #include "common/load/plot3d_layout.h"
-#include "loaders/vtk/plot3d_values.h"
+#include "loaders/vtk/plot3d/plot3d_values.h"
 #include "loaders/vtk/solver_readers.h"
 #include "loaders/vtk/vtk_convert.h"
 #include "loaders/vtk/vtk_errors.h"

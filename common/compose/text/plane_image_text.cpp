@@ -1,4 +1,4 @@
-#include "common/compose/plane_image_text.h"
+#include "common/compose/text/plane_image_text.h"
 
 #include <algorithm>
 #include <cmath>

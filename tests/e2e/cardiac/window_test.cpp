@@ -1,5 +1,7 @@
 // A hand in the window of cardiac, led by mouse and wheel alone: the layer that is shown is the one that it
 // is on, and the verb `probe` repeats its run to the bit.
+#include "common/window/window.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,7 +22,6 @@
 #include "common/scene/session.h"
 #include "common/window/panels/panel.h"
 #include "common/window/shown_scene.h"
-#include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
 #include "tests/support/shared_data.h"
 
