@@ -133,11 +133,13 @@ TEST_F(GridWindow, TwoPlanesALensAndALengthByMouseAloneAreBackFromTheSession) {
   press("mode");
   press("plane-widget");
   drag(40.0, -30.0);  // the sphere of the first plane
+  scroll(-30.0);
   press("+ plane");
   press("Mark by clicks");
   click(middle_.x - 40.0, middle_.y + 60.0);
   click(middle_.x + 30.0, middle_.y + 80.0);
   press("Stop marking");
+  scroll(30.0);
   press("+ lens");
   move(middle_.x - 60.0, middle_.y + 40.0);
   click(middle_.x - 60.0, middle_.y + 50.0);
