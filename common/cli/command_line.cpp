@@ -1,7 +1,6 @@
 #include "common/cli/command_line.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -21,9 +20,13 @@
 namespace palpate {
 namespace {
 
-/// Options that may stand before the verb and take a value.
-constexpr std::array<std::string_view, 6> kValuedBeforeVerb{
-    "--threads", "--seed", "--field", "--example", "--time", kCompletionOption.spelling};
+/// Whether what follows `text` is its value, and no verb.
+bool takes_value(const Explorer& explorer, std::string_view text) {
+  return text == kCompletionOption.spelling || std::ranges::any_of(settings(), [&](const Setting& row) {
+           return row.spelling == Spelling::kOption && row.kinds.has(explorer.kind) &&
+                  (row.option() == text || (!row.alias.empty() && row.alias == text));
+         });
+}
 
 /// Whether the verb that needs no name takes files.
 bool opens_files(const Explorer& explorer) {
@@ -46,11 +49,9 @@ void refuse_unknown_verb(const Explorer& explorer, const std::string& word, bool
 
 /// Puts the verb first, whatever was written before it, and the default verb where there is none.
 std::vector<std::string> with_verb_first(const Explorer& explorer, std::vector<std::string> arguments) {
-  const auto is_valued = [](const std::string& text) {
-    return std::find(kValuedBeforeVerb.begin(), kValuedBeforeVerb.end(), text) != kValuedBeforeVerb.end();
-  };
   std::size_t i = 0;
-  while (i < arguments.size() && arguments[i].starts_with("-")) i += is_valued(arguments[i]) ? 2 : 1;
+  while (i < arguments.size() && arguments[i].starts_with("-"))
+    i += takes_value(explorer, arguments[i]) ? 2 : 1;
   if (i < arguments.size() && find_verb(explorer, arguments[i])) {
     std::rotate(arguments.begin(), arguments.begin() + static_cast<std::ptrdiff_t>(i),
                 arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);

@@ -59,6 +59,10 @@ TEST(CommandLine, TakesOptionsBeforeTheVerb) {
   EXPECT_TRUE(parsed.options.common.json);
   EXPECT_EQ(parsed.options.common.threads, 3);
   EXPECT_EQ(parsed.options.input.field, "info");  // the value of an option is no verb
+  const ParsedCommand open = parse({"--example", "abc", "--color", "time", "--integrator", "rk4"});
+  EXPECT_EQ(open.verb->name, "open");
+  EXPECT_EQ(open.options.view.color, "time");
+  EXPECT_EQ(parse({"--direction", "both", "trace", "a.vtk"}).verb->name, "trace");
 }
 
 TEST(CommandLine, ReadsValuesThatBeginWithAMinus) {
