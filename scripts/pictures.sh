@@ -61,6 +61,7 @@ picture followed.png flow render carotid.vtk --path path.csv --camera 200,20,0,1
 picture flow_volume.png flow render bluntfinxyz.bin --solution bluntfinq.bin --volume Density --resample 128 --seeds line:-4,0.5,0,-4,0.5,4,28 --lens sphere:0,0,2,0.9,tf=boundaries --camera 20,15,0,1.8 --size 800x600
 picture tooth.png grid render tooth.nhdr --camera 25,10,0,1.2 --size 900x620
 picture wall.png cardiac render --example ventricle --layer 0.5 --walls both --cut 0,1,0,0 --camera 180,25,0,1.3 --size 960x720
+picture two_hearts.png cardiac render --example ventricle --layer 0.5 --cut 0,1,0,0 --compare-angle depth --camera 180,25,0,1.2 --size 1200x480
 picture heart.png cardiac render heart.exelem.gz --layer 0.5 --camera 200,10,0,1.3 --size 960x720
 picture head.png dtmri render 3000_DTI_PA-ortho_cl.nii.gz --camera 20,40,0,1.5 --size 960x720
 picture lens.png dtmri render 3000_DTI_PA-ortho_cl.nii.gz --volume fa --lens sphere:0,0,20,45 --slices none --camera 20,50,0,1.5 --size 720x540
