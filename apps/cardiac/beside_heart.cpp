@@ -47,18 +47,15 @@ std::size_t step_at(const std::vector<double>& times, double time) {
   return static_cast<std::size_t>(nearest - times.begin());
 }
 
-std::optional<ValueRange> range_of(const LineArray& array,
-                                   const std::shared_ptr<const std::vector<float>>& more) {
+/// As it would have alone.
+std::optional<ValueRange> range_of(const LineArray& array) {
   if (array.range) return array.range;
-  std::vector<double> values(array.values.begin(), array.values.end());
-  if (more) values.insert(values.end(), more->begin(), more->end());
-  return usual_range(std::move(values));
+  return usual_range(std::vector<double>(array.values.begin(), array.values.end()));
 }
 
 /// Colours mean the same in both.
-void share_range(std::shared_ptr<const LineArray>& a, std::shared_ptr<const LineArray>& b,
-                 const std::shared_ptr<const std::vector<float>>& of_b) {
-  const auto one = range_of(*a, nullptr), other = range_of(*b, of_b);
+void share_range(std::shared_ptr<const LineArray>& a, std::shared_ptr<const LineArray>& b) {
+  const auto one = range_of(*a), other = range_of(*b);
   if (!one || !other) return;
   const ValueRange both{std::min(one->lower, other->lower), std::max(one->upper, other->upper)};
   const auto with = [&both](const LineArray& array) {
@@ -87,9 +84,14 @@ void BesideHeart::find(const Input& input, const OpenHeart& open, const Document
     input_->set_time_step(step_at(input_->times(), input.times()[input.time().step]));
   if (document.heart.beside.empty()) {
     heart_ = open;
-  } else if (!heart_.bare && !heart_.layered) {
-    heart_ = open_heart(*input_, document.common.threads, progress);
+    return;
   }
+  // One that moves is made anew at each step.
+  const std::uint64_t print = input_->times().size() > 1 ? fingerprint(*input_, progress) : 1;
+  if (print == print_ && (heart_.bare || heart_.layered)) return;
+  print_ = 0;
+  heart_ = open_heart(*input_, document.common.threads, progress);
+  print_ = print;
 }
 
 BesidePicture BesideHeart::draw(const Input& input, const OpenHeart& open, const Document& document,
@@ -103,24 +105,21 @@ BesidePicture BesideHeart::draw(const Input& input, const OpenHeart& open, const
   Document options = document;
   if (!document.heart.beside_angle.empty()) options.heart.angle = document.heart.beside_angle;
   options.heart.lens.clear();
-  options.heart.walls = document.heart.walls == "auto" || document.heart.walls == "found"
-                            ? "none"
-                            : document.heart.walls;  // what was found is asked for of one heart
   BesidePicture picture;
+  if (document.heart.walls == "found") {
+    options.heart.walls = "none";
+    picture.notes.push_back("what surfaces were taken for is shown of the heart at the left alone");
+  }
   auto view = std::make_shared<SceneView>();
   view->title = input_->title();
   std::shared_ptr<const LineArray> own;
-  std::shared_ptr<const std::vector<float>> on_surface;
   if (heart_.layered) {
     LayerScene scene = make_layer_scene(*input_, heart_.layered, options, 1.0, progress);
-    const std::string title = view->title;
     *view = std::move(scene.view);
     own = view->style.array;
-    on_surface = view->surfaces.front().values;
   } else {
     BareScene scene = make_bare_scene(*input_, *heart_.bare, options.heart, options.common.threads, nullptr);
     own = scene.array;
-    on_surface = scene.surface.values;
     view->style.color_by = ColorBy::kArray;
     view->surfaces = {std::move(scene.surface)};
     view->lines = std::move(scene.lines);
@@ -142,7 +141,7 @@ BesidePicture BesideHeart::draw(const Input& input, const OpenHeart& open, const
                                 ": the right half shows time " + short_number(time));
     }
   }
-  if (array && array->name == own->name) share_range(array, own, on_surface);
+  if (array && array->name == own->name) share_range(array, own);
   view->style.array = own;
   picture.view = std::move(view);
   return picture;

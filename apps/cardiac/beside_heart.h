@@ -2,6 +2,7 @@
 /// depth and time, in the same range of colours.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ class BesideHeart {
   std::string key_;  ///< of what `input_` and `heart_` are
   std::optional<Input> input_;
   OpenHeart heart_;
+  std::uint64_t print_ = 0;  ///< of what `heart_` was made from; 0: not taken
 };
 
 }  // namespace palpate

@@ -1,11 +1,7 @@
 #include "apps/cardiac/cardiac_model.h"
 
 #include <algorithm>
-#include <functional>
-#include <span>
-#include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "apps/cardiac/default_appearance.h"
@@ -20,30 +16,6 @@
 
 namespace palpate {
 namespace {
-
-/// Of all that the heart is made of, at the input's time step; never 0.
-std::uint64_t fingerprint(Input& input, Progress& progress) {
-  std::uint64_t print = 1;
-  const auto add = [&](const auto& numbers) {
-    const auto bytes = std::as_bytes(std::span(numbers));
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // turns the bits over, so that order counts
-    print = (print ^ std::hash<std::string_view>()(text)) * kOdd;
-  };
-  const std::vector<std::string> arrays =
-      input.fields().empty() ? std::vector<std::string>() : input.field_arrays();
-  for (const DataSet& block : input.read(arrays, &progress)) {
-    for (const DataArray& array : block.arrays) add(array.bytes);
-    if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
-      add(cells->positions.bytes);
-      add(cells->types);
-      add(cells->connectivity);
-    } else if (const auto* points = std::get_if<StructuredTopology>(&block.topology)) {
-      add(points->positions.bytes);
-    }
-  }
-  return std::max<std::uint64_t>(print, 1);
-}
 
 /// Whether both mean the same lines and triangles of one heart.
 bool same_layer(const Document& a, const Document& b) {
@@ -90,7 +62,7 @@ CardiacContent CardiacModel::read(Input& input, const Document& document, Progre
                           open->shown.document.input.paint == input.spec().paint;
   CardiacContent content;
   if (other_step) {
-    content.print = fingerprint(input, progress);
+    content.print = fingerprint(input, &progress);
     if (content.print == open->content.print) return open->content;
   }
   content.heart = open_heart(input, document.common.threads, &progress);

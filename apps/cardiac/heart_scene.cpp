@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "apps/cardiac/cut_away.h"
 #include "apps/cardiac/default_appearance.h"
@@ -143,6 +147,29 @@ std::vector<double> values_at(const AngleProbe& probe, const std::vector<Vec3>& 
 
 SurfaceView surface_of(const LayerGeometry& layer, const LayerColors& colors, double contours) {
   return {.mesh = layer.mesh, .color = kMuscle, .values = colors.values, .contours = contours};
+}
+
+std::uint64_t fingerprint(Input& input, Progress* progress) {
+  std::uint64_t print = 1;
+  const auto add = [&](const auto& numbers) {
+    const auto bytes = std::as_bytes(std::span(numbers));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;  // turns the bits over, so that order counts
+    print = (print ^ std::hash<std::string_view>()(text)) * kOdd;
+  };
+  const std::vector<std::string> arrays =
+      input.fields().empty() ? std::vector<std::string>() : input.field_arrays();
+  for (const DataSet& block : input.read(arrays, progress)) {
+    for (const DataArray& array : block.arrays) add(array.bytes);
+    if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) {
+      add(cells->positions.bytes);
+      add(cells->types);
+      add(cells->connectivity);
+    } else if (const auto* points = std::get_if<StructuredTopology>(&block.topology)) {
+      add(points->positions.bytes);
+    }
+  }
+  return std::max<std::uint64_t>(print, 1);
 }
 
 UnitNames units_of(const Input& input) {

@@ -2,6 +2,7 @@
 /// one layer.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,9 @@ struct OpenHeart {
   std::shared_ptr<const BareHeart> bare;
   std::vector<std::string> notes;
 };
+/// Of all that the heart is made of, at the input's time step, so that other steps know it again; never 0.
+/// @throws Error, Cancelled.
+[[nodiscard]] std::uint64_t fingerprint(Input& input, Progress* progress);
 /// Without layers where there are no fibres, no volume or no two sides of the wall.
 /// @throws Error, Cancelled.
 [[nodiscard]] OpenHeart open_heart(Input& input, int threads, Progress* progress);

@@ -77,6 +77,9 @@ TEST_F(CardiacBeside, EachHalfIsThePictureOfItsHeartInOneRange) {
   EXPECT_LE(difference(both, 0, picture({"a.vtk", "--range", "0,3"}, kHalf)), 1);
   EXPECT_LE(difference(both, kHalf + 2, picture({"b.vtk", "--range", "0,3"}, kHalf)), 1);
   EXPECT_GT(difference(both, 0, picture({"a.vtk"}, kHalf)), 20) << "alone it has all colours";
+  const Image other = picture({"b.vtk", "--compare", "a.vtk"}, 2 * kHalf + 2);
+  EXPECT_LE(difference(other, kHalf + 2, picture({"a.vtk", "--range", "0,3"}, kHalf)), 1)
+      << "whichever of them reaches farther";
 }
 
 TEST_F(CardiacBeside, HeartsInOtherUnitsAreDrawnAsLargeAndThatIsSaid) {
@@ -100,6 +103,35 @@ TEST_F(CardiacBeside, ResultsOfOneMeshStandSideBySide) {
   const Image colours =
       picture({"m.elem", "one/vm.dat", "--angle", "vm", "--compare-angle", "region"}, 2 * kHalf + 2);
   EXPECT_LE(difference(colours, kHalf + 2, picture({"m.elem", "--angle", "region"}, kHalf)), 1);
+}
+
+TEST_F(CardiacBeside, AHeartThatMovesIsAtTheTimeOfTheOther) {
+  write_shell("b1.vtk", 400.0, 3.0);
+  const auto list = [&](const std::string& name, const std::string& first, const std::string& second) {
+    std::ofstream(folder_.path(name))
+        << "<VTKFile type=\"Collection\"><Collection><DataSet timestep=\"0\" file=\"" << first
+        << "\"/><DataSet timestep=\"1\" file=\"" << second << "\"/></Collection></VTKFile>";
+  };
+  list("still.pvd", "a.vtk", "a.vtk");
+  list("moving.pvd", "b.vtk", "b1.vtk");
+  Document document;
+  document.common.threads = 1;
+  document.input.kind = FieldKind::kFibre;
+  document.input.files = {folder_.path("still.pvd")};
+  document.input.time = "0";
+  document.heart.beside = folder_.path("moving.pvd");
+  CardiacModel model(document, "cardiac");
+  Progress progress;
+  const SceneState first = model.start(progress);
+  ASSERT_TRUE(first.beside);
+  EXPECT_NEAR(first.beside->bounds.lower.x, 300.0, 1e-6);
+  Document later = first.document;
+  for (const double step : {1.0, 0.0, 1.0}) {
+    later.input.time = step > 0.0 ? "1" : "0";
+    const SceneState then = model.update(later, progress);
+    ASSERT_TRUE(then.beside);
+    EXPECT_NEAR(then.beside->bounds.lower.x, 300.0 + 100.0 * step, 1e-6);
+  }
 }
 
 TEST_F(CardiacBeside, WhatTwoHeartsCannotBeIsRefused) {
