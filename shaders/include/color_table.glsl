@@ -5,10 +5,3 @@ vec3 table_color(sampler2D table, float t) {
   float entries = float(textureSize(table, 0).x);
   return texture(table, vec2((t * (entries - 1.0) + 0.5) / entries, 0.5)).rgb;
 }
-
-// The entry next to t of such a table, here in linear light: for fragments of which there are many.
-vec3 table_entry(sampler2D table, float t) {
-  if (isnan(t)) return decode_srgb(vec3(0.5));
-  int entries = textureSize(table, 0).x;
-  return texelFetch(table, ivec2(int(clamp(t, 0.0, 1.0) * float(entries - 1) + 0.5), 0), 0).rgb;
-}

@@ -4,12 +4,18 @@
 // Unit vector to the light, in N.
 vec3 light_direction() { return normalize(frame.back.xyz + 0.55 * frame.up.xyz - 0.45 * frame.right.xyz); }
 
-// Of a thing of colour `linear` under `diffuse` and `specular` light in [0, 1]; both linear light. Highlights keep some
-// of the thing's hue, or they would take its colour's meaning away.
-vec3 lit_color(vec3 linear, float diffuse, float specular) {
+// A colour in linear light, and half of what brings its strongest part to one. Highlights keep some of a thing's hue, or
+// they would take its colour's meaning away.
+vec4 glossy_color(vec3 linear) { return vec4(linear, 0.5 / max(max(linear.r, max(linear.g, linear.b)), 1e-3)); }
+
+// Of a thing of that colour under `diffuse` and `specular` light in [0, 1]; linear light.
+vec3 lit_glossy(vec4 color, float diffuse, float specular) {
   const float kAmbient = 0.20, kDiffuse = 0.92;
-  vec3 gloss = mix(vec3(1.0), linear / max(max(linear.r, max(linear.g, linear.b)), 1e-3), 0.5);
-  return linear * (kAmbient + kDiffuse * diffuse) + gloss * (frame.depth_cue.w * specular);
+  float gloss = frame.depth_cue.w * specular;
+  return color.rgb * (kAmbient + kDiffuse * diffuse + gloss * color.a) + 0.5 * gloss;
+}
+vec3 lit_color(vec3 linear, float diffuse, float specular) {
+  return lit_glossy(glossy_color(linear), diffuse, specular);
 }
 
 // The same from sRGB to sRGB.

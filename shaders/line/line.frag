@@ -4,9 +4,7 @@
 // which they have colours of their own.
 #include "include/frame.glsl"
 #include "include/color.glsl"
-#include "include/color_table.glsl"
 #include "include/shade.glsl"
-#include "include/line_light.glsl"
 #ifdef LAYERS
 #include "line/layers.glsl"
 layout(early_fragment_tests) in;
@@ -25,9 +23,8 @@ layout(binding = 1) uniform sampler2D lens_map;
 layout(location = 11) uniform float clearing;    // share of the opacity that goes with the place in the colour map
 
 in Vertex {
-  vec3 linear;         // its colour, linear light, where it is not that of a map
-  float toward_light;  // of the unit tangent
-  float toward_eye;    // likewise
+  vec4 linear;         // its colour as glossy_color() has it, where it is not that of a map
+  vec2 shine;          // diffuse and specular light in its middle
   float far;           // share of the background
   float across;        // -1 and 1 at the edges of the line, beyond in its halo
   float outer;         // |across| at the outer edge of the halo
@@ -52,21 +49,26 @@ void keep_layer(vec4 color) {
 }
 #endif
 
+// The entry next to t in [0, 1] of a table of one row in linear light, as glossy_color() (shade.glsl) has it: for fragments of which
+// there are many. Grey where there is no number.
+vec4 table_entry(sampler2D table, float t) {
+  if (isnan(t)) return glossy_color(decode_srgb(vec3(0.5)));
+  int entries = textureSize(table, 0).x;
+  return texelFetch(table, ivec2(int(clamp(t, 0.0, 1.0) * float(entries - 1) + 0.5), 0), 0);
+}
+
 void main() {
   vec3 background = background_at(gl_FragCoord.xy);
   float u = abs(vertex.across);
-  vec3 linear = coloring == 0 ? table_entry(color_map, vertex.value) : vertex.linear;
+  vec4 linear = coloring == 0 ? table_entry(color_map, vertex.value) : vertex.linear;
 #ifdef LENS
   if (coloring == 0 && distance(vertex.place, lens.xyz) < lens.w) linear = table_entry(lens_map, vertex.lens_value);
 #endif
 
-  vec2 shine = line_light(vertex.toward_light, vertex.toward_eye);
-  const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
   // Towards its edges a round line turns away from the eye.
   float facing = sqrt(max(0.0, 1.0 - u * u));
-  float diffuse = pow(shine.x, kDiffuseExponent) * mix(0.35, 1.0, facing);
-  vec3 lit = lit_color(linear, diffuse, shininess(shine.y) * facing);
-  vec3 srgb = encode_srgb(coloring == 3 ? linear : lit);
+  vec3 lit = lit_glossy(linear, vertex.shine.x * mix(0.35, 1.0, facing), vertex.shine.y * facing);
+  vec3 srgb = encode_srgb_fast(coloring == 3 ? linear.rgb : lit);
 
   // Depth cue: farther lines take on the background.
   srgb = mix(srgb, background, vertex.far);

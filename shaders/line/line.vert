@@ -2,10 +2,11 @@
 // Ribbons that face the viewer: each point of a line gives two vertices, one on either side.
 //   side = T x V / |T x V|,  T tangent, V to the eye
 // What changes little along a line is found here and not for each fragment, of which there are many more:
-// how T lies to light and eye (line_light.glsl), and the depth cue.
+// the light of a line (line_light.glsl), and the depth cue.
 #include "include/frame.glsl"
 #include "include/color.glsl"
 #include "include/shade.glsl"
+#include "include/line_light.glsl"
 
 struct Point {
   vec4 position;  // xyz in N
@@ -27,9 +28,8 @@ layout(location = 10) uniform vec4 lens;        // centre and radius in N of a b
 layout(location = 9) uniform float lift;        // toward the eye, in depth alone, half widths
 
 out Vertex {
-  vec3 linear;         // its colour, linear light, where it is not that of a map
-  float toward_light;  // of the unit tangent
-  float toward_eye;    // likewise
+  vec4 linear;         // its colour as glossy_color() has it, where it is not that of a map
+  vec2 shine;          // diffuse and specular light in its middle
   float far;           // share of the background
   float across;        // -1 and 1 at the edges of the line, beyond in its halo
   float outer;         // |across| at the outer edge of the halo
@@ -62,9 +62,10 @@ void main() {
   vec3 corner = p + side * (sign_of_side * outer);
 
   float value = has_values ? values[index] : 0.5;
-  result.linear = decode_srgb(coloring == 1 ? abs(t) : line_color.rgb);
-  result.toward_light = dot(t, light_direction());
-  result.toward_eye = dot(t, view);
+  result.linear = glossy_color(decode_srgb(coloring == 1 ? abs(t) : line_color.rgb));
+  vec2 shine = line_light(dot(t, light_direction()), dot(t, view));
+  const float kDiffuseExponent = 1.6;  // less flat than 1, less stark than the 4.8 of Banks
+  result.shine = vec2(pow(shine.x, kDiffuseExponent), shininess(shine.y));
   result.far = mix(fading * fading_at(depth), 1.0, dimming);
   result.across = sign_of_side * outer / radius;
   result.outer = outer / radius;

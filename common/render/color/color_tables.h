@@ -14,7 +14,7 @@ class ColorTables {
  public:
   /// One row of kColorTableSize colours, sRGB.
   void bind(ColorMap map, std::uint32_t unit);
-  /// The same in linear light.
+  /// The same in linear light, each with what its highlights take of its hue (shaders/include/shade.glsl).
   void bind_linear(ColorMap map, std::uint32_t unit);
 
  private:
