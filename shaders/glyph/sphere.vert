@@ -18,7 +18,7 @@ out Vertex {
   flat vec3 color;
   flat vec3 to_eye;       // from the centre, in N; a unit vector where orthographic
   flat float halo;        // width in N
-  sample vec3 offset;     // of the point on the square from the centre, in N
+  vec3 offset;            // of the point on the square from the centre, in N
 } result;
 
 void main() {

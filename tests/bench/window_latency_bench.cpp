@@ -24,6 +24,7 @@
 #include "common/base/clock.h"
 #include "common/base/error.h"
 #include "common/base/version.h"
+#include "common/field/transfer/color_transfer.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
@@ -67,8 +68,10 @@ std::vector<ScriptedEvent> grabbed_circling(double x, double y, double radius) {
   return script;
 }
 
-/// Holds a point of the transfer function and leads it up and down.
-std::vector<ScriptedEvent> editing(double across, double down) {
+/// Holds the fourth point of the preset and leads it up and down.
+std::vector<ScriptedEvent> editing() {
+  const ColorPoint fourth = make_color_transfer(ColorPreset::kDensity, 0.0, 1.0).points()[3];
+  const double across = fourth.value, down = 1.0 - fourth.opacity;
   std::vector<ScriptedEvent> script{{kGrabAt - 4, {.kind = InputKind::kMove}, "points", 0, across, down},
                                     {kGrabAt, {.kind = InputKind::kPress}}};
   for (int frame = kGrabAt + 1; frame < kMostFrames; ++frame) {
@@ -156,7 +159,7 @@ int run(const Setup& setup) {
       {"following", [&](const std::string& n) { flow(n, grabbed_circling(kMiddleX, kMiddleY, 60.0)); }},
       {"slices", [&](const std::string& n) { grid(n, held_circling(550.0, 200.0, 60.0), "4"); }},
       {"volume", [&](const std::string& n) { grid(n, held_circling(kMiddleX, kMiddleY, 80.0), "1"); }},
-      {"transfer", [&](const std::string& n) { grid(n, editing(0.5, 0.5), "1"); }}};
+      {"transfer", [&](const std::string& n) { grid(n, editing(), "1"); }}};
   for (const auto& [name, act] : acts) {
     if (setup.acts.empty() || std::find(setup.acts.begin(), setup.acts.end(), name) != setup.acts.end())
       act(name);

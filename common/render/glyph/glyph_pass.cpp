@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <epoxy/gl.h>
 
@@ -58,16 +59,22 @@ void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width,
   if (spheres.empty()) return;
   if (!program_) {
     program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag");
+    const std::string halo = "HALO";
+    halo_program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag", shader_files(), std::span(&halo, 1));
     no_vertices_ = make_vertex_array();
   }
   const GlBuffer instances = make_buffer(spheres);
-  glUseProgram(program_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kSpheresBinding, instances.name());
   glBindVertexArray(no_vertices_.name());
-  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
-    glUniform1f(kHaloUniform, opacity < 1.0F ? 0.0F : halo_width);
+  const auto draw_with = [&](const GlProgram& program, float halo, float opacity) {
+    glUseProgram(program.name());
+    glUniform1f(kHaloUniform, halo);
     glUniform1f(kOpacityUniform, opacity);
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, kCorners, static_cast<GLsizei>(spheres.size()));
+  };
+  draw_glyph_part(part, hidden_opacity, [&](float opacity) {
+    if (halo_width > 0.0F && !(opacity < 1.0F)) draw_with(halo_program_, halo_width, opacity);
+    draw_with(program_, 0.0F, opacity);
   });
 }
 

@@ -55,7 +55,7 @@ class SpherePass {
             GlyphPart part = GlyphPart::kAll);
 
  private:
-  GlProgram program_;  // compiled at the first use
+  GlProgram program_, halo_program_;  // compiled at the first use
   GlVertexArray no_vertices_;
 };
 

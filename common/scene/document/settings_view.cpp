@@ -29,7 +29,7 @@ const Setting kViewRows[] = {
      .groups = {Group::kView},
      .unit = "ms",
      .range = {.lower = 1.0, .upper = 1e5},
-     .otherwise = "60"},
+     .otherwise = "28"},
     {.name = "stereo",
      .place = kViewAt<&ViewOptions::stereo>,
      .help = "a picture for each eye, shown together: none, side-by-side, top-bottom, rows, columns "
