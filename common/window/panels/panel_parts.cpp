@@ -165,6 +165,16 @@ void begin_controls() {
   all.section.clear();
 }
 
+std::string shortened(std::string words, float room) {
+  if (ImGui::CalcTextSize(words.c_str()).x <= room) return words;
+  while (!words.empty() && ImGui::CalcTextSize((words + "…").c_str()).x > room) {
+    // A character of several bytes goes as a whole.
+    while (words.size() > 1 && (static_cast<unsigned char>(words.back()) & 0xC0U) == 0x80U) words.pop_back();
+    words.pop_back();
+  }
+  return words + "…";
+}
+
 void forget_controls() { drawn() = {}; }
 
 std::optional<std::string> place_of_setting(std::string_view name) {

@@ -67,6 +67,9 @@ void explain(const Setting& row);
 /// The help of that one alone.
 void explain_setting(const Setting& row);
 
+/// As much of `words` as there is room for [pixels], with "…" where some is left out.
+[[nodiscard]] std::string shortened(std::string words, float room);
+
 /// @name Settings that panels show, by explain() and edit_setting()
 /// @{
 /// The part of the panel that has a control of the setting now, folded or not; none: there is none.

@@ -114,12 +114,8 @@ void draw_status(const PanelState& state, const WindowLayout& layout) {
                       : state.scene != nullptr ? status_text(*state.scene)
                                                : std::string();
   if (!state.aside.empty()) words += (words.empty() ? "" : "; ") + state.aside;
-  const ImVec2 corner = ImGui::GetWindowPos();
-  ImGui::PushClipRect(
-      corner, {corner.x + right - frame_width - ImGui::GetFontSize(), corner.y + ImGui::GetWindowHeight()},
-      true);
-  ImGui::TextUnformatted(words.c_str());
-  ImGui::PopClipRect();
+  const float room = right - frame_width - ImGui::GetFontSize() - ImGui::GetCursorPosX();
+  ImGui::TextUnformatted(shortened(words, room).c_str());
   hint("%s", words.c_str());
   ImGui::SameLine(right - frame_width);
   ImGui::TextDisabled("%s", frame.c_str());

@@ -81,11 +81,9 @@ bool SettingSearch::draw_rows(const Document& document, const std::vector<const 
     explain_setting(row);
     std::string value = value_text(row, document);
     if (value.empty()) value = std::string(row.otherwise);
-    constexpr std::size_t kLongest = 24;
-    if (value.size() > kLongest) value = value.substr(0, kLongest) + "…";
+    if (!row.unit.empty() && !value.empty()) value += " " + std::string(row.unit);
     ImGui::SameLine(15.0F * em);
-    ImGui::TextDisabled("%s%s%s", value.c_str(), row.unit.empty() || value.empty() ? "" : " ",
-                        value.empty() ? "" : std::string(row.unit).c_str());
+    ImGui::TextDisabled("%s", shortened(value, 12.0F * em).c_str());
     ImGui::SameLine(28.0F * em);
     const auto place = place_of_setting(row.name);
     ImGui::TextDisabled("%s", place ? place->c_str() : row.option().c_str());

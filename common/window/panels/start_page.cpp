@@ -16,17 +16,6 @@ namespace {
 // GLFW's numbers.
 constexpr int kEnter = 257, kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPadEnter = 335;
 
-/// As much of `words` as there is room for, with "…" where some is left out.
-std::string shortened(std::string words, float room) {
-  if (ImGui::CalcTextSize(words.c_str()).x <= room) return words;
-  while (!words.empty() && ImGui::CalcTextSize((words + "…").c_str()).x > room) {
-    // A character of several bytes goes as a whole.
-    while (words.size() > 1 && (static_cast<unsigned char>(words.back()) & 0xC0U) == 0x80U) words.pop_back();
-    words.pop_back();
-  }
-  return words + "…";
-}
-
 }  // namespace
 
 std::string name_of(const InputFiles& input) {
