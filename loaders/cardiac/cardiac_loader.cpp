@@ -16,8 +16,8 @@
 #include "common/load/volume_block.h"
 #include "loaders/cardiac/carp_reader.h"
 #include "loaders/cardiac/carp_results.h"
-#include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_times.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_times.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/tetgen_reader.h"
 

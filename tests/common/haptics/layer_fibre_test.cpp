@@ -10,8 +10,8 @@
 
 #include "common/field/analytic/ventricle.h"
 #include "lab/hand/constraint/fibre_feel.h"
-#include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/shared_data.h"
 

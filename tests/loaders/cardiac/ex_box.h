@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {

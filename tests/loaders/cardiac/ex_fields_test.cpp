@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_reader.h"
-#include "loaders/cardiac/ex_times.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_reader.h"
+#include "loaders/cardiac/ex/ex_times.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {
@@ -106,14 +106,178 @@ TEST(ExFields, FieldsOfNumbersAreSampledUnderTheirNames) {
   }
 }
 
-TEST(ExFields, ThoseThatAreNotEverywhereAreLeftOutWithAWord) {
+/// The values of `name` at the points where x is in [from, to], all of which must be what `value` says; NaN: no data.
+void expect_values(const SampledModel& model, const std::string& name, double from, double to,
+                   const std::function<double(const Vec3&)>& value) {
+  const DataArray* array = model.mesh.find(name, Association::kPoint);
+  ASSERT_NE(array, nullptr) << name;
+  const auto& positions = std::get<UnstructuredTopology>(model.mesh.topology).positions;
+  int found = 0;
+  for (std::size_t p = 0; p < array->tuples; ++p) {
+    const Vec3 x{positions.at(p, 0), positions.at(p, 1), positions.at(p, 2)};
+    if (x.x < from || x.x > to) continue;
+    ++found;
+    const double wanted = value(x);
+    if (std::isnan(wanted)) {
+      EXPECT_TRUE(std::isnan(array->at(p))) << x.x;
+    } else {
+      EXPECT_NEAR(array->at(p), wanted, 1e-5) << x.x;
+    }
+  }
+  EXPECT_GT(found, 0);
+}
+
+const auto kNoData = [](const Vec3&) { return std::nan(""); };
+
+TEST(ExFields, ThoseOfAPartHaveNoDataElsewhereAndThatIsSaid) {
   // Node 12 is of the second element alone, and has no pressure.
   std::string text = kHead + nodes("", 0, [](int, const Vec3&) { return std::string(); });
   text += "Shape. Dimension=0\n#Fields=1\n" + node_field(1, "pressure", 1, "real");
   for (int n = 1; n < 12; ++n) text += "Node: " + std::to_string(n) + "\n 5\n";
   const SampledModel model = sampled(text + elements(element_field(2, "pressure", 1), 1));
-  EXPECT_EQ(model.mesh.find("pressure", Association::kPoint), nullptr);
-  EXPECT_TRUE(says(model, "\"pressure\" left out"));
+  expect_values(model, "pressure", 0.0, 1.0, [](const Vec3&) { return 5.0; });
+  expect_values(model, "pressure", 1.1, 2.0, kNoData);
+  EXPECT_TRUE(says(model, "\"pressure\": no data in 1 of 2 elements"));
+
+  // Of the second element, which comes later: where both meet it has data.
+  std::string second =
+      kHead +
+      nodes(node_field(2, "pressure", 1, "real"), 1, [](int, const Vec3& x) { return pressure_text(x); }) +
+      elements("", 0);
+  second = second.substr(0, second.find("Element: 2"));
+  std::string rest = elements(element_field(2, "pressure", 1), 1);
+  rest.erase(rest.find("Element: 1"), rest.find("Element: 2") - rest.find("Element: 1"));
+  const SampledModel other = sampled(second + rest);
+  expect_values(other, "pressure", 1.0, 2.0, pressure);
+  expect_values(other, "pressure", 0.0, 0.9, kNoData);
+
+  const SampledModel nodes_alone = sampled(
+      kHead +
+      nodes(node_field(2, "pressure", 1, "real"), 1, [](int, const Vec3& x) { return pressure_text(x); }) +
+      elements("", 0));
+  EXPECT_TRUE(says(nodes_alone, "\"pressure\" of nodes left out"));
+}
+
+TEST(ExFields, FibresOfAPartAreThoseOfThatPart) {
+  const std::string whole = kHead +
+                            nodes(node_field(2, "fibres", 3, "fibre, real"), 1,
+                                  [](int, const Vec3&) { return std::string(" 0.5 0 0\n"); }) +
+                            elements("", 0);
+  std::string rest = elements(element_field(2, "fibres", 3), 1);
+  rest.erase(rest.find("Element: 1"), rest.find("Element: 2") - rest.find("Element: 1"));
+  const SampledModel model = sampled(whole.substr(0, whole.find("Element: 2")) + rest);
+  expect_values(model, "fibre angle", 1.0, 2.0, [](const Vec3&) { return 0.5 * 180.0 / 3.14159265358979; });
+  expect_values(model, "fibre angle", 0.0, 0.9, kNoData);
+  expect_values(model, "fibre", 1.0, 2.0, [](const Vec3&) { return std::cos(0.5); });
+  expect_values(model, "fibre", 0.0, 0.9, kNoData);
+  EXPECT_TRUE(says(model, "fibres: no data in 1 of 2 elements"));
+}
+
+/// Values at places of the elements' own: `intervals` along each axis, 0 where they are constant.
+std::string grid_field(int number, const std::string& name, int intervals, bool by_element = false) {
+  const std::string basis = intervals > 0 ? "l.Lagrange" : "constant";
+  std::string text = std::to_string(number) + ") " + name +
+                     ", field, rectangular cartesian, real, #Components=1\n 1. " + basis + "*" + basis + "*" +
+                     basis + ", no modify, " + (by_element ? "element" : "grid") + " based.\n";
+  const std::string n = std::to_string(intervals);
+  if (!by_element) text += " #xi1=" + n + ", #xi2=" + n + ", #xi3=" + n + "\n";
+  return text;
+}
+
+/// Two boxes as elements(), with values behind their nodes.
+std::string elements_with_values(const std::string& fields, int count, int intervals,
+                                 const std::function<double(const Vec3&)>& value) {
+  std::string text = elements(fields, count);
+  for (int e = 2; e >= 1; --e) {
+    std::string values = " Values :\n";
+    for (int k = 0; k <= intervals; ++k)
+      for (int j = 0; j <= intervals; ++j)
+        for (int i = 0; i <= intervals; ++i) {
+          const double h = intervals > 0 ? 1.0 / intervals : 0.0;
+          values += " " + std::to_string(value(Vec3{e - 1 + h * i, h * j, h * k}));
+        }
+    const std::size_t at = text.find("Nodes:\n", text.find("Element: " + std::to_string(e)));
+    text.insert(text.find('\n', at + 8) + 1, values + "\n");
+  }
+  return text;
+}
+
+TEST(ExFields, ValuesAtGridPointsOfElementsAreThoseThere) {
+  const std::string points = kHead + nodes("", 0, [](int, const Vec3&) { return std::string(); });
+  // Linear between grid points: places of the sampling by threes are grid points, or half-way.
+  const auto bent = [](const Vec3& x) { return 100.0 * x.x + x.y * x.y - 3.0 * x.z; };
+  const SampledModel three = sampled(points + elements_with_values(grid_field(2, "vm", 3), 1, 3, bent));
+  expect_values(three, "vm", 0.0, 2.0, bent);
+  EXPECT_FALSE(says(three, "--refine"));
+  const SampledModel one = sampled(points + elements_with_values(grid_field(2, "vm", 1), 1, 1, pressure));
+  expect_values(one, "vm", 0.0, 2.0, pressure);
+  const SampledModel five = sampled(points + elements_with_values(grid_field(2, "vm", 5), 1, 5, bent));
+  EXPECT_TRUE(
+      says(five, "\"vm\" has values at 6 places along an axis of an element, 4 are sampled: --refine 5"));
+
+  // One value an element is one of its cells, and what jumps between elements is said.
+  for (const bool by_element : {false, true}) {
+    const SampledModel flat = sampled(points + elements_with_values(grid_field(2, "tag", 0, by_element), 1, 0,
+                                                                    [](const Vec3& x) { return 7.0 + x.x; }));
+    const DataArray* tag = flat.mesh.find("tag", Association::kCell);
+    ASSERT_NE(tag, nullptr);
+    ASSERT_EQ(tag->tuples, 2U * 27U);
+    EXPECT_EQ(tag->at(0), 7.0);
+    EXPECT_EQ(tag->at(53), 8.0);
+  }
+  std::string jump = elements_with_values(grid_field(2, "vm", 1), 1, 1, [](const Vec3&) { return 1.0; });
+  jump.replace(jump.rfind("1.000000"), 8, "2.000000");
+  EXPECT_FALSE(says(sampled(points + jump), "disagree")) << "a corner of the second element alone";
+  std::string step = elements_with_values(grid_field(2, "vm", 1), 1, 1, [](const Vec3&) { return 1.0; });
+  const std::size_t second = step.find("1.000000", step.find("Values", step.find("Element: 2")));
+  step.replace(second, 8, "2.000000");
+  // x = 1: a corner that both have, with what falls off from it over the face: 4 x 4 places less those at zero.
+  EXPECT_TRUE(says(sampled(points + step), "\"vm\": 9 points where elements disagree"));
+
+  std::string short_by_one = elements_with_values(grid_field(2, "vm", 1), 1, 1, pressure);
+  short_by_one.erase(short_by_one.rfind(' '));
+  EXPECT_THROW((void)sampled(points + short_by_one), Error);
+}
+
+TEST(ExFields, ElementsThatAreListedAgainHaveTheFieldsOfBothLists) {
+  const std::string points = kHead + nodes(node_field(2, "pressure", 1, "real"), 1,
+                                           [](int, const Vec3& x) { return pressure_text(x); });
+  // The other list has its own nodes, with the pressure alone, or with the coordinates again.
+  const std::string alone =
+      "Shape. Dimension=3, line*line*line\n#Scale factor sets=0\n#Nodes=8\n#Fields=1\n" +
+      element_field(1, "pressure", 1) +
+      "Element: 2\n Nodes:\n 2 3 5 6 8 9 11 12\nElement: 1\n Nodes:\n 1 2 4 5 7 8 10 11\n";
+  for (const std::string& again : {alone, elements(element_field(2, "pressure", 1), 1)}) {
+    const SampledModel model = sampled(points + elements("", 0) + again);
+    expect_pressure(model);
+    EXPECT_EQ(model.mesh.cell_count(), 2U * 27U) << "each element once";
+  }
+  std::string other = elements("", 0);
+  other.replace(other.rfind(" 12"), 3, " 11");
+  try {
+    (void)sampled(points + elements("", 0) + other);
+    ADD_FAILURE() << "two shapes of one element were accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("with another \"coordinates\""), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ExFields, ElementsOfFewerDimensionsAreLeftOutWithAWord) {
+  std::string faces =
+      "!#mesh mesh2d, dimension=2, nodeset=nodes\nShape. Dimension=2, line*line\n#Scale factor sets=0\n"
+      "#Nodes=4\n#Fields=1\n1) coordinates, coordinate, rectangular cartesian, real, #Components=3\n";
+  for (const char* name : {"1", "2", "3"}) {
+    faces +=
+        " " + std::string(name) + ". l.Lagrange*l.Lagrange, no modify, standard node based.\n  #Nodes=4\n";
+    for (int n = 1; n <= 4; ++n) faces += "  " + std::to_string(n) + ". #Values=1\n   Value labels: value\n";
+  }
+  faces += "Element: 1\n Nodes:\n 1 2 4 5\nElement: 2\n Nodes:\n 2 3 5 6\n";
+  const std::string whole = kHead + nodes(node_field(2, "pressure", 1, "real"), 1,
+                                          [](int, const Vec3& x) { return pressure_text(x); });
+  const SampledModel model = sampled(whole + faces + elements(element_field(2, "pressure", 1), 1));
+  expect_pressure(model);
+  EXPECT_TRUE(says(model, "2 elements of 2 dimensions left out"));
 }
 
 TEST(ExFields, NodesThatAreListedAgainHaveTheFieldsOfBothLists) {

@@ -1,5 +1,5 @@
 // EX files of later versions, and what is said of mistakes in them.
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 
 #include <array>
 #include <string>
@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
-#include "loaders/cardiac/ex_element.h"
-#include "loaders/cardiac/ex_mesh.h"
-#include "tests/loaders/cardiac/ex_box.h"
+#include "loaders/cardiac/ex/ex_element.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "tests/loaders/cardiac/ex/ex_box.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {

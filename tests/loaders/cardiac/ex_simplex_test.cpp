@@ -15,8 +15,8 @@
 
 #include "common/base/error.h"
 #include "common/field/field_grid.h"
-#include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {

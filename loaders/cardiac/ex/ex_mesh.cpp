@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 #include "common/base/text.h"
 #include "common/field/grid/block_join.h"
 #include "common/field/layer/wall_layer.h"
-#include "loaders/cardiac/ex_element.h"
-#include "loaders/cardiac/ex_fields.h"
-#include "loaders/cardiac/ex_places.h"
+#include "loaders/cardiac/ex/ex_element.h"
+#include "loaders/cardiac/ex/ex_fields.h"
+#include "loaders/cardiac/ex/ex_places.h"
 #include "loaders/cardiac/mesh_text.h"
 
 namespace palpate::ex {
@@ -39,13 +39,9 @@ std::vector<ElementShape> shapes_of(const Model& model, const std::string& file,
                        "name the .exnode and the .exelem file together"});
   std::vector<ElementShape> shapes;
   shapes.reserve(model.elements.size());
-  std::set<std::int64_t> names;
-  with_fibres = true;
+  with_fibres = false;
   for (const Element& element : model.elements) {
     const std::string place = "line " + std::to_string(element.line);
-    if (!names.insert(element.name).second)
-      throw input_error({file, place, "has element " + std::to_string(element.name) + " for a second time",
-                         "every element once"});
     const std::vector<ElementField>& header = model.element_headers[element.header];
     const ElementField* const coordinates = coordinates_of(header);
     const ElementField* fibres = nullptr;
@@ -54,10 +50,21 @@ std::vector<ElementShape> shapes_of(const Model& model, const std::string& file,
     }
     if (coordinates == nullptr || coordinates->components.size() != 3)
       throw input_error({file, place, "has no coordinates of three components", "a field \"coordinates\""});
-    with_fibres = with_fibres && fibres != nullptr;
+    with_fibres = with_fibres || fibres != nullptr;
     shapes.emplace_back(model, element, *coordinates, fibres, file);
   }
   return shapes;
+}
+
+/// Places in elements without fibres that others share have the axes of these.
+void borrow_axes(const std::vector<std::uint32_t>& first, std::vector<Place>& places) {
+  for (std::size_t p = 0; p < first.size(); ++p) {
+    Place& there = places[first[p]];
+    if (!std::isnan(there.angles[0]) || std::isnan(places[p].angles[0])) continue;
+    there.angles = places[p].angles;
+    there.axes = places[p].axes;
+    there.has_axes = places[p].has_axes;
+  }
 }
 
 DataArray array_of(const char* name, int components, const std::vector<double>& values) {
@@ -339,9 +346,9 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
     for (const Vec3& xi : samples.of_element[e]->xi) places.push_back(shapes[e].at(xi));
 
   const std::vector<std::uint32_t> first = joined(places, samples, file);
+  borrow_axes(first, places);
   SampledModel sampled;
-  const std::vector<OtherField> others = other_fields(model, file, sampled.notes);
-  std::vector<std::vector<double>> values_of_others(others.size());
+  std::vector<OtherField> others = other_fields(model, refine, file, sampled.notes);
   std::vector<std::int64_t> point_of(places.size(), -1);
   std::vector<double> positions, fibre, sheet, normal;
   std::array<std::vector<double>, 3> angles;
@@ -350,21 +357,21 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   const auto append = [](std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v[0], v[1], v[2]}); };
   for (std::size_t e = 0; e < shapes.size(); ++e) {
     for (std::size_t p = samples.first[e]; p < samples.first[e + 1]; ++p) {
+      const Vec3& xi = samples.of_element[e]->xi[p - samples.first[e]];
       if (first[p] != p) {
         // A collapsed edge has many directions at one place: which of them does not matter, there is none.
         if (with_fibres && places[p].has_axes && disagree(places[p], places[first[p]]))
           disagreeing.insert(first[p]);
         point_of[p] = point_of[first[p]];
+        for (OtherField& other : others) other.join(as_size(point_of[p]), e, xi);
         continue;
       }
       const Place& place = places[p];
       point_of[p] = static_cast<std::int64_t>(points++);
       append(positions, place.x);
-      for (std::size_t f = 0; f < others.size(); ++f)
-        others[f].of_element[e].append_at(samples.of_element[e]->xi[p - samples.first[e]],
-                                          values_of_others[f]);
+      for (OtherField& other : others) other.append(e, xi);
       if (!with_fibres) continue;
-      if (!place.has_axes) ++undefined;
+      if (!place.has_axes && !std::isnan(place.angles[0])) ++undefined;
       append(fibre, place.has_axes ? place.axes[0] : Vec3{kNaN});
       append(sheet, place.has_axes ? place.axes[1] : Vec3{kNaN});
       append(normal, place.has_axes ? place.axes[2] : Vec3{kNaN});
@@ -375,7 +382,8 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   UnstructuredTopology topology;
   topology.positions = array_of("points", 3, positions);
   topology.offsets.push_back(0);
-  std::vector<double> element_of;
+  std::vector<double> names;
+  std::vector<std::size_t> element_of;  // of each cell
   for (std::size_t e = 0; e < shapes.size(); ++e) {
     const ElementPlaces& cells = *samples.of_element[e];
     for (std::size_t c = 0; c < cells.corners.size(); ++c) {
@@ -383,7 +391,8 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
       if ((c + 1) % cells.corner_count != 0) continue;
       topology.types.push_back(cells.type);
       topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
-      element_of.push_back(static_cast<double>(model.elements[e].name));
+      names.push_back(static_cast<double>(model.elements[e].name));
+      element_of.push_back(e);
     }
   }
   sampled.mesh.topology = std::move(topology);
@@ -407,20 +416,16 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
                               counted(static_cast<std::uint64_t>(deep), "element") + " deep");
     }
   }
-  sampled.mesh.arrays.push_back(
-      make_array("element", Association::kCell, 1, std::span<const double>(element_of)));
+  sampled.mesh.arrays.push_back(make_array("element", Association::kCell, 1, std::span<const double>(names)));
 
-  for (std::size_t f = 0; f < others.size(); ++f) {
-    const auto is_taken = [&](const DataArray& array) { return array.name == others[f].name; };
-    const bool taken = std::any_of(sampled.mesh.arrays.begin(), sampled.mesh.arrays.end(), is_taken) ||
-                       others[f].name == kLayerArray;  // which would be the depth
-    const std::string name = taken ? "field " + others[f].name : others[f].name;
-    sampled.mesh.arrays.push_back(array_of(name.c_str(), others[f].components, values_of_others[f]));
-  }
+  add_arrays(others, element_of, sampled.mesh, sampled.notes);
   for (const std::string& field : model.left_out)
     sampled.notes.push_back("field " + field + " left out: its values are no numbers");
   if (model.data_points > 0)
     sampled.notes.push_back(counted(model.data_points, "data point") + " left out: they are no nodes");
+  for (const auto& [dimension, count] : model.flat_elements)
+    sampled.notes.push_back(counted(count, "element") + " of " + counted(as_size(dimension), "dimension") +
+                            " left out, with the fields on them");
 
   for (const auto& [linked, cells] : samples.shapes) {
     const auto is_one = [&shape = linked](const Element& element) { return element.linked == shape; };
@@ -430,6 +435,11 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
                                    : counted(count, "curved element") + " sampled as " +
                                          cells_text(linked, refine) + " each");
   }
+  const auto bare =
+      std::ranges::count_if(shapes, [](const ElementShape& shape) { return !shape.has_fibres(); });
+  if (with_fibres && bare > 0)
+    sampled.notes.push_back("fibres: no data in " + std::to_string(bare) + " of " +
+                            counted(shapes.size(), "element"));
   if (undefined > 0)
     sampled.notes.push_back(counted(undefined, "point") +
                             " on collapsed edges without a fibre direction: no data there");

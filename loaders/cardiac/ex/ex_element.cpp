@@ -1,8 +1,9 @@
-#include "loaders/cardiac/ex_element.h"
+#include "loaders/cardiac/ex/ex_element.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 
 #include "common/base/error.h"
@@ -110,7 +111,13 @@ ElementFunction gather(const Model& model, const Element& element, const std::st
   const auto refuse = [&](const std::string& found, const std::string& expected) {
     throw input_error({file, "element " + std::to_string(element.name), found, expected});
   };
-  ElementFunction gathered{component.basis, {}};
+  ElementFunction gathered{component.basis, {}, {}};
+  if (component.grid) {
+    const auto begin = element.values.begin() + static_cast<std::ptrdiff_t>(component.grid->first);
+    gathered.parameters.assign(begin, begin + static_cast<std::ptrdiff_t>(component.grid->count()));
+    gathered.intervals = component.grid->intervals;
+    return gathered;
+  }
   for (const Parameter& parameter : component.parameters) {
     if (parameter.node < 0) {
       gathered.parameters.push_back(0.0);
@@ -167,6 +174,29 @@ const ElementField* coordinates_of(const std::vector<ElementField>& header) {
   return coordinates;
 }
 
+Interpolated ElementFunction::at(const Vec3& xi) const {
+  if (!intervals) return interpolate(basis, parameters.data(), xi);
+  std::array<std::size_t, 3> low{}, high{};
+  Vec3 within{0.0}, counts{0.0};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int axis = static_cast<int>(a), count = (*intervals)[a];
+    const double along = xi[axis] * count;
+    low[a] = as_size(std::clamp(static_cast<int>(along), 0, std::max(count - 1, 0)));
+    high[a] = std::min(low[a] + 1, as_size(count));
+    within[axis] = along - static_cast<double>(low[a]);
+    counts[axis] = count;
+  }
+  std::array<double, 8> corners{};
+  for (std::size_t c = 0; c < 8; ++c) {
+    const std::size_t i = (c & 1U) != 0 ? high[0] : low[0], j = (c & 2U) != 0 ? high[1] : low[1],
+                      k = (c & 4U) != 0 ? high[2] : low[2];
+    corners[c] = parameters[i + as_size((*intervals)[0] + 1) * (j + as_size((*intervals)[1] + 1) * k)];
+  }
+  Interpolated here = interpolate({Basis::kLinear, Basis::kLinear, Basis::kLinear}, corners.data(), within);
+  here.slope *= counts;
+  return here;
+}
+
 ElementValues::ElementValues(const Model& model, const Element& element, const ElementField& field,
                              const std::string& file) {
   for (const ElementComponent& component : field.components)
@@ -174,8 +204,11 @@ ElementValues::ElementValues(const Model& model, const Element& element, const E
 }
 
 void ElementValues::append_at(const Vec3& xi, std::vector<double>& to) const {
-  for (const ElementFunction& component : components_)
-    to.push_back(interpolate(component.basis, component.parameters.data(), xi).value);
+  for (const ElementFunction& component : components_) to.push_back(component.at(xi).value);
+}
+
+bool ElementValues::constant() const {
+  return std::ranges::all_of(components_, [](const ElementFunction& f) { return f.parameters.size() == 1; });
 }
 
 ElementShape::ElementShape(const Model& model, const Element& element, const ElementField& coordinates,
@@ -193,15 +226,19 @@ Place ElementShape::at(const Vec3& xi) const {
   Vec3 q{0.0};
   std::array<Vec3, 3> slopes{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const Interpolated here = interpolate(coordinates_[c].basis, coordinates_[c].parameters.data(), xi);
+    const Interpolated here = coordinates_[c].at(xi);
     q[static_cast<int>(c)] = here.value;
     slopes[c] = here.slope;
   }
   Place place;
   to_cartesian(system_, focus_, q, slopes, place);
   for (std::size_t c = 0; c < angles_.size(); ++c)
-    place.angles[static_cast<int>(c)] = interpolate(angles_[c].basis, angles_[c].parameters.data(), xi).value;
-  set_axes(place);
+    place.angles[static_cast<int>(c)] = angles_[c].at(xi).value;
+  if (angles_.empty()) {
+    place.angles = Vec3{std::numeric_limits<double>::quiet_NaN()};
+  } else {
+    set_axes(place);
+  }
   return place;
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "loaders/cardiac/ex_mesh.h"
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_mesh.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 

@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,8 @@
 
 #include "common/base/index.h"
 #include "common/base/text.h"
-#include "loaders/cardiac/ex_values.h"
+#include "loaders/cardiac/ex/ex_values.h"
+#include "loaders/cardiac/ex/ex_words.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate::ex {
@@ -20,24 +21,13 @@ namespace {
 /// More fields, components, versions, corners or factors than any model has: a claim that is a mistake.
 constexpr std::int64_t kMostFields = 1000;
 constexpr std::int64_t kMostComponents = 100;
-constexpr std::int64_t kMostVersions = 10'000;
 constexpr std::int64_t kMostDerivatives = 7;
 constexpr std::int64_t kMostNumber = 2'000'000'000;
 constexpr std::int64_t kMostScales = 100'000;
+constexpr int kMostGridValues = 10'000'000;  // of an element
 constexpr int kNewestVersion = 3;
 constexpr int kLabels = 2;       // from which on parameters have labels in place of indices
 constexpr int kLocalScales = 3;  // from which on scale factors are counted in their own set
-
-/// The number behind `key` in a line: "#Versions= 3".
-std::optional<double> number_behind(std::string_view line, std::string_view key) {
-  const std::size_t at = line.find(key);
-  if (at == std::string_view::npos) return {};
-  std::string_view rest = line.substr(at + key.size());
-  const std::size_t first = rest.find_first_not_of(" \t=");
-  if (first == std::string_view::npos) return {};
-  rest = rest.substr(first);
-  return palpate::number(rest.substr(0, rest.find_first_of(" ,;(")));
-}
 
 class Reader {
  public:
@@ -75,8 +65,6 @@ class Reader {
         node();
       } else if (line.starts_with("Element:")) {
         element();
-      } else if (line.starts_with("Values")) {
-        lines_.refuse("has values at grid points of an element", "values at nodes");
       } else {
         lines_.refuse("has \"" + std::string(line.substr(0, 40)) + "\"", "a keyword of the EX format");
       }
@@ -107,18 +95,7 @@ class Reader {
     dimension_ = static_cast<int>(claim("Dimension", 0, 3));
     in_elements_ = dimension_ > 0;
     linked_ = {};
-    const std::string_view line = lines_.line();
-    if (dimension_ != 3) return;
-    if (line.find("polygon") != std::string_view::npos)
-      lines_.refuse("has polygon elements", "products of lines and simplices");
-    // "Shape. Dimension=3, simplex(2;3)*simplex*simplex", with or without the comma
-    const std::size_t first = line.find_first_of("ls", line.find('=') + 1);
-    if (first == std::string_view::npos) return;
-    const std::vector<std::string_view> axes = split(line.substr(first), '*');
-    if (axes.size() != 3) lines_.refuse("is no shape of three dimensions", "\"line*line*line\"");
-    for (std::size_t a = 0; a < 3; ++a) linked_[a] = trimmed(axes[a]).starts_with("simplex");
-    if (std::count(linked_.begin(), linked_.end(), true) == 1)
-      lines_.refuse("has a simplex of one axis", "two or three that are linked");
+    if (dimension_ == 3) linked_ = linked_axes(lines_);
   }
 
   std::string name_behind_colon() const {
@@ -154,6 +131,7 @@ class Reader {
   void fields() {
     const std::int64_t count = claim("#Fields", 0, kMostFields);
     if (in_elements_) {
+      current_.values = 0;
       std::vector<ElementField> header;
       for (std::int64_t f = 0; f < count; ++f) header.push_back(element_field());
       current_.header = static_cast<std::uint32_t>(model_.element_headers.size());
@@ -237,34 +215,10 @@ class Reader {
     return field;
   }
 
-  /// "value", "d/ds1", "d2/ds1ds2(2)": with a number in brackets, which is 1 where there is none.
-  std::pair<int, int> label_and_number(std::string_view word) {
-    static constexpr std::array<std::string_view, 8> kKinds{
-        "value", "d/ds1", "d/ds2", "d2/ds1ds2", "d/ds3", "d2/ds1ds3", "d2/ds2ds3", "d3/ds1ds2ds3"};
-    const std::size_t bracket = word.find('(');
-    const auto* const kind = std::find(kKinds.begin(), kKinds.end(), word.substr(0, bracket));
-    double count = 1.0;
-    if (bracket != std::string_view::npos)
-      count = number(word.substr(bracket + 1, word.find(')', bracket) - bracket - 1)).value_or(0.0);
-    if (kind == kKinds.end() || !(count >= 1.0 && count <= static_cast<double>(kMostVersions)) ||
-        count != static_cast<double>(static_cast<int>(count)))
-      lines_.refuse("has \"" + std::string(word.substr(0, 40)) + "\"", "value, d/ds1, … or d3/ds1ds2ds3");
-    return {static_cast<int>(kind - kKinds.begin()), static_cast<int>(count)};
-  }
-
   /// " x. #Values=5 (value(2),d/ds1(2),d/ds2)": of each label all versions, one after the other.
   void labels(NodeComponent& component) {
     const std::int64_t count = claim("#Values", 1, kMostVersions);
-    const std::string_view line = lines_.line();
-    const std::size_t open = line.find('(', line.find("#Values"));
-    const std::size_t close = line.rfind(')');
-    if (open == std::string_view::npos || close < open) lines_.refuse("lists no values", "\"(value,d/ds1)\"");
-    for (const std::string_view word : split(line.substr(open + 1, close - open - 1), ',')) {
-      const auto [kind, versions] = label_and_number(trimmed(word));
-      for (int v = 0; v < versions; ++v) component.labels.push_back({kind, v});
-    }
-    if (static_cast<std::int64_t>(component.labels.size()) != count)
-      lines_.refuse("lists " + std::to_string(component.labels.size()) + " values", std::to_string(count));
+    component.labels = labels_of(lines_, as_size(count));
     component.count = static_cast<int>(count);
   }
 
@@ -287,7 +241,7 @@ class Reader {
     if (!differs.empty())
       lines_.refuse("ends node " + std::to_string(name) + " (line " + std::to_string(line) +
                         ") for a second time, with other values of \"" + differs + "\"",
-                    "the same ones, or every node once");
+                    "the same ones, or every node once", "write each time to an .exnode file of its own");
   }
 
   ElementField element_field() {
@@ -295,34 +249,6 @@ class Reader {
     const std::int64_t components = begin_field(field);
     for (std::int64_t c = 0; c < components; ++c) field.components.push_back(element_component());
     return field;
-  }
-
-  Basis basis(std::string_view word) {
-    static constexpr std::array<std::pair<std::string_view, Basis>, 6> kKnown{
-        {{"l.Lagrange", Basis::kLinear},
-         {"q.Lagrange", Basis::kQuadratic},
-         {"c.Lagrange", Basis::kCubic},
-         {"c.Hermite", Basis::kHermite},
-         {"l.simplex", Basis::kLinearSimplex},
-         {"q.simplex", Basis::kQuadraticSimplex}}};
-    // The first axis of a simplex names those that are linked to it: "l.simplex(2;3)".
-    for (const auto& [name, value] : kKnown)
-      if (word == name || (is_simplex(value) && word.substr(0, word.find('(')) == name)) return value;
-    lines_.refuse("has the basis " + std::string(word.substr(0, 40)),
-                  "l.Lagrange, q.Lagrange, c.Lagrange, c.Hermite, l.simplex or q.simplex");
-  }
-
-  Winding winding(std::string_view text) {
-    static constexpr std::array<std::pair<std::string_view, Winding>, 5> kKnown{
-        {{"no modify", Winding::kNone},
-         {"increasing in xi1", Winding::kIncreasing},
-         {"decreasing in xi1", Winding::kDecreasing},
-         {"non-increasing in xi1", Winding::kNonIncreasing},
-         {"non-decreasing in xi1", Winding::kNonDecreasing}}};
-    for (const auto& [name, value] : kKnown)
-      if (text == name) return value;
-    lines_.refuse("has the modification \"" + std::string(text.substr(0, 40)) + "\"",
-                  "no modify, or increasing or decreasing in xi1");
   }
 
   /// "lambda.  c.Hermite*c.Hermite*c.Hermite, no modify, standard node based." and its corners
@@ -334,11 +260,13 @@ class Reader {
     component.name = line.substr(0, dot);
     const std::vector<std::string_view> parts = split(line.substr(dot + 1), ',');
     const std::vector<std::string_view> axes = split(trimmed(parts.front()), '*');
-    if (axes.size() != 3 || parts.size() < 3)
-      lines_.refuse("is no component of three dimensions", "\"NAME. BASIS*BASIS*BASIS, no modify, …\"");
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      component.basis[axis] = basis(trimmed(axes[axis]));
-      if (is_simplex(component.basis[axis]) != linked_[axis])
+    component.basis.fill(Basis::kConstant);  // along what axes a line or a face lacks
+    if (static_cast<int>(axes.size()) != dimension_ || parts.size() < 3)
+      lines_.refuse("is no component of " + counted(as_size(dimension_), "dimension"),
+                    "\"NAME. BASIS*BASIS*BASIS, no modify, …\", a basis for each");
+    for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+      component.basis[axis] = basis_of(lines_, trimmed(axes[axis]));
+      if (dimension_ == 3 && is_simplex(component.basis[axis]) != linked_[axis])
         lines_.refuse("has the basis " + std::string(trimmed(parts.front()).substr(0, 60)),
                       "one of the element's shape");
     }
@@ -347,10 +275,15 @@ class Reader {
                     [&](Basis b) { return is_simplex(b) && b != *simplex; }))
       lines_.refuse("links axes of two bases", "one basis for them");
     const std::size_t corners = node_count(component.basis), each = component.of_corner();
-    component.winding = winding(trimmed(parts[1]));
+    component.winding = winding_of(lines_, trimmed(parts[1]));
     const std::string_view map = trimmed(parts[2]);
+    if (map.starts_with("grid based") || map.starts_with("element based")) {
+      component.grid = grid_of(component, map.starts_with("grid"));
+      return component;
+    }
     if (!map.starts_with("standard node based") && !map.starts_with("general node based"))
-      lines_.refuse("is " + std::string(map.substr(0, 40)), "standard or general node based");
+      lines_.refuse("is " + std::string(map.substr(0, 40)),
+                    "standard or general node based, grid based or element based");
     std::int64_t first_scale = 0;
     const std::string set = scale_set(map);
     if (!set.empty() && version_ >= kLocalScales) first_scale = scale_set_first_[set];
@@ -365,6 +298,30 @@ class Reader {
         labelled(corners * each, !set.empty(), first_scale, component.parameters);
     }
     return component;
+  }
+
+  /// " #xi1=4, #xi2=4, #xi3=4" behind a component that is linear or constant between places of its own.
+  ElementGrid grid_of(const ElementComponent& component, bool stated) {
+    constexpr std::int64_t kMostIntervals = 1000;
+    ElementGrid grid{.intervals = {}, .first = as_size(current_.values)};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Basis basis = component.basis[a];
+      if (basis != Basis::kLinear && basis != Basis::kConstant)
+        lines_.refuse("has a basis that values of an element's own are not read with",
+                      "l.Lagrange or constant along each axis");
+      grid.intervals[a] = basis == Basis::kLinear ? 1 : 0;
+    }
+    if (stated) {
+      next_line("#xi1=");
+      for (std::size_t a = 0; a < as_size(dimension_); ++a)
+        grid.intervals[a] = static_cast<int>(claim("#xi" + std::to_string(a + 1), 0, kMostIntervals));
+    }
+    if (grid.count() > kMostGridValues)
+      lines_.refuse("claims too many values of an element", "10000000 at most");
+    current_.values += static_cast<int>(grid.count());
+    if (current_.values > kMostGridValues)
+      lines_.refuse("claims too many values of an element", "10000000 at most");
+    return grid;
   }
 
   /// Of "standard node based. scale factor set=NAME"; empty where factors are one.
@@ -432,7 +389,7 @@ class Reader {
       }
       if (word.find('+') != std::string_view::npos)
         lines_.refuse("sums parameters", "one label for each function");
-      const auto [kind, version] = label_and_number(word);
+      const auto [kind, version] = label_and_number(lines_, word);
       parameters[first + v].label = ValueLabel{kind, version - 1};
     }
     if (!scaled) return;
@@ -465,11 +422,19 @@ class Reader {
         (void)lines_.word_here();
         for (std::int64_t s = 0; s < current_.scales; ++s)
           element.scales.push_back(lines_.number("a scale factor"));
+      } else if (line.starts_with("Values")) {
+        while (lines_.word_here().find(':') == std::string_view::npos)
+          if (lines_.line().find(':') == std::string_view::npos) lines_.refuse("lacks a colon", "Values:");
+        for (int v = 0; v < current_.values; ++v)
+          element.values.push_back(lines_.number("a value of the element"));
       } else if (!line.empty()) {
         lines_.give_back();
         break;
       }
     }
+    if (dimension_ < 3 && name != 0 && current_.in_elements &&
+        !model_.element_headers[current_.header].empty())
+      ++model_.flat_elements[dimension_];
     if (!volume) return;
     if (!current_.in_elements) lines_.refuse("comes before the fields", "#Fields first");
     element.header = current_.header;
@@ -477,7 +442,19 @@ class Reader {
     if (static_cast<int>(element.nodes.size()) != current_.nodes)
       lines_.refuse("ends element " + std::to_string(name) + " without its nodes",
                     std::to_string(current_.nodes) + " nodes");
-    model_.elements.push_back(std::move(element));
+    if (static_cast<int>(element.values.size()) != current_.values)
+      lines_.refuse("ends element " + std::to_string(name) + " without its values",
+                    std::to_string(current_.values) + " values");
+    const auto [there, is_new] = model_.element_of_name.try_emplace(name, model_.elements.size());
+    if (is_new) {
+      model_.elements.push_back(std::move(element));
+      return;
+    }
+    const std::string differs = add_fields(element, model_, model_.elements[there->second]);
+    if (!differs.empty())
+      lines_.refuse("ends element " + std::to_string(name) + " (line " + std::to_string(element.line) +
+                        ") for a second time, with another \"" + differs + "\"",
+                    "the same one, or every element once");
   }
 
   /// Passes over lines of numbers.
@@ -496,7 +473,7 @@ class Reader {
   struct Template {
     std::uint32_t header = 0;
     int nodes = 0;            ///< of an element
-    int values = 0;           ///< of a node
+    int values = 0;           ///< of a node, or of an element's own
     std::int64_t scales = 0;  ///< of an element
     bool in_elements = false;
     int dimension = 3;

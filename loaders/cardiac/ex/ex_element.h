@@ -2,12 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/math/vec.h"
-#include "loaders/cardiac/ex_basis.h"
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_basis.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 
@@ -15,8 +16,8 @@ namespace palpate::ex {
 struct Place {
   Vec3 x{0.0};            ///< Cartesian
   Mat3 tangents{0.0};     ///< columns: dx/dxi_1 to dx/dxi_3
-  Vec3 angles{0.0};       ///< [rad] fibre, imbrication, sheet; zero where the model has none
-  bool has_axes = false;  ///< false where dx/dxi_1 and dx/dxi_2 span no plane: `axes` are undefined
+  Vec3 angles{0.0};       ///< [rad] fibre, imbrication, sheet; NaN in an element without fibres
+  bool has_axes = false;  ///< false where dx/dxi_1 and dx/dxi_2 span no plane, or no angle is known
   Mat3 axes{0.0};         ///< columns: fibre, sheet, sheet normal; orthonormal
 };
 
@@ -24,6 +25,9 @@ struct Place {
 struct ElementFunction {
   std::array<Basis, 3> basis{};
   std::vector<double> parameters;
+  std::optional<std::array<int, 3>> intervals;  ///< of a grid of which `parameters` are the values
+  /// @pre 0 <= xi <= 1.
+  [[nodiscard]] Interpolated at(const Vec3& xi) const;
 };
 
 /// The field that says where an element is: "coordinates", or the first of three components; null: there is
@@ -38,6 +42,8 @@ class ElementValues {
                 const std::string& file);
   /// Appends them. @pre 0 <= xi <= 1.
   void append_at(const Vec3& xi, std::vector<double>& to) const;
+  /// Whether they are the same all over the element.
+  [[nodiscard]] bool constant() const;
 
  private:
   std::vector<ElementFunction> components_;
@@ -57,12 +63,13 @@ class ElementShape {
   /// where that is positive; last the sheet about the fibre by the sheet angle, from across the fibre towards
   /// the normal. (Convention of OpenCMISS-Zinc's fibre axes; LeGrice et al. 1997.)
   [[nodiscard]] Place at(const Vec3& xi) const;
+  [[nodiscard]] bool has_fibres() const noexcept { return !angles_.empty(); }
 
  private:
   System system_ = System::kCartesian;
   double focus_ = 1.0;
   std::array<ElementFunction, 3> coordinates_;
-  std::vector<ElementFunction> angles_;  ///< up to three
+  std::vector<ElementFunction> angles_;  ///< up to three; none where there are no fibres
 };
 
 }  // namespace palpate::ex

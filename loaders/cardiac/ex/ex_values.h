@@ -1,9 +1,9 @@
-/// Values of nodes in EX files, and nodes that are listed more than once.
+/// Values of nodes in EX files, and nodes and elements that are listed more than once.
 #pragma once
 
 #include <string>
 
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_model.h"
 #include "loaders/cardiac/text_lines.h"
 
 namespace palpate::ex {
@@ -16,5 +16,7 @@ namespace palpate::ex {
 /// Adds the fields that a node has where it is listed again.
 /// @return the name of a field that both have with other values; empty: there is none.
 [[nodiscard]] std::string add_fields(const Node& again, Model& model, Node& there);
+/// The same for an element: a field that both have is the same where its parameters are those of the same nodes.
+[[nodiscard]] std::string add_fields(const Element& again, Model& model, Element& there);
 
 }  // namespace palpate::ex

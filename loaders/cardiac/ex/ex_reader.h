@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 

@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_basis.h"
+#include "loaders/cardiac/ex/ex_basis.h"
 
 #include "common/base/index.h"
 
@@ -11,6 +11,8 @@ int node_count(Basis basis) noexcept {
       return 3;
     case Basis::kCubic:
       return 4;
+    case Basis::kConstant:
+      return 1;
     case Basis::kLinear:
     case Basis::kHermite:
     case Basis::kLinearSimplex:

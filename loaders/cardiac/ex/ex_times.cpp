@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_times.h"
+#include "loaders/cardiac/ex/ex_times.h"
 
 #include <algorithm>
 #include <cctype>
@@ -14,7 +14,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
-#include "loaders/cardiac/ex_reader.h"
+#include "loaders/cardiac/ex/ex_reader.h"
 #include "loaders/cardiac/mesh_text.h"
 
 namespace palpate::ex {

@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_places.h"
+#include "loaders/cardiac/ex/ex_places.h"
 
 #include <algorithm>
 #include <map>

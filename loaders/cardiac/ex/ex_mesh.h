@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 

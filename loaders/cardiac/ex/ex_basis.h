@@ -5,7 +5,7 @@
 #include <array>
 
 #include "common/math/vec.h"
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 

@@ -16,7 +16,15 @@
 namespace palpate::ex {
 
 /// Along one axis of an element. Axes of a simplex are linked: their coordinates add up to at most one.
-enum class Basis : std::uint8_t { kLinear, kQuadratic, kCubic, kHermite, kLinearSimplex, kQuadraticSimplex };
+enum class Basis : std::uint8_t {
+  kLinear,
+  kQuadratic,
+  kCubic,
+  kHermite,
+  kLinearSimplex,
+  kQuadraticSimplex,
+  kConstant
+};
 [[nodiscard]] constexpr bool is_simplex(Basis basis) noexcept {
   return basis == Basis::kLinearSimplex || basis == Basis::kQuadraticSimplex;
 }
@@ -71,6 +79,16 @@ struct Parameter {
   int value = 0;                    ///< of the component at that node, from 0; where there is no label
   std::optional<ValueLabel> label;  ///< from version 2 of the format on
   int scale = -1;                   ///< of the element's scale factors, from 0; -1 for a factor of one
+  bool operator==(const Parameter&) const = default;
+};
+
+/// Values of a component at equidistant places of the element, the first axis fastest: linear between them.
+struct ElementGrid {
+  std::array<int, 3> intervals{};  ///< along each axis; 0 where it is constant
+  std::size_t first = 0;           ///< its first value among those of the element
+  [[nodiscard]] std::size_t count() const noexcept {
+    return as_size(intervals[0] + 1) * as_size(intervals[1] + 1) * as_size(intervals[2] + 1);
+  }
 };
 
 struct ElementComponent {
@@ -78,6 +96,7 @@ struct ElementComponent {
   std::array<Basis, 3> basis{};
   Winding winding = Winding::kNone;   ///< along the first axis
   std::vector<Parameter> parameters;  ///< corner after corner, first axis fastest
+  std::optional<ElementGrid> grid;    ///< in place of parameters
   /// Parameters of each corner.
   [[nodiscard]] std::size_t of_corner() const noexcept {
     std::size_t each = 1;
@@ -100,17 +119,21 @@ struct Element {
   Linked linked{};           ///< its shape
   std::vector<std::int64_t> nodes;
   std::vector<double> scales;
+  std::vector<double> values;  ///< of its own, at the places of grids
 };
 
 struct Model {
   std::vector<std::vector<NodeField>> node_headers;
   std::map<std::int64_t, Node> nodes;
   std::vector<std::vector<ElementField>> element_headers;
-  std::vector<Element> elements;   ///< of three dimensions
-  std::set<std::string> left_out;  ///< fields whose values are no numbers, with their type
-  std::size_t data_points = 0;     ///< passed over
+  std::vector<Element> elements;  ///< of three dimensions
+  std::map<std::int64_t, std::size_t> element_of_name;
+  std::map<int, std::size_t> flat_elements;  ///< with fields of their own, passed over, by their dimension
+  std::set<std::string> left_out;            ///< fields whose values are no numbers, with their type
+  std::size_t data_points = 0;               ///< passed over
   /// Of nodes that have the fields of two headers: the header of both.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> joined_headers;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> joined_element_headers;  ///< likewise
 };
 
 }  // namespace palpate::ex

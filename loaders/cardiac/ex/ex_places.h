@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/math/vec.h"
-#include "loaders/cardiac/ex_model.h"
+#include "loaders/cardiac/ex/ex_model.h"
 
 namespace palpate::ex {
 

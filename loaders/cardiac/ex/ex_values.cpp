@@ -1,4 +1,4 @@
-#include "loaders/cardiac/ex_values.h"
+#include "loaders/cardiac/ex/ex_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +51,42 @@ std::span<const double> values_of(const Node& node, const NodeField& field) {
   return std::span(node.values).subspan(as_size(field.components.front().first), count);
 }
 
+/// Whether a component means the same in both lists of an element's nodes, factors and values.
+bool same_component(const ElementComponent& a, const Element& in_a, const ElementComponent& b,
+                    const Element& in_b) {
+  if (a.name != b.name || a.basis != b.basis || a.winding != b.winding ||
+      a.grid.has_value() != b.grid.has_value())
+    return false;
+  if (a.grid) {
+    const auto values = [](const ElementGrid& grid, const Element& element) {
+      return std::span(element.values).subspan(grid.first, grid.count());
+    };
+    return a.grid->intervals == b.grid->intervals &&
+           std::ranges::equal(values(*a.grid, in_a), values(*b.grid, in_b));
+  }
+  const auto node = [](const Parameter& p, const Element& element) {
+    return p.node >= 0 && p.node < static_cast<int>(element.nodes.size()) ? element.nodes[as_size(p.node)]
+                                                                          : -1;
+  };
+  const auto factor = [](const Parameter& p, const Element& element) {
+    return p.scale >= 0 && p.scale < static_cast<int>(element.scales.size())
+               ? element.scales[as_size(p.scale)]
+               : 1.0;
+  };
+  return std::ranges::equal(a.parameters, b.parameters, [&](const Parameter& p, const Parameter& q) {
+    return node(p, in_a) == node(q, in_b) && p.value == q.value && p.label == q.label &&
+           factor(p, in_a) == factor(q, in_b);
+  });
+}
+
+bool same_field(const ElementField& a, const Element& in_a, const ElementField& b, const Element& in_b) {
+  return a.system == b.system && a.focus == b.focus &&
+         std::ranges::equal(a.components, b.components,
+                            [&](const ElementComponent& p, const ElementComponent& q) {
+                              return same_component(p, in_a, q, in_b);
+                            });
+}
+
 }  // namespace
 
 double node_value(TextLines& lines, const NodeField& field) {
@@ -85,6 +121,37 @@ std::string add_fields(const Node& again, Model& model, Node& there) {
       {there.header, again.header}, static_cast<std::uint32_t>(model.node_headers.size()));
   if (is_new) model.node_headers.push_back(std::move(header));
   there.header = joined->second;
+  return {};
+}
+
+std::string add_fields(const Element& again, Model& model, Element& there) {
+  std::vector<ElementField> header = model.element_headers[there.header];
+  const std::size_t before = header.size();
+  for (const ElementField& field : model.element_headers[again.header]) {
+    const auto known = std::find_if(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(before),
+                                    [&](const ElementField& one) { return one.name == field.name; });
+    if (known != header.begin() + static_cast<std::ptrdiff_t>(before)) {
+      if (!same_field(*known, there, field, again)) return field.name;
+      continue;
+    }
+    ElementField added = field;
+    for (ElementComponent& component : added.components) {
+      if (component.grid) component.grid->first += there.values.size();
+      for (Parameter& parameter : component.parameters) {
+        if (parameter.node >= 0) parameter.node += static_cast<int>(there.nodes.size());
+        if (parameter.scale >= 0) parameter.scale += static_cast<int>(there.scales.size());
+      }
+    }
+    header.push_back(std::move(added));
+  }
+  if (header.size() == before) return {};
+  const auto [joined, is_new] = model.joined_element_headers.try_emplace(
+      {there.header, again.header}, static_cast<std::uint32_t>(model.element_headers.size()));
+  if (is_new) model.element_headers.push_back(std::move(header));
+  there.header = joined->second;
+  there.nodes.insert(there.nodes.end(), again.nodes.begin(), again.nodes.end());
+  there.scales.insert(there.scales.end(), again.scales.begin(), again.scales.end());
+  there.values.insert(there.values.end(), again.values.begin(), again.values.end());
   return {};
 }
 
