@@ -420,37 +420,6 @@ std::string ghost_cells_note(std::size_t count) {
   return counted(count, "cell") + " left out: marked as hidden, or as another piece's too (vtkGhostType)";
 }
 
-std::vector<VtkBlock> usable_blocks(const std::vector<VtkBlock>& leaves, const std::string& kind,
-                                    const std::string& file, std::vector<std::string>* notes) {
-  std::vector<VtkBlock> volumes;
-  std::vector<VtkBlock> flats;
-  std::vector<std::string> left_out;
-  std::vector<std::string> flat_left_out;
-  std::string why = "holds no data";
-  for (const VtkBlock& block : leaves) {
-    if (const std::string reason = why_not_readable(block.data); !reason.empty()) {
-      why = kind;
-      why.append(" '").append(block.name).append("' ").append(reason);
-      left_out.push_back(why + "; left out");
-    } else if (const std::string flat = why_not_volume(block.data); !flat.empty()) {
-      flats.push_back(block);
-      std::string& line = flat_left_out.emplace_back(kind);
-      line.append(" '").append(block.name).append("' ").append(flat).append("; left out");
-    } else {
-      volumes.push_back(block);
-    }
-  }
-  if (volumes.empty() && flats.empty()) throw input_error({file, "", why, "a " + kind + " of volume cells"});
-  if (notes != nullptr) {
-    std::size_t ghosts = 0;
-    for (const VtkBlock& block : volumes) ghosts += ghost_cell_count(block.data);
-    if (ghosts > 0) notes->push_back(ghost_cells_note(ghosts));
-    notes->insert(notes->end(), left_out.begin(), left_out.end());
-    if (!volumes.empty()) notes->insert(notes->end(), flat_left_out.begin(), flat_left_out.end());
-  }
-  return volumes.empty() ? flats : volumes;
-}
-
 std::optional<Vec3> long_axis_of(vtkDataSet* data) {
   vtkDataArray* const array = data->GetFieldData()->GetArray(kLongAxisArray);
   if (array == nullptr || array->GetNumberOfValues() != 3) return std::nullopt;

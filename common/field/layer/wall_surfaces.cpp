@@ -14,6 +14,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/cavity_shape.h"
 #include "common/field/layer/part_rims.h"
 #include "common/field/layer/septum_side.h"
 #include "common/field/layer/surface_areas.h"
@@ -323,51 +324,23 @@ class BorderReading {
       for (const std::size_t p : cavities_[c]) part_roles_[p] = BorderRole::kRight;
   }
 
-  /// How thick the wall is between a cavity and the outer surface, in the mean.
-  [[nodiscard]] double wall_before(const Cavity& cavity) const {
-    const WallCrossing crossing(mesh_, border_);
-    double sum = 0.0, all = 0.0;
-    for (const std::size_t p : cavity) {
-      for (const std::uint32_t t : parts_[p].triangles) {
-        const std::size_t met = crossing.from(t);
-        if (met >= part_of_.size() || part_roles_[part_of_[met]] != BorderRole::kOuter) continue;
-        const double area = glm::length(border_.areas[t]);
-        sum += area * glm::distance(triangle_middle(mesh_.points(), border_.triangles[t]),
-                                    triangle_middle(mesh_.points(), border_.triangles[met]));
-        all += area;
-      }
-    }
-    return all > 0.0 ? sum / all : 0.0;
+  /// Which triangles are of parts of which `is` holds.
+  template <typename Is>
+  [[nodiscard]] std::vector<bool> triangles_of(const Is& is) const {
+    std::vector<bool> in(part_of_.size());
+    for (std::size_t t = 0; t < in.size(); ++t) in[t] = is(part_of_[t]);
+    return in;
   }
-
-  /// 36 pi V^2 / A^3 of a cavity closed at the middle of its rim: 1 for a sphere.
+  [[nodiscard]] std::vector<bool> triangles_of(const Cavity& cavity) const {
+    return triangles_of([&](std::size_t p) { return std::ranges::find(cavity, p) != cavity.end(); });
+  }
+  [[nodiscard]] double wall_before(const Cavity& cavity) const {
+    return palpate::wall_before(mesh_, border_, triangles_of(cavity), triangles_of([this](std::size_t p) {
+                                  return part_roles_[p] == BorderRole::kOuter;
+                                }));
+  }
   [[nodiscard]] double roundness(const Cavity& cavity) const {
-    std::vector<bool> in(parts_.size());
-    for (const std::size_t p : cavity) in[p] = true;
-    Vec3 middle{0.0}, area{0.0};
-    double count = 0.0, total = 0.0, volume = 0.0;
-    for (const auto& [a, b] : border_.joints) {
-      if (in[part_of_[a]] == in[part_of_[b]]) continue;
-      for (const std::uint32_t corner : border_.triangles[a]) {
-        const auto& other = border_.triangles[b];
-        if (std::find(other.begin(), other.end(), corner) == other.end()) continue;
-        middle += mesh_.points()[corner];
-        count += 1.0;
-      }
-    }
-    if (count == 0.0) middle = parts_[cavity.front()].bounds.center();
-    if (count > 0.0) middle /= count;
-    for (const std::size_t p : cavity) {
-      total += parts_[p].area;
-      area += parts_[p].normal * parts_[p].area;
-      for (const std::uint32_t t : parts_[p].triangles) {
-        Vec3 center{0.0};
-        for (const std::uint32_t corner : border_.triangles[t]) center += mesh_.points()[corner] / 3.0;
-        volume -= glm::dot(center - middle, border_.areas[t]) / 3.0;
-      }
-    }
-    total += glm::length(area);  // the plane over the rim
-    return volume > 0.0 ? 36.0 * std::numbers::pi * volume * volume / (total * total * total) : 0.0;
+    return palpate::roundness(mesh_, border_, triangles_of(cavity));
   }
 
   /// Whether a part of a cavity is one of several.
