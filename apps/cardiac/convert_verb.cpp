@@ -184,12 +184,6 @@ std::vector<bool> changing(const Task& task, const WrittenCells& cells, const Da
   return changes;
 }
 
-/// Whether a name says that an array holds fibres: others may be taken for them, and are results, too.
-bool means_fibres(const std::string& name) {
-  const std::string low = lowered(name);
-  return low.find("fib") != std::string::npos || low == "f" || low == "f0";
-}
-
 /// @pre task.heart. @return what is to be said.
 std::string write_directions(const Task& task, const DataSet& first, const WrittenCells& cells,
                              CarpOutput& out) {
@@ -214,7 +208,7 @@ std::vector<std::filesystem::path> write_carp(Task task, const Document& options
     context.console.note(
         "there are no fibres, and no .lon is written: openCARP takes one; 'cardiac fibers --rule bayer' "
         "makes fibres");
-  if (task.heart && !means_fibres(task.heart->fibre.array)) {
+  if (task.heart && !means_fibre(task.heart->fibre.array)) {
     const std::string& array = task.heart->fibre.array;
     context.console.note("directions of .lon are those of the array " + array +
                          ": --field names another one");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <map>
 #include <span>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
@@ -69,15 +71,28 @@ std::map<std::string, std::string> words_of(const std::string& header) {
   return words;
 }
 
+/// A header is text of as many times 1024 bytes as it takes to its form feed; of 1024 where none ends it so.
+std::size_t header_bytes(std::string_view start) {
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const auto c = static_cast<unsigned char>(start[i]);
+    if (c == '\f' && (i + 1) % kHeaderBytes == 0) return i + 1;
+    if (std::isprint(c) == 0 && std::isspace(c) == 0) break;
+  }
+  return kHeaderBytes;
+}
+
 }  // namespace
 
 IgbFile::IgbFile(std::string file, std::size_t points, std::size_t cells) : file_(std::move(file)) {
   const auto refuse = [this](const std::string& found, const std::string& expected = "") {
     throw input_error({file_, "header", found, expected});
   };
-  std::string header(kHeaderBytes, '\0');
-  if (PackedFile(file_).read(header.data(), header.size()) < header.size())
-    refuse("is shorter than 1024 bytes", "an openCARP .igb file");
+  constexpr std::size_t kLongestHeader = 64 * kHeaderBytes;
+  std::string header(kLongestHeader, '\0');
+  header.resize(PackedFile(file_).read(header.data(), header.size()));
+  if (header.size() < kHeaderBytes) refuse("is shorter than 1024 bytes", "an openCARP .igb file");
+  header_ = header_bytes(header);
+  header.resize(header_);
   const auto words = words_of(header);
   const auto value = [&](const char* key, double otherwise) {
     const auto word = words.find(key);
@@ -143,7 +158,7 @@ IgbFile::IgbFile(std::string file, std::size_t points, std::size_t cells) : file
 
 std::uint64_t IgbFile::whole_steps(std::uint64_t promised, std::uint64_t step_bytes) {
   const std::uint64_t bytes = unpacked_bytes(file_);
-  const std::uint64_t body = bytes > kHeaderBytes ? bytes - kHeaderBytes : 0;
+  const std::uint64_t body = bytes > header_ ? bytes - header_ : 0;
   const std::uint64_t whole = step_bytes == 0 ? 0 : body / step_bytes;
   const std::uint64_t rest = step_bytes == 0 ? 0 : body % step_bytes;
   if (whole == 0)
@@ -173,7 +188,7 @@ DataArray IgbFile::read(std::size_t step) const {
   PackedFile in(file_);
   // A file that is not packed is known as such once a byte was read, and then gone through without reading.
   std::byte first{};
-  if (in.read(&first, 1) != 1 || !in.go_to(kHeaderBytes + step * bytes.size()) ||
+  if (in.read(&first, 1) != 1 || !in.go_to(header_ + step * bytes.size()) ||
       in.read(bytes.data(), bytes.size()) != bytes.size())
     throw input_error({file_, "time step " + std::to_string(step + 1), "cannot be read"});
   if (swapped_)

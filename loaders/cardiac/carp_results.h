@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-/// A .igb file, packed with gzip or not, whatever its name says: a header of 1024 bytes of text ("x:2502 t:101 type:float
+/// A .igb file, packed with gzip or not, whatever its name says: a header of 1024 bytes of text, or of several times as many up to a form feed ("x:2502 t:101 type:float
 /// systeme:little_endian …"), then the numbers of all points or of all cells, one time step after the other.
 /// Only the header is read at once. Types as openCARP's IGB library has them: long has 8 bytes, vec3f 3
 /// numbers a point, vec4f 4, complex 2, rgba 4. Of a run that was cut off the whole steps are there, and
@@ -46,7 +46,8 @@ class IgbFile {
   std::vector<std::string> notes_;
   std::string time_unit_, unit_;
   ScalarType stored_ = ScalarType::kFloat32;
-  bool swapped_ = false;  ///< bytes of the other order
+  bool swapped_ = false;    ///< bytes of the other order
+  std::size_t header_ = 0;  ///< [bytes]
   double factor_ = 1.0, zero_ = 0.0;
 };
 

@@ -53,10 +53,6 @@ bool means(const std::string& name, std::string_view word) {
   return lowered(name).find(word) != std::string::npos;
 }
 
-bool means_fibre(const std::string& name) {
-  return means(name, "fibre") || means(name, "fiber") || lowered(name) == "f0" || lowered(name) == "f";
-}
-
 bool means_other(const std::string& name) {
   return means(name, "sheet") || means(name, "normal") || lowered(name) == "s0" || lowered(name) == "n0";
 }
@@ -110,6 +106,11 @@ void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mes
 
 }  // namespace
 
+bool means_fibre(const std::string& name) {
+  const std::string low = lowered(name);
+  return means(name, "fibre") || means(name, "fiber") || low == "f" || low == "f0" || low.ends_with("_f0");
+}
+
 std::size_t join_same_points(DataSet& mesh) {
   auto* cells = std::get_if<UnstructuredTopology>(&mesh.topology);
   if (cells == nullptr || cells->positions.components != 3) return 0;
@@ -158,7 +159,8 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
         {file, "", "has no fibres", "an array of three numbers a point or cell",
          "fibres come with EX and openCARP models, .ortho, .axi and .bases files, or as an array 'fibre'"});
   }
-  HeartChoice choice{.fibre = choices.front()};
+  HeartChoice choice{.fibre = choices.front(),
+                     .guessed = fibre.empty() && !means_fibre(choices.front().array)};
   if (!fibre.empty()) {
     const auto named = std::find_if(choices.begin(), choices.end(),
                                     [&](const DirectionChoice& each) { return each.array == fibre; });
@@ -184,7 +186,9 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
                  LayersNeeded layers, CachedLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
-  const std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
+  const std::string tiny = drop_tiny_directions(mesh, choice.fibre);
+  std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
+  if (!tiny.empty()) tissue.push_back(tiny);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
@@ -203,6 +207,10 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   Heart heart;
   heart.fibres = directions(choice.fibre);
   heart.notes = tissue;
+  if (choice.guessed)
+    heart.notes.push_back(
+        "WARNING: no array is called fibre: '" + choice.fibre.array +
+        "' is taken for the fibres as it has three numbers a place; --field names another one");
   const std::vector<std::string>& of_fibres = heart.fibres->notes().lines;
   heart.notes.insert(heart.notes.end(), of_fibres.begin(), of_fibres.end());
   if (const std::size_t folded = folded_faces(*grid->tets); folded > 0)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <variant>
 
 #include "common/base/index.h"
@@ -65,6 +66,36 @@ std::string region_array(const std::vector<ArrayInfo>& arrays) {
     if (array.association == Association::kCell && array.components == 1 && numbers_regions(array.name))
       return array.name;
   return {};
+}
+
+std::string drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice) {
+  constexpr double kTiny = 1e-6;  // of the median
+  const DataArray* const fibre = mesh.find(choice.array, choice.association);
+  if (fibre == nullptr || fibre->components != 3) return {};
+  std::vector<double> values(3 * fibre->tuples), lengths;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = fibre->at(i / 3, static_cast<int>(i % 3));
+  const auto length = [&values](std::size_t i) {
+    return std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  };
+  for (std::size_t i = 0; i < fibre->tuples; ++i)
+    if (const double each = length(i); each > 0.0 && std::isfinite(each)) lengths.push_back(each);
+  if (lengths.empty()) return {};
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  const double least = kTiny * *middle;
+  std::size_t tiny = 0;
+  for (std::size_t i = 0; i < fibre->tuples; ++i) {
+    if (!(length(i) > 0.0) || !(length(i) < least)) continue;
+    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.0);
+    ++tiny;
+  }
+  if (tiny == 0) return {};
+  const std::string name = fibre->name;
+  const auto at = std::find_if(mesh.arrays.begin(), mesh.arrays.end(),
+                               [fibre](const DataArray& array) { return &array == fibre; });
+  *at = make_array(name, choice.association, 3, std::span<const double>(values));
+  return counted(tiny, "direction") + " of '" + name +
+         "' a million times shorter than the others: taken for none";
 }
 
 std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoice& choice) {
