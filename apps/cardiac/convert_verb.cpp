@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "common/field/heart/tissue.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
+#include "common/load/write/write_tetgen.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/time_steps.h"
 
@@ -184,23 +187,34 @@ std::vector<bool> changing(const Task& task, const WrittenCells& cells, const Da
   return changes;
 }
 
-/// @pre task.heart. @return what is to be said.
-std::string write_directions(const Task& task, const DataSet& first, const WrittenCells& cells,
-                             CarpOutput& out) {
-  const std::vector<Vec3> fibres =
-      cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
-  std::vector<Vec3> sheets;
-  if (!task.heart->sheet.array.empty())
-    sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
-  out.write_directions(fibres, sheets);
-  const auto without = as_size(std::count_if(fibres.begin(), fibres.end(), [](const Vec3& fibre) {
-    return !(glm::length(fibre) > 0.0) || !is_finite(fibre);
-  }));
-  return without == 0 ? std::string() : counted(without, "element") + " without a fibre: zeros in .lon";
+/// Of each written element; both empty: the input has none.
+struct ElementDirections {
+  std::vector<Vec3> fibres, sheets;
+  std::string note;  ///< elements without any
+
+  /// @param ending of the file that they are written to.
+  ElementDirections(const Task& task, const DataSet& first, const WrittenCells& cells,
+                    const std::string& ending) {
+    if (!task.heart) return;
+    fibres = cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
+    if (!task.heart->sheet.array.empty())
+      sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
+    const auto without = as_size(std::count_if(fibres.begin(), fibres.end(), [](const Vec3& fibre) {
+      return !(glm::length(fibre) > 0.0) || !is_finite(fibre);
+    }));
+    if (without > 0) note = counted(without, "element") + " without a fibre: zeros in " + ending;
+  }
+};
+
+/// The regions of written elements, and what became of them.
+CarpRegions regions_of(const Task& task, const DataSet& first, const WrittenCells& cells) {
+  const DataArray* const region = first.find(task.regions, Association::kCell);
+  return region == nullptr ? CarpRegions{} : carp_regions(cells.values(*region), task.regions);
 }
 
-std::vector<std::filesystem::path> write_carp(Task task, const Document& options,
+std::vector<std::filesystem::path> write_carp(const Task& given, const Document& options,
                                               const VerbContext& context) {
+  Task task = given;
   const IgbTimes times = igb_times(task.times, task.input.title());
   keep_carp_inputs(options.input.files);
   CarpOutput out(options.output.file, options.common.force, task.heart.has_value());
@@ -228,14 +242,12 @@ std::vector<std::filesystem::path> write_carp(Task task, const Document& options
   const DataSet first = task.read(0, task.names());
   const WrittenCells cells(first, task.input.title(), true);
   if (!cells.note().empty()) context.console.note(cells.note());
-  CarpRegions regions;
-  if (const DataArray* region = first.find(task.regions, Association::kCell))
-    regions = carp_regions(cells.values(*region), task.regions);
+  const CarpRegions regions = regions_of(task, first, cells);
   if (!regions.note.empty()) context.console.note(regions.note);
   out.write_mesh(cells.topology(), kMicrometres, regions.numbers);
-  if (task.heart)
-    if (const std::string note = write_directions(task, first, cells, out); !note.empty())
-      context.console.note(note);
+  const ElementDirections directions(task, first, cells, ".lon");
+  if (task.heart) out.write_directions(directions.fibres, directions.sheets);
+  if (!directions.note.empty()) context.console.note(directions.note);
   const std::vector<bool> changes = changing(task, cells, first, context.progress);
   std::vector<std::pair<std::size_t, std::size_t>> series;  // of a result, of the output
   for (std::size_t r = 0; r < task.results.size(); ++r) {
@@ -300,14 +312,46 @@ std::vector<std::filesystem::path> write_pvd(const Task& task, const Document& o
   return files;
 }
 
+std::vector<std::filesystem::path> write_chaste(const Task& task, const Document& options,
+                                                const VerbContext& context) {
+  const DataSet first = task.read(0, task.names());
+  const WrittenCells cells(first, task.input.title(), false);
+  if (!cells.note().empty()) context.console.note(cells.note());
+  std::string left_out;
+  for (const ArrayInfo& result : task.results)
+    if (result.name != "normal" || !task.heart) left_out += (left_out.empty() ? "" : ", ") + result.name;
+  if (!left_out.empty())
+    context.console.note("left out, as .node and .ele hold no results: " + left_out +
+                         "; .pts and .pvd hold them");
+  if (task.times.size() > 1)
+    context.console.note("of " + counted(task.times.size(), "time step") +
+                         " the fibres of the first are written");
+  const CarpRegions regions = regions_of(task, first, cells);
+  if (!regions.note.empty()) context.console.note(regions.note);
+  const ElementDirections directions(task, first, cells, ".ortho or .axi");
+  if (!directions.note.empty()) context.console.note(directions.note);
+  return write_tetgen(options.output.file, cells.split().points, cells.split().tets,
+                      {.regions = regions.numbers, .fibres = directions.fibres, .sheets = directions.sheets},
+                      options.common.force);
+}
+
+struct Writer {
+  std::string_view ending;
+  std::vector<std::filesystem::path> (*write)(const Task& task, const Document& options,
+                                              const VerbContext& context);
+};
+constexpr std::array<Writer, 3> kWriters{{{".pts", write_carp}, {".pvd", write_pvd}, {".ele", write_chaste}}};
+
 ExitCode run_convert(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const std::string ending = options.output.file.extension().string();
-  if (ending != ".pts" && ending != ".pvd")
-    throw usage_error(options.output.file.empty()
-                          ? "convert needs an output: try --out heart.pts or --out heart.pvd"
-                          : options.output.file.string() +
-                                ": a heart is written as .pts (openCARP) or .pvd (VTK)");
+  const auto* const writer = std::ranges::find(kWriters, ending, &Writer::ending);
+  if (writer == kWriters.end())
+    throw usage_error(
+        options.output.file.empty()
+            ? "convert needs an output: try --out heart.pts or --out heart.pvd"
+            : options.output.file.string() +
+                  ": a heart is written as .pts (openCARP), .ele (Chaste, TetGen) or .pvd (VTK)");
   Input input = open_input(options, context);
   if (!input.not_volume().empty())
     throw input_error({input.title(), "", input.not_volume(), "a mesh of the wall"});
@@ -315,8 +359,7 @@ ExitCode run_convert(const Document& options, const VerbContext& context) {
   const Task task = task_of(input);
   context.progress.begin("writing " + options.output.file.string(), 0);
   ConvertSummary summary{.input = input.title(), .times = task.times.size()};
-  for (const auto& file :
-       ending == ".pts" ? write_carp(task, options, context) : write_pvd(task, options, context)) {
+  for (const auto& file : writer->write(task, options, context)) {
     summary.files.push_back(file.string());
     context.interrupt.keep(file);
   }
@@ -336,14 +379,16 @@ ExitCode run_convert(const Document& options, const VerbContext& context) {
 }  // namespace
 
 Verb convert_verb(std::vector<UsageExample> examples) {
-  return {.name = "convert",
-          .summary = "write mesh, fibres and results for openCARP or as a time series of VTK",
-          .details =
-              "NAME.pts keeps the elements of the file; results become NAME.RESULT.igb and NAME.RESULT.dat. "
-              "NAME.pvd has tetrahedra. All times are written, or the one of --time.",
-          .groups = {Group::kInput, Group::kOut},
-          .examples = std::move(examples),
-          .run = run_convert};
+  return {
+      .name = "convert",
+      .summary = "write mesh, fibres and results for openCARP, Chaste or as a time series of VTK",
+      .details =
+          "NAME.pts keeps the elements of the file; results become NAME.RESULT.igb and NAME.RESULT.dat. "
+          "NAME.pvd has tetrahedra, and so has NAME.ele, beside which NAME.node and, for Chaste, NAME.ortho or "
+          "NAME.axi lie, without results. All times are written, or the one of --time.",
+      .groups = {Group::kInput, Group::kOut},
+      .examples = std::move(examples),
+      .run = run_convert};
 }
 
 }  // namespace palpate

@@ -60,10 +60,11 @@ int main(int argc, char** argv) {
               series_verb({{"cardiac series mesh.pts vm.igb --value vm --at 1.5,0,4 --out vm.csv",
                             "a potential over time at a place; --at again for another one"},
                            {"cardiac series heart.pvd --at 0,0,10 --json", "the likeliest scalar, as JSON"}}),
-              convert_verb(
-                  {{"cardiac convert --example wave --out wave.pts",
-                    "for openCARP: mesh, fibres, wave.potential.igb, wave.activation.dat"},
-                   {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"}}),
+              convert_verb({{"cardiac convert --example wave --out wave.pts",
+                             "for openCARP: mesh, fibres, wave.potential.igb, wave.activation.dat"},
+                            {"cardiac convert mesh.pts vm.igb --out heart.pvd", "a time series for ParaView"},
+                            {"cardiac convert mesh.pts --out heart.ele",
+                             "heart.node, heart.ele and fibres for Chaste"}}),
               fibers_verb(
                   {{"cardiac fibers mesh.pts --rule bayer --endo 60 --epi -60 --out with_fibres.pts",
                     "for openCARP: mesh.pts needs no .lon"},

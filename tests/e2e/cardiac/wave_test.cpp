@@ -2,6 +2,8 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <tuple>
 #include <utility>
 
 #include "tests/e2e/explorer_test.h"
@@ -113,6 +115,41 @@ TEST_F(CardiacWave, FibresAndRegionsOfCellsAreWrittenForVtkToo) {
   for (const char* line : {"fibre (cells, 3 x float64): 0 … 1, 0 … 0.6, 0 … 0.8",
                            "region (cells, 1 x float64): 7 … 9", "field      fibre"})
     EXPECT_NE(info.out.find(line), std::string::npos) << line << "\n" << info.out;
+}
+
+// Through all formats and back: places, regions and directions stay.
+TEST_F(CardiacWave, AHeartIsTheSameInChastesFiles) {
+  folder_.write("m.pts", "5\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n1000 1000 1000\n");
+  folder_.write("m.elem", "2\nTt 0 1 2 3 7\nTt 1 2 3 4 9\n");
+  for (const auto& [lon, directions, sheets] :
+       {std::tuple{"1\n1 0 0\n0 3 4\n", "axi", false}, {"2\n1 0 0 1 1 0\n0 0 0 0 0 0\n", "ortho", true}}) {
+    folder_.write("m.lon", lon);
+    const std::string name = std::string(directions) + "_heart";
+    const ProgramResult result = run({"convert", "m.pts", "--out", name + ".ele"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(read_file(folder_.path(name + ".node")),
+              "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n");
+    EXPECT_NE(read_file(folder_.path(name + ".ele")).find(" 9\n"), std::string::npos);
+    EXPECT_EQ(read_file(folder_.path(name + "." + directions)),
+              sheets ? "2\n1 0 0 0 1 0 0 0 1\n0 0 0 0 0 0 0 0 0\n" : "2\n1 0 0\n0 0.6 0.8\n");
+    EXPECT_EQ(result.err.find("1 element without a fibre: zeros in .ortho") != std::string::npos, sheets);
+    (void)json({"convert", name + ".ele", "--out", name + "_back.pts"});
+    for (const char* ending : {".elem", ".lon"}) {
+      const std::string back = read_file(folder_.path(name + "_back" + ending));
+      EXPECT_EQ(back, sheets && ending == std::string(".lon") ? "2\n1 0 0 0 1 0\n0 0 0 0 0 0\n"
+                      : ending == std::string(".lon")         ? "1\n1 0 0\n0 0.6 0.8\n"
+                                                              : read_file(folder_.path("m.elem")));
+    }
+  }
+  // Results have no place there, and directions of another mesh would be taken for its own.
+  const ProgramResult wave = run({"convert", "--example", "wave", "--out", "wave.ele"});
+  EXPECT_EQ(wave.exit_code, 0) << wave.err;
+  EXPECT_NE(wave.err.find("hold no results: "), std::string::npos) << wave.err;
+  EXPECT_NE(wave.err.find("potential"), std::string::npos) << wave.err;
+  EXPECT_NE(wave.err.find("of 81 time steps the fibres of the first are written"), std::string::npos)
+      << wave.err;
+  folder_.write("m.lon", "1\n1 0 0\n0 3 4\n");
+  EXPECT_EQ(run({"convert", "m.pts", "--out", "ortho_heart.ele", "--force"}).exit_code, 2);
 }
 
 /// A .igb file of three steps: numbers that count from `first` on.
