@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -152,11 +153,15 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
   return topology;
 }
 
+/// Whole numbers in the first attribute of elements are the regions: TetGen's, and Chaste's of tissue and bath.
 void add_attributes(const std::vector<std::vector<double>>& attributes, Association association,
                     DataSet& mesh) {
-  for (std::size_t a = 0; a < attributes.size(); ++a)
-    mesh.arrays.push_back(make_array("attribute " + std::to_string(a + 1), association, 1,
+  for (std::size_t a = 0; a < attributes.size(); ++a) {
+    const bool region = a == 0 && association == Association::kCell &&
+                        std::ranges::all_of(attributes[a], [](double v) { return v == std::floor(v); });
+    mesh.arrays.push_back(make_array(region ? "region" : "attribute " + std::to_string(a + 1), association, 1,
                                      std::span<const double>(attributes[a])));
+  }
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct TetgenFiles {
 [[nodiscard]] TetgenFiles find_tetgen_files(const std::vector<std::string>& named);
 
 /// Tetrahedra of 4 or 10 nodes, numbered from 0 or 1 as the first node is. Node attributes become point
-/// arrays "attribute 1" …, element attributes cell arrays of that name; directions cell arrays "fibre",
+/// arrays "attribute 1" …, element attributes cell arrays of that name, but for whole numbers in the first: "region"; directions cell arrays "fibre",
 /// "sheet", "normal", or point arrays of these names. Which edge a fifth to tenth node halves is taken from where it lies.
 /// Marked triangles become the point array "surface" (marked_faces.h).
 /// @param surface_markers LoadRequest::surface_markers. @param notes gets what is to be said.

@@ -11,7 +11,7 @@
 #include "common/base/error.h"
 #include "loaders/cardiac/ex/ex_element.h"
 #include "loaders/cardiac/ex/ex_mesh.h"
-#include "tests/loaders/cardiac/ex/ex_box.h"
+#include "tests/loaders/cardiac/ex_box.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::ex {

@@ -11,7 +11,7 @@
 #include "loaders/cardiac/ex/ex_element.h"
 #include "loaders/cardiac/ex/ex_mesh.h"
 #include "loaders/cardiac/ex/ex_reader.h"
-#include "tests/loaders/cardiac/ex/ex_box.h"
+#include "tests/loaders/cardiac/ex_box.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
