@@ -100,6 +100,10 @@ Heart Input::load_heart(int threads, Progress* progress, const std::string& valu
   LayerCache cache(file_name(), source_ ? keeping_from_name(spec_.cache) : Keeping::kOff, threads);
   Heart heart = make_heart(blocks.front(), chosen, file_name(), threads, layers, &cache);
   heart.notes.insert(heart.notes.end(), cache.notes().begin(), cache.notes().end());
+  if (spec_.field.empty() && !means_fibre(chosen.fibre.array))
+    heart.notes.push_back(
+        "WARNING: no array is called fibre: '" + chosen.fibre.array +
+        "' is taken for the fibres as it has three numbers a place; --field names another one");
   heart.axis = file()->long_axis;
   if (heart.axis)
     heart.notes.push_back("long axis from apex to base as the file has it: " + short_number(heart.axis->x) +

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -71,6 +72,28 @@ const char* note_on_directions(const TensorField& fibres, const HeartChoice& cho
   return choice.constant_cells
              ? "directions of points interpolated: there are none of cells to be constant in"
              : "directions of points interpolated by their outer products";
+}
+
+/// Says where sheets are not perpendicular to fibres.
+void note_on_sheets(const DataSet& mesh, const HeartChoice& choice, std::vector<std::string>& notes) {
+  constexpr double kSkew = 0.0871557427;  // sine of 5 degrees
+  const DataArray* const fibre = mesh.find(choice.fibre.array, choice.fibre.association);
+  const DataArray* const sheet = mesh.find(choice.sheet.array, choice.fibre.association);
+  if (fibre == nullptr || sheet == nullptr || fibre->tuples != sheet->tuples) return;
+  std::size_t skew = 0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < fibre->tuples; ++i) {
+    const Vec3 f{fibre->at(i, 0), fibre->at(i, 1), fibre->at(i, 2)};
+    const Vec3 s{sheet->at(i, 0), sheet->at(i, 1), sheet->at(i, 2)};
+    const double sine = std::abs(glm::dot(f, s)) / (glm::length(f) * glm::length(s));
+    if (!(sine > kSkew)) continue;  // nor where one of them is none
+    ++skew;
+    most = std::max(most, sine);
+  }
+  if (skew > 0)
+    notes.push_back("WARNING: " + counted(skew, "sheet") + " of '" + sheet->name + "' up to " +
+                    short_number(std::round(std::asin(std::min(most, 1.0)) * 180.0 / std::numbers::pi)) +
+                    " degrees off a right angle to the fibre: sheet angles are of the part across it");
 }
 
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.
@@ -159,8 +182,7 @@ HeartChoice choose_heart(const std::vector<ArrayInfo>& arrays, std::string_view 
         {file, "", "has no fibres", "an array of three numbers a point or cell",
          "fibres come with EX and openCARP models, .ortho, .axi and .bases files, or as an array 'fibre'"});
   }
-  HeartChoice choice{.fibre = choices.front(),
-                     .guessed = fibre.empty() && !means_fibre(choices.front().array)};
+  HeartChoice choice{.fibre = choices.front()};
   if (!fibre.empty()) {
     const auto named = std::find_if(choices.begin(), choices.end(),
                                     [&](const DirectionChoice& each) { return each.array == fibre; });
@@ -186,9 +208,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
                  LayersNeeded layers, CachedLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
-  const std::string tiny = drop_tiny_directions(mesh, choice.fibre);
-  std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
-  if (!tiny.empty()) tissue.push_back(tiny);
+  const std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
@@ -207,10 +227,6 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   Heart heart;
   heart.fibres = directions(choice.fibre);
   heart.notes = tissue;
-  if (choice.guessed)
-    heart.notes.push_back(
-        "WARNING: no array is called fibre: '" + choice.fibre.array +
-        "' is taken for the fibres as it has three numbers a place; --field names another one");
   const std::vector<std::string>& of_fibres = heart.fibres->notes().lines;
   heart.notes.insert(heart.notes.end(), of_fibres.begin(), of_fibres.end());
   if (const std::size_t folded = folded_faces(*grid->tets); folded > 0)
@@ -219,7 +235,10 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
         " with both tetrahedra on one side: these overlap, and a place in both belongs to either");
   if (joined > 0) heart.notes.push_back(counted(joined, "point") + " at the place of another one: joined");
   heart.notes.emplace_back(note_on_directions(*heart.fibres, choice));
-  if (!choice.sheet.array.empty()) heart.sheets = directions(choice.sheet);
+  if (!choice.sheet.array.empty()) {
+    heart.sheets = directions(choice.sheet);
+    note_on_sheets(mesh, choice, heart.notes);
+  }
   try {
     add_layers(grid, mesh, choice, file, threads, layers, kept, heart);
   } catch (const Error& error) {

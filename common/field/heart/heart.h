@@ -36,14 +36,10 @@ struct HeartChoice {
   bool surface = false;   ///< the file says which points lie on the inner and the outer surface
   std::vector<SurfacePaint> paint;  ///< of its surfaces; layers of the file count no more where there is some
   bool constant_cells = false;      ///< directions of cells hold all over their cell: TensorChoice
-  bool guessed = false;             ///< no name says that these are fibres, and nobody asked for them
 
   /// All that are to be read.
   [[nodiscard]] std::vector<std::string> arrays() const;
 };
-
-/// Whether an array's name says that it holds fibres: "fibre", "Fibers", "f0", …
-[[nodiscard]] bool means_fibre(const std::string& name);
 
 /// Every array that may hold fibres, the one to be taken by default first: three components; names that
 /// mean fibres before others, points before cells, then file order. "sheet" and "normal" are none.

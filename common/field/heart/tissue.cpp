@@ -59,6 +59,38 @@ struct Region {
   }
 };
 
+/// Takes directions that are next to nothing for none, and says so.
+void drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice, std::vector<std::string>& notes) {
+  constexpr double kTiny = 1e-6, kUsual = 0.95;  // of the length that most do not surpass
+  const DataArray* const fibre = mesh.find(choice.array, choice.association);
+  if (fibre == nullptr || fibre->components != 3) return;
+  std::vector<double> values(3 * fibre->tuples), lengths;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = fibre->at(i / 3, static_cast<int>(i % 3));
+  const auto length = [&values](std::size_t i) {
+    return std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  };
+  for (std::size_t i = 0; i < fibre->tuples; ++i)
+    if (const double each = length(i); each > 0.0 && std::isfinite(each)) lengths.push_back(each);
+  if (lengths.empty()) return;
+  const auto usual =
+      lengths.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(lengths.size() - 1));
+  std::nth_element(lengths.begin(), usual, lengths.end());
+  const double least = kTiny * *usual;
+  std::size_t tiny = 0;
+  for (std::size_t i = 0; i < fibre->tuples; ++i) {
+    if (!(length(i) > 0.0) || !(length(i) < least)) continue;
+    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.0);
+    ++tiny;
+  }
+  if (tiny == 0) return;
+  const std::string name = fibre->name;
+  const auto at = std::find_if(mesh.arrays.begin(), mesh.arrays.end(),
+                               [fibre](const DataArray& array) { return &array == fibre; });
+  *at = make_array(name, choice.association, 3, std::span<const double>(values));
+  notes.push_back(counted(tiny, "direction") + " of '" + name +
+                  "' a million times shorter than the others: taken for none");
+}
+
 }  // namespace
 
 std::string region_array(const std::vector<ArrayInfo>& arrays) {
@@ -68,40 +100,12 @@ std::string region_array(const std::vector<ArrayInfo>& arrays) {
   return {};
 }
 
-std::string drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice) {
-  constexpr double kTiny = 1e-6;  // of the median
-  const DataArray* const fibre = mesh.find(choice.array, choice.association);
-  if (fibre == nullptr || fibre->components != 3) return {};
-  std::vector<double> values(3 * fibre->tuples), lengths;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = fibre->at(i / 3, static_cast<int>(i % 3));
-  const auto length = [&values](std::size_t i) {
-    return std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-  };
-  for (std::size_t i = 0; i < fibre->tuples; ++i)
-    if (const double each = length(i); each > 0.0 && std::isfinite(each)) lengths.push_back(each);
-  if (lengths.empty()) return {};
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  const double least = kTiny * *middle;
-  std::size_t tiny = 0;
-  for (std::size_t i = 0; i < fibre->tuples; ++i) {
-    if (!(length(i) > 0.0) || !(length(i) < least)) continue;
-    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.0);
-    ++tiny;
-  }
-  if (tiny == 0) return {};
-  const std::string name = fibre->name;
-  const auto at = std::find_if(mesh.arrays.begin(), mesh.arrays.end(),
-                               [fibre](const DataArray& array) { return &array == fibre; });
-  *at = make_array(name, choice.association, 3, std::span<const double>(values));
-  return counted(tiny, "direction") + " of '" + name +
-         "' a million times shorter than the others: taken for none";
-}
-
 std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoice& choice) {
+  std::vector<std::string> notes;
+  drop_tiny_directions(mesh, choice, notes);
   const auto* const cells = std::get_if<UnstructuredTopology>(&mesh.topology);
   const DataArray* const fibre = mesh.find(choice.array, choice.association);
-  if (cells == nullptr || fibre == nullptr || !fit(*cells, *fibre)) return {};
+  if (cells == nullptr || fibre == nullptr || !fit(*cells, *fibre)) return notes;
   const std::vector<bool> without = cells_without(*cells, *fibre);
   mesh.hidden_cells.resize(without.size());
   const auto shown = [&mesh](std::size_t c) { return mesh.hidden_cells[c] == 0; };
@@ -126,7 +130,6 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
     names += (names.empty() ? "" : ", ") + short_number(number);
     hidden += region.elements;
   }
-  std::vector<std::string> notes;
   if (hidden > 0) {
     std::size_t left_fibres = 0;
     for (std::size_t c = 0; c < without.size(); ++c) {
