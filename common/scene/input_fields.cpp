@@ -10,6 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/ledger.h"
 #include "common/base/text.h"
+#include "common/field/heart/tissue.h"
 #include "common/scene/input.h"
 #include "common/scene/tensor/read_vectors.h"
 #include "common/scene/wall/layer_cache.h"

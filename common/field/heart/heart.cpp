@@ -93,7 +93,7 @@ void note_on_sheets(const DataSet& mesh, const HeartChoice& choice, std::vector<
   if (skew > 0)
     notes.push_back("WARNING: " + counted(skew, "sheet") + " of '" + sheet->name + "' up to " +
                     short_number(std::round(std::asin(std::min(most, 1.0)) * 180.0 / std::numbers::pi)) +
-                    " degrees off a right angle to the fibre: sheet angles are of the part across it");
+                    " degrees off a right angle to the fibre: taken as they stand");
 }
 
 /// Those of the file, or Laplace's. @throws Error as make_heart() where there are none.

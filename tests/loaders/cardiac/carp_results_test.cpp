@@ -166,6 +166,26 @@ TEST_F(CarpResults, OfARunThatWasCutOffTheWholeStepsAreThere) {
   EXPECT_TRUE(says(source.info().notes, "16 bytes more"));
 }
 
+// Of text of several times 1024 bytes, the last of which ends with a form feed.
+TEST_F(CarpResults, HeadersMayBeLonger) {
+  const std::string plain = igb("x:4 t:2 inc_t:1", {1, 2, 3, 4, 5, 6, 7, 8}, false);
+  for (const std::size_t blocks : {1U, 2U, 5U}) {
+    std::string longer = plain;
+    longer.insert(1023, (blocks - 1) * 1024, ' ');
+    folder_.write("vm.igb", longer);
+    Source source = together("vm.igb");
+    EXPECT_EQ(source.info().times.size(), 2U);
+    EXPECT_FALSE(says(source.info().notes, "bytes more")) << blocks;
+    EXPECT_EQ(source.read({"vm"}, 1).at(0).find("vm", Association::kPoint)->at(2), 7.0) << blocks;
+  }
+  // Without one it has 1024, whatever follows: this number is text with a form feed at its end.
+  std::string without = plain;
+  without[1023] = ' ';
+  for (std::size_t i = 1024; i < without.size(); ++i) without[i] = 'A';
+  folder_.write("vm.igb", without);
+  EXPECT_EQ(together("vm.igb").info().times.size(), 2U);
+}
+
 TEST_F(CarpResults, SeveralResultsKeepTheirOwnTimes) {
   folder_.write("a.igb", igb("x:4 t:3 inc_t:5", {1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}, false));
   folder_.write("b.igb", igb("x:4 t:2 inc_t:10", {7, 7, 7, 7, 9, 9, 9, 9}, false));

@@ -238,6 +238,20 @@ TEST(Tetgen, BothNumberingsAndMidNodesInAnyOrderAreRead) {
   }
 }
 
+TEST(Tetgen, WholeNumbersOfElementsAreRegions) {
+  const test::TempFolder folder;
+  folder.write("a.node", tetrahedron(0, false));
+  folder.write("a.ele", "1 4 2\n0 0 1 2 3 5 2.5\n");
+  Source source = open(folder.path("a.ele"));
+  const DataSet mesh = source.read({"region", "attribute 2"}).at(0);
+  ASSERT_NE(mesh.find("region", Association::kCell), nullptr);
+  EXPECT_EQ(mesh.find("region", Association::kCell)->at(0), 5.0);
+  EXPECT_EQ(mesh.find("attribute 2", Association::kCell)->at(0), 2.5);
+  folder.write("a.ele", "1 4 1\n0 0 1 2 3 2.5\n");
+  Source measured = open(folder.path("a.ele"));
+  EXPECT_NE(measured.read({"attribute 1"}).at(0).find("attribute 1", Association::kCell), nullptr);
+}
+
 // Chaste writes such: a column of zeros that the first line does not speak of.
 TEST(Tetgen, NumbersBeyondTheFirstLineAreLeftOutAndSaid) {
   const test::TempFolder folder;

@@ -310,19 +310,19 @@ TEST(DegenerateHeart, InvertedAndFlatTetrahedraChangeNothing) {
   expect_slab(heart);
 }
 
+bool says(const Heart& heart, const char* words) {
+  return std::ranges::any_of(
+      heart.notes, [words](const std::string& note) { return note.find(words) != std::string::npos; });
+}
+
 // The tetrahedron behind a face is put before it, where another one is.
 TEST(DegenerateHeart, TetrahedraThatOverlapAreSaid) {
-  const auto said = [](const Heart& heart) {
-    return std::any_of(heart.notes.begin(), heart.notes.end(), [](const std::string& note) {
-      return note.find("1 face with both tetrahedra on one side") != std::string::npos;
-    });
-  };
   Slab slab;
   slab.corners = {0, 1, 4, 16, 1, 4, 16, 21};
-  EXPECT_FALSE(said(heart_of(slab.mesh())));
+  EXPECT_FALSE(says(heart_of(slab.mesh()), "1 face with both tetrahedra on one side"));
   slab.x[3 * 21] = slab.x[3 * 21 + 1] = 0.1;
   slab.x[3 * 21 + 2] = 0.2;
-  EXPECT_TRUE(said(heart_of(slab.mesh())));
+  EXPECT_TRUE(says(heart_of(slab.mesh()), "1 face with both tetrahedra on one side"));
 }
 
 TEST(DegenerateHeart, OneWithoutAnyVolumeIsRefused) {
@@ -381,6 +381,41 @@ TEST(DegenerateHeart, MissingFibresAreTheMeanOfThoseAround) {
   EXPECT_EQ(without.fibres->notes().bad_values, bare.fibres.size() / 3 - 1) << "one direction is no mean";
   EXPECT_EQ(without.layer->sample({0.1, 0.1, 0.1}, hint).status, SampleStatus::kOk)
       << "layers are known all the same";
+}
+
+// What stands for no direction: placeholders a million times shorter than the others count as zeros do.
+TEST(DegenerateHeart, DirectionsThatAreNextToNothingAreNone) {
+  const DataSet whole = ventricle_mesh({}, {.wall = 2, .along = 8, .around = 16});
+  const auto with = [&](double tiny) {
+    DataSet mesh = whole;
+    std::vector<double> values;
+    for (std::size_t p = 0; p < mesh.arrays.front().tuples; ++p)
+      for (int c = 0; c < 3; ++c) values.push_back(p % 3 == 0 ? tiny : 7.0 * mesh.arrays.front().at(p, c));
+    mesh.arrays.front() = make_array("fibre", Association::kPoint, 3, std::span<const double>(values));
+    return heart_of(mesh);
+  };
+  const Heart zero = with(0.0), tiny = with(1e-9);
+  const auto a = std::get<std::span<const double>>(zero.fibres->values());
+  const auto b = std::get<std::span<const double>>(tiny.fibres->values());
+  ASSERT_EQ(a.size(), b.size());
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0);
+  EXPECT_TRUE(says(tiny, "a million times shorter"));
+  EXPECT_FALSE(says(zero, "a million times shorter"));
+}
+
+TEST(DegenerateHeart, SheetsThatAreSkewToFibresAreSaid) {
+  for (const bool skew : {false, true}) {
+    DataSet mesh = ventricle_mesh({}, {.wall = 2, .along = 8, .around = 16});
+    std::vector<double> values;
+    const DataArray &fibre = *mesh.find("fibre", Association::kPoint),
+                    &sheet = *mesh.find("sheet", Association::kPoint);
+    for (std::size_t p = 0; p < sheet.tuples; ++p)
+      for (int c = 0; c < 3; ++c)
+        values.push_back(sheet.at(p, c) + (skew && p == 100 ? fibre.at(p, c) : 0.0));
+    const auto at = std::ranges::find(mesh.arrays, "sheet", &DataArray::name);
+    *at = make_array("sheet", Association::kPoint, 3, std::span<const double>(values));
+    EXPECT_EQ(says(heart_of(mesh), "1 sheet of 'sheet' up to 45 degrees off"), skew);
+  }
 }
 
 TEST(DegenerateHeart, OneTetrahedronIsOne) {
