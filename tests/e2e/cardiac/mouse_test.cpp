@@ -29,6 +29,7 @@
 #include "common/window/panels/panel.h"
 #include "common/window/window.h"
 #include "tests/e2e/explorer_test.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/shared_data.h"
 
 namespace palpate::test {
@@ -62,7 +63,8 @@ class CardiacMouse : public ExplorerTest {
   }
 
   /// Runs the script so far, which begins anew. Without a file it begins with the start page.
-  WindowResult open(std::vector<std::string> arguments) {
+  /// @param page the picture of docs/guide that PALPATE_WRITE_PAGES makes of it; empty: none.
+  WindowResult open(std::vector<std::string> arguments, const std::string& page = {}) {
     arguments.insert(arguments.begin(), "open");
     arguments.insert(arguments.end(), {"--threads", "1"});
     const ParsedCommand parsed = parse_command_line(explorer_, arguments);
@@ -97,6 +99,9 @@ class CardiacMouse : public ExplorerTest {
     CardiacModel model(options, "cardiac");
     WindowResult result = run_window(model, window);
     EXPECT_EQ(result.missing, std::vector<std::string>()) << "controls that no panel had";
+    if (!page.empty() && std::getenv("PALPATE_WRITE_PAGES") != nullptr)
+      fs::copy_file(window.screenshot, source_folder() / "docs" / "guide" / page,
+                    fs::copy_options::overwrite_existing);
     if (const char* folder = std::getenv("PALPATE_PICTURES"))
       fs::copy_file(window.screenshot,
                     fs::path(folder) / (std::string("cardiac_mouse_") + std::to_string(opened_++) + ".png"),
@@ -184,7 +189,8 @@ class CardiacMouse : public ExplorerTest {
 
   /// The whole way with one heart. @param heart as it is named on the command line. @param length of the fibre, and
   /// @param off how far what is felt may lie from it, in the data's unit.
-  void follow_keep_and_save(const std::string& file, double across, double down, double length, double off) {
+  void follow_keep_and_save(const std::string& file, double across, double down, double length, double off,
+                            const std::string& page = {}) {
     const std::vector<std::string> heart{file};
     choose_file(file);
     grab_at(across, down);
@@ -215,7 +221,7 @@ class CardiacMouse : public ExplorerTest {
     press("Save session");
     press("Save");
     press("Save picture");
-    const WindowResult kept = open({});
+    const WindowResult kept = open({}, page);
     EXPECT_NE(kept.log.find("kept line 1"), std::string::npos) << kept.log;
     ASSERT_TRUE(kept.view.probe && kept.view.probe->drawn_lines) << kept.log;
     EXPECT_EQ(kept.view.probe->drawn_lines->size(), 1U);
@@ -263,7 +269,7 @@ TEST_F(CardiacMouse, FollowsAFibreOfTheDogsHeart) {
   PALPATE_NEED_DATA(nodes, "cardiac/canine-heart/heart.exnode.gz");
   for (const char* name : {"heart.exnode.gz", "heart.exelem.gz"})
     fs::copy_file(nodes.parent_path() / name, folder_.path(name));
-  follow_keep_and_save("heart.exnode.gz", 0.45, 0.5, 30.0, 0.5);
+  follow_keep_and_save("heart.exnode.gz", 0.45, 0.5, 30.0, 0.5, "cardiac_dog.png");
 }
 
 TEST_F(CardiacMouse, FollowsAFibreOfTheDogsHeartInOneFile) {
@@ -275,7 +281,7 @@ TEST_F(CardiacMouse, FollowsAFibreOfTheDogsHeartInOneFile) {
 
 TEST_F(CardiacMouse, FollowsAFibreOfAWaveInOpenCarpsFiles) {
   (void)json({"convert", "--example", "wave", "--out", "wave.pts"});
-  follow_keep_and_save("wave.pts", 0.45, 0.5, 15.0, 0.5);
+  follow_keep_and_save("wave.pts", 0.45, 0.5, 15.0, 0.5, "cardiac_wave.png");
 }
 
 /// The ventricle in a bath, whose elements are of region 0 and have no fibre.
@@ -306,7 +312,7 @@ void write_in_bath(const fs::path& file) {
 
 TEST_F(CardiacMouse, FollowsAFibreOfAHeartInABath) {
   write_in_bath(folder_.path("bath.pts"));
-  follow_keep_and_save("bath.pts", 0.45, 0.5, 15.0, 1.0);
+  follow_keep_and_save("bath.pts", 0.45, 0.5, 15.0, 1.0, "cardiac_bath.png");
 }
 
 }  // namespace
