@@ -339,8 +339,10 @@ struct Writer {
   std::string_view ending;
   std::vector<std::filesystem::path> (*write)(const Task& task, const Document& options,
                                               const VerbContext& context);
+  bool with_times;  ///< all that are asked for
 };
-constexpr std::array<Writer, 3> kWriters{{{".pts", write_carp}, {".pvd", write_pvd}, {".ele", write_chaste}}};
+constexpr std::array<Writer, 3> kWriters{
+    {{".pts", write_carp, true}, {".pvd", write_pvd, true}, {".ele", write_chaste, false}}};
 
 ExitCode run_convert(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
@@ -358,7 +360,7 @@ ExitCode run_convert(const Document& options, const VerbContext& context) {
   const Stopwatch watch;
   const Task task = task_of(input);
   context.progress.begin("writing " + options.output.file.string(), 0);
-  ConvertSummary summary{.input = input.title(), .times = task.times.size()};
+  ConvertSummary summary{.input = input.title(), .times = writer->with_times ? task.times.size() : 0};
   for (const auto& file : writer->write(task, options, context)) {
     summary.files.push_back(file.string());
     context.interrupt.keep(file);

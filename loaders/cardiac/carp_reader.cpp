@@ -287,13 +287,12 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   DataSet mesh;
   mesh.topology = std::move(read.topology);
   if (!files.lon.empty()) {
-    const auto [directions, vectors, headed] = fibres.get();
+    auto [directions, vectors, headed] = fibres.get();
     if (directions.missing == count) {
       notes.push_back(files.lon + " holds no direction but zeros: taken as a mesh without fibres");
     } else {
+      leave_out_missing(directions, notes);
       add_directions(directions, mesh);
-      if (directions.missing > 0)
-        notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
       notes.push_back("fibres from " + files.lon);
     }
     if (!headed)

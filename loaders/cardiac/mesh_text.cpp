@@ -42,6 +42,7 @@ void append_directions(std::span<const Vec3> vectors, Directions& directions) {
   const Vec3 fibre = unit_or_nan(vectors[0]);
   if (std::isnan(fibre[0])) ++directions.missing;
   append(directions.fibre, fibre);
+  directions.lengths.push_back(std::hypot(vectors[0].x, vectors[0].y, vectors[0].z));
   if (vectors.size() == 1) return;
   const Vec3 sheet = unit_or_nan(vectors[1]);
   append(directions.sheet, sheet);
@@ -75,6 +76,29 @@ Directions read_directions(TextLines& lines, std::size_t count, const DirectionR
     append_directions(std::span<const Vec3>(vectors, as_size(per_row / 3)), directions);
   }
   return directions;
+}
+
+void leave_out_missing(Directions& directions, std::vector<std::string>& notes) {
+  constexpr double kTiny = 1e-6, kUsual = 0.95;  // of the length that most do not surpass
+  std::vector<double> known;
+  for (const double length : directions.lengths)
+    if (length > 0.0 && std::isfinite(length)) known.push_back(length);
+  if (!known.empty()) {
+    const auto usual =
+        known.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(known.size() - 1));
+    std::nth_element(known.begin(), usual, known.end());
+    std::size_t tiny = 0;
+    for (std::size_t i = 0; i < directions.lengths.size(); ++i) {
+      if (!(directions.lengths[i] > 0.0) || !(directions.lengths[i] < kTiny * *usual)) continue;
+      std::fill_n(directions.fibre.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, kNaN);
+      ++tiny;
+    }
+    directions.missing += tiny;
+    if (tiny > 0)
+      notes.push_back(counted(tiny, "fibre") + " a million times shorter than the others: taken for none");
+  }
+  if (directions.missing > 0)
+    notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
 }
 
 void add_directions(const Directions& directions, DataSet& mesh) {

@@ -32,7 +32,8 @@ inline constexpr std::uint8_t kVtkQuadraticTetrahedron = 24;
 /// Fibre directions of elements; one that is zero or missing (zeros or "nan") is NaN.
 struct Directions {
   std::vector<double> fibre, sheet, normal;  ///< the latter two empty where a row has three numbers only
-  std::size_t missing = 0;                   ///< rows whose fibre is zero or NaN
+  std::vector<double> lengths;               ///< of the fibres as they stand
+  std::size_t missing = 0;                   ///< rows whose fibre is zero, next to it, or NaN
   std::vector<double> further;  ///< the numbers of all places of a row but the first, as they stand
 };
 /// Adds those of an element: its fibre, or fibre and sheet, or all three.
@@ -48,6 +49,9 @@ struct DirectionRows {
 /// @throws Error (bad input) naming the line where a row has other numbers or the file ends.
 [[nodiscard]] Directions read_directions(TextLines& lines, std::size_t count, const DirectionRows& rows);
 
+/// Takes fibres that are a million times shorter than the others for what they stand for, none, and says how many have
+/// none.
+void leave_out_missing(Directions& directions, std::vector<std::string>& notes);
 /// Adds them as cell arrays "fibre", "sheet", "normal", normalised.
 void add_directions(const Directions& directions, DataSet& mesh);
 

@@ -217,9 +217,10 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
     DirectionRows rows{.numbers = ending == ".axi" ? 3 : 9, .numbered = ending == ".bases"};
     if (rows.numbered)
       rows.places = static_cast<int>(lines.integer("the number of places in an element", 1, kMostPlaces));
-    const Directions directions = read_directions(lines, count, rows);
+    Directions directions = read_directions(lines, count, rows);
     if (!lines.word().empty())
       lines.refuse("goes on after " + std::to_string(count) + " directions", "one an element");
+    leave_out_missing(directions, notes);
     if (rows.places == kFramePlaces) {
       add_point_frames(directions.further, std::get<UnstructuredTopology>(mesh.topology), mesh, notes);
     } else {
@@ -228,8 +229,6 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
     if (rows.places > 1 && rows.places != kFramePlaces)
       notes.push_back("of " + counted(static_cast<std::uint64_t>(rows.places), "direction") +
                       " in each element, that at its centroid is taken");
-    if (directions.missing > 0)
-      notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
     notes.push_back("fibres from " + files.directions);
   }
   if (!files.face.empty()) {

@@ -238,6 +238,22 @@ TEST(Tetgen, BothNumberingsAndMidNodesInAnyOrderAreRead) {
   }
 }
 
+TEST(Tetgen, FibresThatAreNextToNothingAreNone) {
+  const test::TempFolder folder;
+  folder.write("a.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 1 1 1\n");
+  folder.write("a.ele", "2 4 0\n0 0 1 2 3\n1 1 2 3 4\n");
+  for (const auto& [tiny, none] : {std::pair{"1e-3", false}, std::pair{"1e-12", true}}) {
+    folder.write("a.axi", std::string("2\n0 2 0\n") + tiny + " 0 0\n");
+    Source source = open(folder.path("a.ele"));
+    const DataSet mesh = source.read({"fibre"}).at(0);
+    const DataArray& fibre = *mesh.find("fibre", Association::kCell);
+    EXPECT_EQ(fibre.at(0, 1), 1.0);
+    EXPECT_EQ(std::isnan(fibre.at(1, 0)), none) << tiny;
+    EXPECT_EQ(noted(folder.path("a.ele"), "1 fibre a million times shorter"), none);
+    EXPECT_EQ(noted(folder.path("a.ele"), "1 element without a fibre direction"), none);
+  }
+}
+
 TEST(Tetgen, WholeNumbersOfElementsAreRegions) {
   const test::TempFolder folder;
   folder.write("a.node", tetrahedron(0, false));
