@@ -9,6 +9,7 @@
 #include <vtkSmartPointer.h>
 
 #include "common/base/error.h"
+#include "loaders/vtk/ghost_cells.h"
 #include "loaders/vtk/vtk_convert.h"
 
 namespace palpate {

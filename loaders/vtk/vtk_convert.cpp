@@ -10,7 +10,6 @@
 #include <vtkDataSet.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
-#include <vtkIdList.h>
 #include <vtkIdTypeArray.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
@@ -21,7 +20,6 @@
 #include <vtkRectilinearGrid.h>
 #include <vtkSmartPointer.h>
 #include <vtkStructuredGrid.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkVariant.h>
 
@@ -29,6 +27,7 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/load/volume_block.h"
+#include "loaders/vtk/ghost_cells.h"
 
 namespace palpate {
 namespace {
@@ -242,80 +241,6 @@ UnstructuredTopology polygonal(vtkPolyData* data, const std::string& file) {
   return t;
 }
 
-/// Marks of ghost points or cells, of whatever type the file stores them as; none where there are none.
-std::vector<unsigned> ghosts_of(vtkDataSetAttributes* attributes, vtkIdType tuples) {
-  vtkDataArray* const array = attributes->GetArray(vtkDataSetAttributes::GhostArrayName());
-  if (array == nullptr || array->GetNumberOfTuples() != tuples || array->GetNumberOfComponents() != 1)
-    return {};
-  std::vector<unsigned> marks(as_size(tuples));
-  for (std::size_t i = 0; i < marks.size(); ++i) {
-    const double mark = array->GetComponent(static_cast<vtkIdType>(i), 0);
-    marks[i] = mark >= 0.0 && mark < 256.0 ? static_cast<unsigned>(mark) : 0U;
-  }
-  return marks;
-}
-
-/// Where nothing is in a cell: hidden, or covered by finer cells.
-constexpr unsigned kHiddenCell = vtkDataSetAttributes::HIDDENCELL | vtkDataSetAttributes::REFINEDCELL;
-
-/// One byte a cell, 1 where it is hidden; none where none is.
-std::vector<std::uint8_t> hidden_cells(vtkDataSet* data) {
-  const std::vector<unsigned> marks = ghosts_of(data->GetCellData(), data->GetNumberOfCells());
-  std::vector<std::uint8_t> hidden(marks.size());
-  std::transform(marks.begin(), marks.end(), hidden.begin(),
-                 [](unsigned mark) { return static_cast<std::uint8_t>((mark & kHiddenCell) != 0 ? 1 : 0); });
-  if (std::find(hidden.begin(), hidden.end(), 1) == hidden.end()) hidden.clear();
-  return hidden;
-}
-
-/// One byte a point, 0 where VTK marks it hidden; of hidden cells, the points that no visible cell has.
-std::vector<std::uint8_t> visible_points(vtkDataSet* data, const std::vector<std::uint8_t>& hidden) {
-  const auto points = as_size(data->GetNumberOfPoints());
-  std::vector<std::uint8_t> visible(points, 1);
-  if (!hidden.empty()) {
-    std::fill(visible.begin(), visible.end(), std::uint8_t{0});
-    const auto corners = vtkSmartPointer<vtkIdList>::New();
-    for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell) {
-      if (hidden[as_size(cell)] != 0) continue;
-      data->GetCellPoints(cell, corners);
-      for (vtkIdType i = 0; i < corners->GetNumberOfIds(); ++i) visible[as_size(corners->GetId(i))] = 1;
-    }
-  }
-  const std::vector<unsigned> marks = ghosts_of(data->GetPointData(), data->GetNumberOfPoints());
-  for (std::size_t p = 0; p < marks.size(); ++p) {
-    if ((marks[p] & vtkDataSetAttributes::HIDDENPOINT) != 0) visible[p] = 0;
-  }
-  if (std::all_of(visible.begin(), visible.end(), [](std::uint8_t v) { return v == 1; })) visible.clear();
-  return visible;
-}
-
-/// One byte a cell, 1 where it is hidden or another piece owns it too: it would lie twice in a joined mesh.
-std::vector<std::uint8_t> ghost_cells(vtkUnstructuredGrid* grid) {
-  constexpr unsigned kGone = kHiddenCell | vtkDataSetAttributes::DUPLICATECELL;
-  const std::vector<unsigned> marks = ghosts_of(grid->GetCellData(), grid->GetNumberOfCells());
-  std::vector<std::uint8_t> gone(marks.size());
-  std::transform(marks.begin(), marks.end(), gone.begin(),
-                 [](unsigned mark) { return static_cast<std::uint8_t>((mark & kGone) != 0 ? 1 : 0); });
-  return gone;
-}
-
-vtkSmartPointer<vtkDataSet> without_ghost_cells(vtkUnstructuredGrid* grid) {
-  const std::vector<std::uint8_t> ghosts = ghost_cells(grid);
-  if (std::find(ghosts.begin(), ghosts.end(), 1) == ghosts.end()) return grid;
-  const auto copy = vtkSmartPointer<vtkUnstructuredGrid>::New();
-  copy->ShallowCopy(grid);
-  const auto gone = vtkSmartPointer<vtkUnsignedCharArray>::New();
-  gone->SetName(vtkDataSetAttributes::GhostArrayName());
-  gone->SetNumberOfTuples(grid->GetNumberOfCells());
-  for (std::size_t c = 0; c < ghosts.size(); ++c) {
-    constexpr unsigned char kDuplicate = vtkDataSetAttributes::DUPLICATECELL;
-    gone->SetValue(static_cast<vtkIdType>(c), ghosts[c] != 0 ? kDuplicate : 0U);
-  }
-  copy->GetCellData()->AddArray(gone);
-  copy->RemoveGhostCells();
-  return copy;
-}
-
 /// Around the points that cells have. What names points that are not there is refused when it is read.
 Box bounds_of_cells(vtkUnstructuredGrid* mesh) {
   Box bounds;
@@ -409,17 +334,6 @@ std::string why_not_volume(vtkDataSet* data) {
   return "";
 }
 
-std::size_t ghost_cell_count(vtkDataSet* data) {
-  auto* const grid = vtkUnstructuredGrid::SafeDownCast(data);
-  if (grid == nullptr) return 0;
-  const std::vector<std::uint8_t> gone = ghost_cells(grid);
-  return as_size(std::count(gone.begin(), gone.end(), 1));
-}
-
-std::string ghost_cells_note(std::size_t count) {
-  return counted(count, "cell") + " left out: marked as hidden, or as another piece's too (vtkGhostType)";
-}
-
 std::optional<Vec3> long_axis_of(vtkDataSet* data) {
   vtkDataArray* const array = data->GetFieldData()->GetArray(kLongAxisArray);
   if (array == nullptr || array->GetNumberOfValues() != 3) return std::nullopt;
@@ -465,34 +379,33 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
                       const std::string& file) {
   DataSet block;
   block.name = name;
-  vtkSmartPointer<vtkDataSet> kept = data;
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) kept = without_ghost_cells(grid);
-  if (auto* image = vtkImageData::SafeDownCast(kept)) {
+  if (auto* image = vtkImageData::SafeDownCast(data)) {
     block.topology = uniform(image, file);
-  } else if (auto* box = vtkRectilinearGrid::SafeDownCast(kept)) {
+  } else if (auto* box = vtkRectilinearGrid::SafeDownCast(data)) {
     block.topology = rectilinear(box, file);
-  } else if (auto* curved = vtkStructuredGrid::SafeDownCast(kept)) {
+  } else if (auto* curved = vtkStructuredGrid::SafeDownCast(data)) {
     block.topology = curvilinear(curved, file);
-  } else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(kept)) {
+  } else if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(data)) {
     block.topology = unstructured(mesh, file);
-  } else if (auto* poly = vtkPolyData::SafeDownCast(kept)) {
+  } else if (auto* poly = vtkPolyData::SafeDownCast(data)) {
     block.topology = polygonal(poly, file);
   } else {
-    throw input_error({file, name, why_not_readable(kept)});
+    throw input_error({file, name, why_not_readable(data)});
   }
-  if (points_along_axes(kept) != Index3{0}) block.hidden_cells = hidden_cells(kept);
-  block.visible = visible_points(kept, block.hidden_cells);
-  for_each_array(kept, [&](vtkDataArray* array, Association association, const std::string& array_name) {
+  if (points_along_axes(data) != Index3{0}) block.hidden_cells = hidden_cells(data);
+  block.visible = visible_points(data, block.hidden_cells);
+  for_each_array(data, [&](vtkDataArray* array, Association association, const std::string& array_name) {
     if (wanted.count(array_name) == 0) return;
     DataArray shared = share(array, association, array_name);
     const vtkIdType tuples =
-        association == Association::kPoint ? kept->GetNumberOfPoints() : kept->GetNumberOfCells();
+        association == Association::kPoint ? data->GetNumberOfPoints() : data->GetNumberOfCells();
     if (shared.tuples != as_size(tuples)) {
       throw input_error({file, "array '" + array_name + "'",
                          "has " + std::to_string(shared.tuples) + " tuples", std::to_string(tuples)});
     }
     block.arrays.push_back(std::move(shared));
   });
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) leave_out_ghost_cells(grid, block);
   return block;
 }
 

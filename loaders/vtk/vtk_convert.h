@@ -31,11 +31,6 @@ struct VtkBlock {
 /// Why readable `data` holds no volume to explore ("holds points, lines or surfaces …"), or empty.
 [[nodiscard]] std::string why_not_volume(vtkDataSet* data);
 
-/// How many cells of a mesh are marked as hidden or as another piece's too; convert_block() leaves them out.
-[[nodiscard]] std::size_t ghost_cell_count(vtkDataSet* data);
-/// What is said of so many.
-[[nodiscard]] std::string ghost_cells_note(std::size_t count);
-
 /// The volumes among `leaves`; where there is none, all that is readable. What is left out goes to `notes`
 /// (unless null) with its reason.
 /// @param kind how the format calls a block ("part").

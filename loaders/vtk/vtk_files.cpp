@@ -24,6 +24,7 @@
 #include "common/load/voxel_bytes.h"
 #include "loaders/vtk/file_index.h"
 #include "loaders/vtk/file_names.h"
+#include "loaders/vtk/ghost_cells.h"
 #include "loaders/vtk/legacy_check.h"
 #include "loaders/vtk/legacy_file.h"
 #include "loaders/vtk/parallel_index.h"

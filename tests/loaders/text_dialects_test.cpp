@@ -227,6 +227,40 @@ TEST(TextDialects, HiddenCellsOfAMeshAreNotThere) {
   }
 }
 
+/// The cube of cube_piece() as a polyhedron: its faces behind the list of its points.
+std::string polyhedron(std::string piece) {
+  constexpr std::array<std::array<int, 4>, 6> kFaces{
+      {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}};
+  std::string faces = "6";
+  for (const auto& face : kFaces) {
+    faces += " 4";
+    for (const int corner : face) faces += " " + std::to_string(corner);
+  }
+  const std::string hexahedron = ">12<", end = "</Cells>";
+  piece.replace(piece.find(hexahedron), hexahedron.size(), ">42<");
+  piece.insert(piece.find(end), array("faces", "Int64", 1, faces) + array("faceoffsets", "Int64", 1, "31"));
+  return piece;
+}
+
+TEST(TextDialects, HiddenPolyhedraAreNotThere) {
+  const TempFolder folder;
+  std::string first = polyhedron(cube_piece(0, velocity(1.0))),
+              second = polyhedron(cube_piece(1, velocity(2.0)));
+  const auto marked = [](std::string piece, const char* mark) {
+    return piece.insert(piece.find("<Points>"),
+                        "<CellData>" + array("vtkGhostType", "UInt8", 1, mark) + "</CellData>");
+  };
+  Source source = opened(folder.write("a.vtu", mesh(marked(first, "32") + marked(second, "0"))));
+  const DataSet block = source.read({"U"}).at(0);
+  const auto& cells = std::get<UnstructuredTopology>(block.topology);
+  ASSERT_EQ(cells.types, (std::vector<std::uint8_t>{42}));
+  EXPECT_EQ(block.point_count(), 8U) << "its own alone";
+  ASSERT_EQ(cells.connectivity.size(), 31U);
+  EXPECT_EQ(std::vector<std::int64_t>(cells.connectivity.begin(), cells.connectivity.begin() + 6),
+            (std::vector<std::int64_t>{6, 4, 0, 3, 2, 1}));
+  EXPECT_EQ(block.find("U", Association::kPoint)->at(7, 0), 2.0);
+}
+
 std::string index_of(const std::vector<std::array<std::string, 3>>& entries) {
   std::string text = "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>";
   for (const auto& [time, part, file] : entries)
