@@ -15,6 +15,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "loaders/vtk/xml_values.h"
 
 namespace palpate {
 namespace {
@@ -50,6 +51,7 @@ class Items {
     if (root == nullptr) return std::nullopt;
     std::vector<xmlNode*> items;
     find(root, items);
+    for (xmlNode* const item : items) check_text(item);
     // Items within others stand behind them.
     bool changed = false;
     for (auto item = items.rbegin(); item != items.rend(); ++item)
@@ -72,9 +74,9 @@ class Items {
     }
   }
 
-  [[noreturn]] void refuse(xmlNode* item, const std::string& problem, const std::string& expected) const {
-    throw input_error({file_, "line " + std::to_string(xmlGetLineNo(item)), problem, expected,
-                       "write the values as a plain DataItem"});
+  [[noreturn]] void refuse(xmlNode* item, const std::string& problem, const std::string& expected,
+                           const char* remedy = "write the values as a plain DataItem") const {
+    throw input_error({file_, "line " + std::to_string(xmlGetLineNo(item)), problem, expected, remedy});
   }
 
   /// Whether it is still in the document.
@@ -143,6 +145,33 @@ class Items {
     for (const std::int64_t n : all)
       if (__builtin_mul_overflow(out, n, &out)) return -1;
     return out;
+  }
+
+  /// Numbers that stand in the file: as many as Dimensions say, each one of its type. libxdmf takes what it can of a word, and
+  /// 0 for those that are missing.
+  void check_text(xmlNode* item) const {
+    constexpr const char* kDamaged = "the file may be damaged";
+    const std::string format = lowered(attribute(item, "Format"));
+    const bool plain =
+        attribute(item, "ItemType").empty() || lowered(attribute(item, "ItemType")) == "uniform";
+    if (!plain || !attribute(item, "Type").empty() || !attribute(item, "Reference").empty() ||
+        (!format.empty() && format != "xml") || xmlFirstElementChild(item) != nullptr)
+      return;
+    std::string type = lowered(attribute(item, "NumberType"));
+    if (type.empty()) type = lowered(attribute(item, "DataType"));
+    const bool real = type.empty() || type == "float";
+    if (!real && type != "int" && type != "uint") return;
+    const TextValues values = text_values(taken(xmlNodeGetContent(item)), real            ? "Float64"
+                                                                          : type == "int" ? "Int64"
+                                                                                          : "UInt64");
+    if (!values.wrong.empty()) {
+      refuse(item, "has '" + values.wrong + "' as its value " + std::to_string(values.count + 1),
+             "a number of type " + (type.empty() ? "float" : type), kDamaged);
+    }
+    const std::int64_t due = product(counts(item));
+    if (due >= 0 && !attribute(item, "Dimensions").empty() && values.count != static_cast<std::uint64_t>(due))
+      refuse(item, "has " + counted(values.count, "number"), std::to_string(due) + " by its Dimensions",
+             kDamaged);
   }
 
   bool replace(xmlNode* item) {

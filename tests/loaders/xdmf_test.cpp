@@ -134,6 +134,15 @@ TEST(Xdmf, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(folder.write("c.xdmf", mesh("Tetrahedron", "0 1 2 3", item("7", "1 2 3 4 5 6 7"))))
                 .find("7 numbers"),
             std::string::npos);
+  // Fewer than its Dimensions say, more, and what libxdmf would take for 1.
+  for (const char* values : {"1 2 3 1 2 3 1 2 3", "1 2 3 1 2 3 1 2 3 1 2 3 4"})
+    EXPECT_NE(refusal(folder.write("g.xdmf", mesh("Tetrahedron", "0 1 2 3", item("4 3", values))))
+                  .find("12 by its Dimensions"),
+              std::string::npos);
+  EXPECT_NE(refusal(folder.write("h.xdmf", mesh("Tetrahedron", "0 1 2 3",
+                                                item("4 3", "1 2 3 1 2 3 1 2 3 1 2 1.#QNAN"))))
+                .find("'1.#QNAN'"),
+            std::string::npos);
   EXPECT_NE(refusal(folder.write("d.xdmf", mesh("Tetrahedron", "0 1 2 3", heavy("4 3", "gone.h5:/u")))), "");
   EXPECT_NE(refusal(folder.write("e.xdmf", mesh("Wedge_15", "0 1 2 3", right))).find("Wedge_15"),
             std::string::npos);
