@@ -9,6 +9,7 @@
 #include "common/base/error.h"
 #include "common/load/load.h"
 #include "tests/loaders/case_fixtures.h"
+#include "tests/support/refusal.h"
 
 namespace palpate {
 namespace {
@@ -97,6 +98,28 @@ TEST(Ensight, BinaryGeometryIsRead) {
   Source source = Source::open({{test::write_ensight_binary(folder, 8)}, {}});
   EXPECT_EQ(source.info().blocks.at(0).point_count, 8U);
   EXPECT_EQ(source.info().blocks.at(0).cell_count, 1U);
+}
+
+// VTK's reader looks for the word behind "block" alone.
+TEST(Ensight, BlocksThatSayMoreThanVtkKnowsAreRefused) {
+  const test::TempFolder folder;
+  std::string places;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int p = 0; p < 8; ++p) places += p >> axis & 1 ? "1\n" : "0\n";
+  }
+  const auto opened = [&](const std::string& block, const std::string& after) {
+    folder.write("b.geo", "a\nb\nnode id off\nelement id off\npart\n         1\nx\n" + block +
+                              "\n         2         2         2\n" + places + after);
+    return folder.write("b.case", "FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: b.geo\n");
+  };
+  std::string blanks;
+  for (int p = 0; p < 8; ++p) blanks += "1\n";
+  EXPECT_NO_THROW((void)Source::open({{opened("block", "")}, {}}));
+  EXPECT_NO_THROW((void)Source::open({{opened("block iblanked", blanks)}, {}}));
+  for (const char* word : {"iblanked", "range"}) {
+    const std::string said = test::refusal(opened(std::string("block curvilinear ") + word, blanks));
+    EXPECT_NE(said.find(std::string("'") + word + "'"), std::string::npos) << said;
+  }
 }
 
 TEST(OpenFoam, FolderAndFoamFileGiveTheSameCase) {

@@ -79,8 +79,9 @@ std::size_t file_word(const std::string& section, const std::string& kind, std::
   return section == "VARIABLE" && values && words > 1 ? words : 0;
 }
 
-/// VTK's reader of EnSight 6 takes such cells through their corners, and says nothing.
-void refuse_curved_cells(const std::filesystem::path& pattern) {
+/// What VTK's readers take for something else, and say nothing: curved cells of EnSight 6, through their corners; of Gold the
+/// words behind "block curvilinear", which is the kind of block that none states, too.
+void refuse_misread_geometry(const std::filesystem::path& pattern, bool ensight6) {
   std::filesystem::path path = pattern;
   if (path.filename().string().find('*') != std::string::npos) {
     const auto files = matching_files(path.parent_path(), path.filename().string());
@@ -91,8 +92,22 @@ void refuse_curved_cells(const std::filesystem::path& pattern) {
   const bool binary = read_head(path, kFirstLine).bytes.find("Binary") != std::string::npos;
   std::ifstream lines(path, std::ios::binary);
   for (std::string line; std::getline(lines, line);) {
+    const std::size_t block = ensight6 ? std::string::npos : line.find("block ");
+    if (block != std::string::npos && (block == 0 || binary)) {
+      constexpr std::size_t kLine = 80;
+      const std::string_view words = std::string_view(line).substr(block, kLine);
+      const bool curvilinear = words.starts_with("block curvilinear ");
+      for (const char* const word : {"range", "iblanked", "with_ghost"}) {
+        const bool is_range = std::string_view(word) == "range";
+        if (words.find(word) == std::string_view::npos || (!curvilinear && !is_range)) continue;
+        throw input_error(
+            {path.string(), "",
+             "has a 'block' with '" + std::string(word) + "', which VTK's reader does not know there", "",
+             is_range ? "write the whole block" : "take out 'curvilinear', which says nothing"});
+      }
+    }
     for (const char* const shape : {"tetra10", "hexa20", "penta15", "pyramid13"}) {
-      const std::size_t at = line.find(shape);
+      const std::size_t at = ensight6 ? line.find(shape) : std::string::npos;
       if (at == std::string::npos || (at > 0 && !binary)) continue;
       throw input_error({path.string(), "",
                          std::string("has cells ") + shape + ", of which only corners are read",
@@ -164,7 +179,7 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
       throw input_error({case_file, "", "names the file '" + path.string() + "'",
                          "names without blanks: VTK's reader knows none", "rename or link it"});
     }
-    if (section == "GEOMETRY" && kind == "model" && is_ensight6(text)) refuse_curved_cells(path);
+    if (section == "GEOMETRY" && kind == "model") refuse_misread_geometry(path, is_ensight6(text));
     file = prefix + path.string();
     out += line.substr(0, colon + 1);
     for (const std::string& part : words) out += " " + part;

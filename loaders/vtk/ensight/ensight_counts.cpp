@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/base/text.h"
+#include "loaders/vtk/text_number.h"
 
 namespace palpate {
 namespace {
@@ -70,8 +71,8 @@ std::string in_text(std::string_view file, const EnsightCounts& due) {
                !lowered(line.substr(0, 3)).starts_with("inf")) {
       // The kind of elements; "undef" is followed by the number that stands for none.
       is_head = line.ends_with(" undef");
-    } else if (std::isdigit(static_cast<unsigned char>(line.front())) == 0 &&
-               line.find_first_of("0123456789nNiI") == std::string_view::npos) {
+    } else if (!real_number<double>(line)) {
+      // VTK's reader takes of it what it can, and 0 where there is nothing.
       return "has '" + printable(line.substr(0, 24)) + "' in line " + std::to_string(line_number) +
              ", expected a number";
     } else if (!numbers.empty()) {
@@ -110,7 +111,12 @@ std::string ensight6_counts_problem(std::string_view text, std::size_t values) {
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back())) != 0) line.remove_suffix(1);
     if (line_number == 0 || line.empty()) continue;
     if (is_letter(trimmed(line).front())) return {};  // parts of their own
-    numbers += (line.size() + kColumns - 1) / kColumns;
+    for (; !line.empty(); line.remove_prefix(std::min(kColumns, line.size())), ++numbers) {
+      const std::string_view word = trimmed(line.substr(0, kColumns));
+      if (!real_number<double>(word))
+        return "has '" + printable(word) + "' in line " + std::to_string(line_number + 1) +
+               ", expected a number";
+    }
   }
   if (numbers == values) return {};
   return "has " + std::to_string(numbers) + " numbers, expected " + std::to_string(values);
