@@ -244,7 +244,9 @@ void check_appended(std::string_view data, bool base64, Context& context) {
   BinaryArray there;
   for (const Appended& array : context.appended) {
     if (array.bytes == std::uint64_t{0}) continue;
-    // Arrays of several pieces or times may be one in the file.
+    // An array of several pieces or times may be one in the file; two of other names are a slip of who wrote it.
+    if (before != nullptr && array.offset == before->offset && array.name != before->name)
+      throw Broken{words(*before) + " and array '" + array.name + "' are the same bytes"};
     if (before == nullptr || array.offset != before->offset) {
       if (before != nullptr && there.size > array.offset - before->offset)
         throw Broken{words(*before) + " reaches into " + words(array)};

@@ -297,6 +297,18 @@ TEST(XmlScan, EveryBinaryArrayMustBeThereAsFarAsItsHeaderSays) {
   }
 }
 
+TEST(XmlScan, ArraysAtOneOffsetAreRefusedWhereTheirNamesDiffer) {
+  std::string text = triangles({.appended = true, .base64 = false}, "", 0);
+  const std::string offset = "offset=\"";
+  const std::size_t x = text.find(offset, text.find("\"x\"")) + offset.size(),
+                    p = text.find(offset, text.find("\"p\"")) + offset.size();
+  ASSERT_LT(std::max(x, p), text.size());
+  const std::string of_x = text.substr(x, text.find('"', x) - x),
+                    of_p = text.substr(p, text.find('"', p) - p);
+  text.replace(p, of_p.size(), of_x);
+  EXPECT_NE(scan_xml(text).problem.find("are the same bytes"), std::string::npos) << scan_xml(text).problem;
+}
+
 TEST(XmlScan, RawDataMayEndWithBlanks) {
   std::string text = triangles({.appended = true, .base64 = false}, "", 0);
   text.replace(text.find("vv\n  </App"), 2, "\n ");
@@ -409,6 +421,14 @@ TEST(EnsightCounts, OneNumberTooManyOrTooFewIsFound) {
   std::string stars = gold_vectors(true, 0);
   stars.replace(stars.find(" 1.0"), 12, "************");
   EXPECT_NE(gold_counts_problem(stars, true, both).find("'************' in line 5"), std::string::npos);
+  // What VTK's reader would take for 1, and for 0.1234.
+  for (const char* word : {"1.#QNAN", "1.0D+02", "0.1234-100"}) {
+    std::string wrong = gold_vectors(true, 0);
+    wrong.replace(wrong.find(" 1.0"), 12, word);
+    EXPECT_NE(gold_counts_problem(wrong, true, both).find("'" + std::string(word) + "' in line 5"),
+              std::string::npos);
+    EXPECT_NE(ensight6_counts_problem("flow\n " + std::string(word) + "\n", 1).find(word), std::string::npos);
+  }
   const std::string six =
       "flow\n 1.00000e+00 2.00000e+00 3.00000e+00-1.00000e+00-2.00000e+00-3.00000e+00\n 1.00000e+00\n";
   EXPECT_EQ(ensight6_counts_problem(six, 7), "");
