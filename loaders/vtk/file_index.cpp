@@ -87,7 +87,8 @@ std::vector<Entry> read_pvd(const std::filesystem::path& file, std::string_view 
     if (tag.name == "VTKFile" && tag.closes) complete = true;
     if (tag.name != "DataSet" || !tag.opens) continue;
     const std::string& time = tag.at("timestep");
-    const auto value = time.empty() ? std::optional<double>(0.0) : number_of(time);
+    const bool stated = tag.attributes.contains("timestep");
+    const auto value = stated ? number_of(time) : std::optional<double>(0.0);
     if (!value) throw input_error({file.string(), "", "timestep=\"" + time.substr(0, 40) + "\"", "a number"});
     entries.push_back({*value, tag.at("file"), tag.at("name"), tag.at("part") + "/" + tag.at("group")});
     if (entries.size() > kMaxPieces) throw input_error({file.string(), "", "names too many files"});

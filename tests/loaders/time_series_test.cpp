@@ -68,6 +68,20 @@ TEST(TimeSeries, PvdListsItsStepsInTheOrderOfTime) {
   EXPECT_THROW((void)source.read({"t"}, 2), Error);
 }
 
+TEST(TimeSeries, ATimeThatIsNoNumberIsNotTakenForZero) {
+  const test::TempFolder folder;
+  write_state(folder.path("a.vti"), 1.0);
+  const auto list = [&](const std::string& time) {
+    return folder.write("a.pvd", "<VTKFile type=\"Collection\"><Collection><DataSet " + time +
+                                     "file=\"a.vti\"/></Collection></VTKFile>");
+  };
+  EXPECT_NO_THROW((void)Source::open({{list("")}, {}}));
+  for (const char* time : {"", " ", "1.0d0", "0,5", "nan"}) {
+    SCOPED_TRACE(time);
+    EXPECT_THROW((void)Source::open({{list("timestep=\"" + std::string(time) + "\" ")}, {}}), Error);
+  }
+}
+
 TEST(TimeSeries, SeriesFilesAreReadLikePvd) {
   const test::TempFolder folder;
   write_state(folder.path("a0.vti"), 1.0);
