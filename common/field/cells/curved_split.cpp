@@ -190,6 +190,21 @@ class CurvedSplitter {
     }
   }
 
+  /// The most at the places of the nodes. Control points of Bezier cells have more than the cell itself.
+  double largest_in(const DataSet& block, const Cell& cell) {
+    std::vector<double> weights;
+    double largest = 0.0;
+    for (const Vec3& xi : cell.shape->cell->nodes()) {
+      cell.shape->cell->weights(xi, weights);
+      Vec3 sum{0.0};
+      for (const auto& [node, weight] : sum_of(weights))
+        sum += weight * value_(block, as_size(cell.nodes[node]));
+      const double size = glm::length(sum);
+      if (size > largest && std::isfinite(size)) largest = size;
+    }
+    return largest;
+  }
+
   /// 3/2 of the most that linear interpolation along edges of the lattice is off in their middles.
   double bound(const DataSet& block, const Cell& cell, int n) {
     const CurvedCell& polynomial = *cell.shape->cell;
@@ -240,10 +255,7 @@ class CurvedSplitter {
         const Cell cell = cell_of(*cells, c);
         if (cell.shape == nullptr || next++ % stride != 0) continue;
         sampled.push_back({&block, cell});
-        for (const std::int64_t p : cell.nodes) {
-          const double size = glm::length(value_(block, as_size(p)));
-          if (size > largest && std::isfinite(size)) largest = size;
-        }
+        largest = std::max(largest, largest_in(block, cell));
       }
     }
     for (const Sampled& s : sampled) most = std::max(most, bound(*s.block, s.cell, order_));

@@ -18,8 +18,12 @@
 namespace palpate {
 namespace {
 
+constexpr std::uint8_t kLagrange = 72, kBezier = 79;
+
 /// Three cells of 27 nodes in a row over [-1, 2] x [-1, 1] x [0, 1].
-std::shared_ptr<const VectorField> channel(const std::function<Vec3(const Vec3&)>& value) {
+/// @param value at a node; of Bezier cells at a control point.
+std::shared_ptr<const VectorField> channel(const std::function<Vec3(const Vec3&)>& value,
+                                           std::uint8_t type = kLagrange) {
   const auto cell = CurvedCell::make(72, 27);
   UnstructuredTopology topology{.positions = {}, .types = {}, .offsets = {0}, .connectivity = {}};
   std::vector<double> position, values;
@@ -30,7 +34,7 @@ std::shared_ptr<const VectorField> channel(const std::function<Vec3(const Vec3&)
       position.insert(position.end(), {x.x, x.y, x.z});
       values.insert(values.end(), {v.x, v.y, v.z});
     }
-    topology.types.push_back(72);
+    topology.types.push_back(type);
     topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
   }
   topology.positions = make_array("points", Association::kPoint, 3, std::span<const double>(position));
@@ -41,8 +45,7 @@ std::shared_ptr<const VectorField> channel(const std::function<Vec3(const Vec3&)
   return make_vector_field({block}, choose_vector({info}, "velocity", "channel"), "channel");
 }
 
-TEST(CurvedLines, ErrorsIncludeWhatLinearPartsAreOff) {
-  const auto field = channel([](const Vec3& x) { return Vec3(1.0 - x.y * x.y, 0.0, 0.0); });
+void expect_channel(const VectorField& field) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> one(-0.9, 0.9);
   std::vector<Vec3> from;
@@ -55,7 +58,7 @@ TEST(CurvedLines, ErrorsIncludeWhatLinearPartsAreOff) {
     options.integrator = integrator;
     options.threads = 1;
     double most = 0.0;
-    for (const Line& line : trace_lines(*field, from, options).lines) {
+    for (const Line& line : trace_lines(field, from, options).lines) {
       EXPECT_EQ(line.end, End::kLeftDomain) << name_of(line.end);
       const Vec3& seed = from[line.seed];
       for (const LinePoint& point : line.points) {
@@ -68,6 +71,15 @@ TEST(CurvedLines, ErrorsIncludeWhatLinearPartsAreOff) {
     }
     EXPECT_GT(most, 1e-6);  // there is something to be stated
   }
+}
+
+TEST(CurvedLines, ErrorsIncludeWhatLinearPartsAreOff) {
+  expect_channel(*channel([](const Vec3& x) { return Vec3(1.0 - x.y * x.y, 0.0, 0.0); }));
+}
+
+// The control point in the middle has twice the speed that the cell has there.
+TEST(CurvedLines, ErrorsOfBezierCellsAreThoseOfTheirValuesNotOfTheirControlPoints) {
+  expect_channel(*channel([](const Vec3& x) { return Vec3(x.y == 0.0 ? 2.0 : 0.0, 0.0, 0.0); }, kBezier));
 }
 
 TEST(CurvedLines, LinearFieldsAreAsExactAsInLinearCells) {
