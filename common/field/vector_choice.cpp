@@ -28,6 +28,11 @@ bool means_velocity(const std::string& name) {
   return name.find("veloc") != std::string::npos || std::ranges::find(kWords, name) != kWords.end();
 }
 
+/// The flow's own rather than that of a grid, a wall or waves.
+bool is_plain_velocity(const std::string& name) {
+  return means_velocity(name) && (name.starts_with("veloc") || name.find("veloc") == std::string::npos);
+}
+
 bool means_momentum(const std::string& name) {
   static constexpr std::array<std::string_view, 4> kWords{"rhou", "rhov", "rhouvw", "rhovel"};
   return name.find("moment") != std::string::npos || std::ranges::find(kWords, name) != kWords.end();
@@ -88,6 +93,7 @@ std::string stem_name(const std::string& stem) {
 struct Candidate {
   VectorChoice choice;
   bool velocity = false;  ///< its name means velocity
+  bool plain = false;     ///< and that alone
   bool real = true;       ///< floating point
   std::size_t order = 0;  ///< place in the file
 };
@@ -156,8 +162,9 @@ std::string list_of(const std::vector<VectorChoice>& choices) {
 
 std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
   std::vector<Candidate> found;
-  const auto add = [&found](VectorChoice choice, bool velocity, bool real, std::size_t order) {
-    found.push_back({std::move(choice), velocity, real, order});
+  const auto add = [&found](VectorChoice choice, bool velocity, bool real, std::size_t order,
+                            bool is_plain = true) {
+    found.push_back({std::move(choice), velocity, is_plain, real, order});
   };
 
   for (std::size_t i = 0; i < arrays.size(); ++i) {
@@ -165,7 +172,7 @@ std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
     // Three bytes are a colour.
     if (array.components != 3 || array.type == ScalarType::kUint8) continue;
     add({VectorChoice::Kind::kArray, array.association, {array.name}, array.name},
-        means_velocity(plain(array.name)), is_real(array.type), i);
+        means_velocity(plain(array.name)), is_real(array.type), i, is_plain_velocity(plain(array.name)));
   }
 
   const std::vector<Triple> triples = component_triples(arrays);
@@ -175,7 +182,8 @@ std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
     for (const ArrayInfo* array : triple.arrays) choice.arrays.push_back(array->name);
     const bool velocity = means_velocity(triple.name) ||
                           (triple.uvw && (triple.name.empty() || is_kind_of_velocity(triple.name)));
-    add(std::move(choice), velocity, is_real(triple.arrays[0]->type), triple.order);
+    add(std::move(choice), velocity, is_real(triple.arrays[0]->type), triple.order,
+        triple.name.empty() || is_plain_velocity(triple.name));
   }
 
   // Momentum over density is a velocity by its meaning.
@@ -210,7 +218,7 @@ std::vector<VectorChoice> vector_choices(const std::vector<ArrayInfo>& arrays) {
   }
 
   const auto rank = [](const Candidate& c) {
-    return std::tuple(!c.velocity, !c.real, c.choice.kind, c.choice.association, c.order);
+    return std::tuple(!c.velocity, !c.real, c.choice.kind, c.choice.association, !c.plain, c.order);
   };
   std::ranges::stable_sort(found, [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
 

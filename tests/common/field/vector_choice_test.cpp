@@ -76,6 +76,12 @@ TEST(VectorChoice, ArraysOfDifferentLengthOrPlaceAreNoComponents) {
   EXPECT_TRUE(vector_choices({points("VX", 1), points("VY", 1), shorter}).empty());
 }
 
+TEST(VectorChoice, TheVelocityOfAGridIsNotThatOfTheFlow) {
+  EXPECT_EQ(chosen({points("GridVelocity", 3), points("Velocity", 3)}), "Velocity");
+  EXPECT_EQ(chosen({points("angular velocity", 3), points("B", 3), points("U", 3)}), "U");
+  EXPECT_EQ(chosen({points("fluid velocity", 3), points("B", 3)}), "fluid velocity");
+}
+
 TEST(VectorChoice, ColoursAreNoVectors) {
   EXPECT_TRUE(vector_choices({points("RGB", 3, ScalarType::kUint8)}).empty());
 }
