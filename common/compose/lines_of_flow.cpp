@@ -60,7 +60,8 @@ void check_lines(const TracingOptions& tracing, const SeedSpec& seeds) {
   (void)time_order_from_name(tracing.time_order);
   if (kind == LineKind::kTimelines && !std::holds_alternative<SeedList>(seeds))
     throw usage_error(
-        "timelines join neighbouring seeds: give seeds in a row, --seeds line:x,y,z,x,y,z,n or a file");
+        "timelines join neighbouring seeds: give seeds in a row, --seeds line:x,y,z,x,y,z,n or a file (in the "
+        "window: seeds, row along x)");
 }
 
 LinesOfFlow trace_flow(Input& input, const VectorField& field, std::span<const Vec3> seeds,
