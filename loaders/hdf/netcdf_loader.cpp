@@ -58,16 +58,24 @@ class Attributes {
     }
     return false;
   }
-  /// What VTK's reader fails at, with what to do, or nothing: an axis longer than the file can fill, for which it makes places, and
-  /// variables along a fourth axis that is not told to be time.
+  /// What VTK's reader fails at, with what to do, or nothing: an axis without places that has a variable, one longer than the file can
+  /// fill, for which it makes places, and variables along a fourth axis that is not told to be time.
   [[nodiscard]] std::optional<std::array<std::string, 2>> problem(std::uint64_t file_size) const {
     constexpr std::uint64_t kMostPacked = 1100;  // deflate makes no more of a byte
     int axes = 0, variables = 0;
     if (!opened_ || nc_inq(file_, &axes, &variables, nullptr, nullptr) != NC_NOERR) return std::nullopt;
     for (int axis = 0; axis < axes; ++axis) {
       std::size_t length = 0;
-      if (nc_inq_dimlen(file_, axis, &length) != NC_NOERR || length / kMostPacked <= file_size) continue;
-      return {{"has an axis '" + name_of_axis(axis) + "' of " + std::to_string(length) + " places",
+      if (nc_inq_dimlen(file_, axis, &length) != NC_NOERR) continue;
+      const std::string name = name_of_axis(axis);
+      int of_axis = 0;
+      if (length == 0 && nc_inq_varid(file_, name.c_str(), &of_axis) == NC_NOERR) {
+        return {{"has no place along '" + printable(name) + "'",
+                 "of a run that has written nothing yet; 'ncks -x -v " + printable(name) +
+                     "' leaves out what it says of that axis"}};
+      }
+      if (length / kMostPacked <= file_size) continue;
+      return {{"has an axis '" + printable(name) + "' of " + std::to_string(length) + " places",
                "the file may be damaged"}};
     }
     for (int id = 0; id < variables; ++id) {

@@ -63,6 +63,9 @@ double never_written(nc_type type) {
   }
 }
 
+/// By which a whole number may be off when it is unpacked.
+constexpr double kOfWhole = 0.25;
+
 /// Of a signed type, the count of its numbers; 0 for others.
 double size_of(nc_type type) {
   constexpr double kByte = 0x1p8, kShort = 0x1p16, kInt = 0x1p32;
@@ -111,6 +114,7 @@ NetcdfValues::NetcdfValues(int file, int variable)
     highest_ = stored(range, range.values[1]);
   }
   if (scale_ < 0.0 && !real && (low.real || high.real || range.real)) std::swap(lowest_, highest_);
+  signed_byte_ = type == NC_BYTE && !is_unsigned(file, variable);
   if (is_unsigned(file, variable)) {
     around_ = size_of(type);
     // The marks are those of numbers without a sign, too.
@@ -122,7 +126,6 @@ NetcdfValues::NetcdfValues(int file, int variable)
 }
 
 bool NetcdfValues::is_none(double stored) const noexcept {
-  constexpr double kOfWhole = 0.25;
   const auto slack = [&](double mark) { return relative_ > 0.0 ? relative_ * std::abs(mark) : kOfWhole; };
   if (std::isfinite(lowest_) && stored < lowest_ - slack(lowest_)) return true;
   if (std::isfinite(highest_) && stored > highest_ + slack(highest_)) return true;
@@ -140,6 +143,10 @@ DataArray NetcdfValues::marked(const DataArray& array) const {
     if (around_ > 0.0 && stored < -0.5) {
       stored += around_;
       meant += scale_ * around_;
+    }
+    if (constexpr double kBytes = 0x1p8; signed_byte_ && stored >= 0.5 * kBytes - kOfWhole) {
+      stored -= kBytes;
+      meant -= scale_ * kBytes;
     }
     if (is_none(stored)) meant = std::numeric_limits<double>::quiet_NaN();
     if (values.empty()) {

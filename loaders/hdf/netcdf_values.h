@@ -17,8 +17,8 @@ class NetcdfValues {
   NetcdfValues(int file, int variable);
 
   /// The array with NaN for what `_FillValue`, `missing_value`, `valid_min`, `valid_max` and `valid_range` leave out, or
-  /// what was never written; and with 2^8, 2^16 … added to negative numbers of a variable that is `_Unsigned`. The same
-  /// array where nothing is to do. @param array as VTK reads the variable.
+  /// what was never written; with 2^8, 2^16 … added to negative numbers of a variable that is `_Unsigned`; and bytes with
+  /// their sign, which VTK's reader takes from them. The same array where nothing is to do. @param array as VTK reads the variable.
   [[nodiscard]] DataArray marked(const DataArray& array) const;
 
  private:
@@ -28,6 +28,7 @@ class NetcdfValues {
   double scale_ = 1.0, offset_ = 0.0;
   double relative_ = 0.0;  ///< by which two stored numbers may differ and are the same; 0: whole numbers
   double around_ = 0.0;    ///< what is added to negative ones; 0: nothing
+  bool signed_byte_ = false;
   double lowest_, highest_;
   std::vector<double> none_;
 };

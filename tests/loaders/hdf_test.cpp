@@ -1,5 +1,6 @@
 // CGNS and netCDF: fields and times beyond the single cells of flow_matrix_test, and damaged files.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -307,6 +308,7 @@ class ClassicFile {
     std::vector<std::pair<std::string, double>> numbers = {};
     bool is_short = false;     ///< 16 bits, else double
     bool real_limits = false;  ///< attributes of shorts are doubles
+    bool is_byte = false;      ///< 8 bits
   };
   std::vector<std::pair<std::string, std::uint32_t>> dimensions;
   std::vector<Variable> variables;
@@ -323,7 +325,9 @@ class ClassicFile {
     for (const Variable& v : variables) {
       const std::size_t end = out.size() + size_of(v);
       for (const double value : v.values)
-        out += v.is_short ? raw(static_cast<std::int16_t>(value), true) : raw(value, true);
+        out += v.is_byte    ? raw(static_cast<std::int8_t>(value), true)
+               : v.is_short ? raw(static_cast<std::int16_t>(value), true)
+                            : raw(value, true);
       out.resize(end);
     }
     return out;
@@ -331,14 +335,16 @@ class ClassicFile {
 
  private:
   static std::size_t size_of(const Variable& v) {
-    return v.is_short ? (2 * v.values.size() + 3) / 4 * 4 : 8 * v.values.size();
+    return v.is_byte    ? (v.values.size() + 3) / 4 * 4
+           : v.is_short ? (2 * v.values.size() + 3) / 4 * 4
+                        : 8 * v.values.size();
   }
   static std::string number(std::size_t value) { return raw(static_cast<std::uint32_t>(value), true); }
   static std::string name_of(const std::string& name) {
     return number(name.size()) + name + std::string((4 - name.size() % 4) % 4, '\0');
   }
   [[nodiscard]] std::string header(const std::vector<std::uint32_t>& begins) const {
-    constexpr std::size_t kDimension = 10, kVariable = 11, kAttribute = 12, kChar = 2, kShort = 3,
+    constexpr std::size_t kDimension = 10, kVariable = 11, kAttribute = 12, kByte = 1, kChar = 2, kShort = 3,
                           kDouble = 6;
     std::string out = std::string("CDF\1", 4) + number(0) + number(kDimension) + number(dimensions.size());
     for (const auto& [name, length] : dimensions) out += name_of(name) + number(length);
@@ -357,7 +363,10 @@ class ClassicFile {
             name_of(name) + number(packed ? kShort : kDouble) + number(1) +
             (packed ? raw(static_cast<std::int16_t>(value), true) + std::string(2, '\0') : raw(value, true));
       }
-      out += number(variable.is_short ? kShort : kDouble) + number(size_of(variable)) + number(begins[v]);
+      out += number(variable.is_byte    ? kByte
+                    : variable.is_short ? kShort
+                                        : kDouble) +
+             number(size_of(variable)) + number(begins[v]);
     }
     return out;
   }
@@ -495,6 +504,42 @@ TEST(Netcdf, NumbersWithoutASignAreNotNegative) {
   EXPECT_EQ(u->at(0), 32767.0);
   EXPECT_TRUE(std::isnan(u->at(1)));
   EXPECT_EQ(u->at(2), 20.0);
+}
+
+// VTK's reader takes bytes for numbers without a sign.
+TEST(Netcdf, BytesHaveASignUnlessTheySayOtherwise) {
+  for (const bool has_sign : {true, false}) {
+    ClassicFile file = ocean("m");
+    for (ClassicFile::Variable& variable : file.variables) {
+      if (variable.name != "u") continue;
+      if (!has_sign) variable.words = {{"_Unsigned", "true"}};
+      variable.numbers = {{"scale_factor", 0.5}, {"add_offset", 3.0}};
+      variable.is_byte = true;
+      for (std::size_t i = 0; i < variable.values.size(); ++i) variable.values[i] = 40.0;
+      variable.values[0] = -2.0;
+      variable.values[1] = -128.0;
+    }
+    const TempFolder folder;
+    Source source = Source::open({{folder.write("a.nc", file.bytes())}, {}});
+    const auto blocks = source.read({"u"});
+    const DataArray* const u = blocks.at(0).find("u", Association::kPoint);
+    ASSERT_NE(u, nullptr);
+    EXPECT_EQ(u->at(0), has_sign ? 2.0 : 130.0);
+    EXPECT_EQ(u->at(1), has_sign ? -61.0 : 67.0);
+    EXPECT_EQ(u->at(2), 23.0);
+  }
+}
+
+// An axis that has a variable and no place ends VTK's reader.
+TEST(Netcdf, AxesWithoutPlacesAreRefused) {
+  ClassicFile file = ocean("m");
+  const std::string name = file.dimensions[0].first;
+  file.dimensions[0].second = 0;  // of records, of which there are none, and which stand behind the rest
+  std::ranges::stable_partition(file.variables,
+                                [](const ClassicFile::Variable& v) { return v.dimensions.front() != 0; });
+  const TempFolder folder;
+  const std::string why = refusal(folder.write("a.nc", file.bytes()));
+  EXPECT_NE(why.find("no place along '" + name + "'"), std::string::npos) << why;
 }
 
 TEST(Netcdf, DegreesAndDaysAreWarnedOf) {
