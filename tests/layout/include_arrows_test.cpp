@@ -72,8 +72,10 @@ bool allowed(const std::string& from, const std::string& to) {
   if (from.starts_with("common/")) return to_common && closure(from.substr(7)).count(to.substr(7)) > 0;
   if (from.starts_with("loaders/")) {
     // Helpers of their own for other libraries of VTK's, and what guards HDF5's files.
-    static const std::set<std::pair<std::string, std::string>> kBetween{
-        {"loaders/cfd", "loaders/vtk"}, {"loaders/hdf", "loaders/vtk"}, {"loaders/xdmf", "loaders/hdf"}};
+    static const std::set<std::pair<std::string, std::string>> kBetween{{"loaders/cfd", "loaders/vtk"},
+                                                                        {"loaders/hdf", "loaders/vtk"},
+                                                                        {"loaders/xdmf", "loaders/hdf"},
+                                                                        {"loaders/xdmf", "loaders/vtk"}};
     if (kBetween.contains({from, to})) return true;
     const std::set<std::string> loader_may = [] {
       std::set<std::string> s = closure("field");
