@@ -158,6 +158,18 @@ class CgnsTree {
   Hdf5File file_;
 };
 
+inline constexpr int kNx = 4, kNy = 3, kNz = 2;  // points of a lattice
+
+inline std::vector<Vec3> lattice() {
+  std::vector<Vec3> out;
+  for (int k = 0; k < kNz; ++k) {
+    for (int j = 0; j < kNy; ++j) {
+      for (int i = 0; i < kNx; ++i) out.emplace_back(0.5 * i, 1.0 * j, 2.0 * k);
+    }
+  }
+  return out;
+}
+
 inline std::vector<double> along(const std::vector<Vec3>& all, int axis) {
   std::vector<double> out;
   for (const Vec3& v : all) out.push_back(v[axis]);
