@@ -122,7 +122,7 @@ class QuadControlled : private QuadLanes<T> {
   void step(unsigned lanes, TractPart& part) {
     const double spacing = this->rules_.limits().spacing, tolerance = this->rules_.options().tolerance;
     const double shortest = TractStep::kShortest * spacing;
-    std::array<double, 4> lengths{}, errors, taken{};
+    std::array<double, 4> lengths{}, errors, rests, taken{};
     for (unsigned lane = 0; lane < 4; ++lane) {
       if ((lanes & bit(lane)) == 0) continue;
       step_[lane] = std::clamp(step_[lane], shortest, TractStep::kLongest * spacing);
@@ -145,6 +145,10 @@ class QuadControlled : private QuadLanes<T> {
     rk.finish(slope);
     const PackedVectors differ = rk.error();
     sqrt(dot(differ, differ)).store(errors.data());
+    // Slopes are those over whole steps.
+    SlopeRest<Tableau>::square(rk.k, [](const PackedVectors& a, const PackedVectors& b) {
+      return dot(a, b);
+    }).store(rests.data());
     rk.end.store(end_);
     for (unsigned lane = 0; lane < 4; ++lane) {
       if ((lanes & bit(lane)) == 0) continue;
@@ -155,7 +159,8 @@ class QuadControlled : private QuadLanes<T> {
         continue;
       }
       const double h = lengths[lane];
-      errors[lane] = faces_[lane].counted(Base::get(here_, lane), Base::get(end_, lane), h, errors[lane]);
+      errors[lane] = faces_[lane].counted(Base::get(here_, lane), Base::get(end_, lane), h, errors[lane],
+                                          rests[lane] / (h * h));
       const auto verdict = control_[lane].judge(errors[lane] / (tolerance * h));
       const double proposed = h * verdict.factor;
       if (!verdict.accepted && h > shortest) {

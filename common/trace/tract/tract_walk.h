@@ -122,7 +122,9 @@ class TractWalk {
         step_ = 0.25 * h;
         continue;
       }
-      const double error = faces_->counted(here_.position, rk_.end, h, glm::length(rk_.error()));
+      const double rest =
+          SlopeRest<Tableau>::square(rk_.k, [](const Vec3& a, const Vec3& b) { return glm::dot(a, b); });
+      const double error = faces_->counted(here_.position, rk_.end, h, glm::length(rk_.error()), rest);
       const StepControl::Verdict verdict = control_.judge(error / (tolerance_ * h));
       const double proposed = h * verdict.factor;
       if (!verdict.accepted && h > shortest) {
