@@ -13,6 +13,7 @@
 #include "common/field/local_frame.h"
 #include "common/geometry/line.h"
 #include "common/trace/trace.h"
+#include "common/trace/walk/walk_state.h"
 
 namespace palpate {
 
@@ -69,6 +70,22 @@ class LineBuilder {
   /// Closes the line where the tracer ended it.
   void finish(End end);
 
+  /// @name A part of a line, from where it came to where it goes on
+  /// @{
+  /// What the next part needs.
+  void save(StateWriter& out) const {
+    each_member(*this, out);
+    out(line_.points.back());
+  }
+  /// Begins a part whose first point is the last one before it. @pre no stop rules.
+  void restore(StateReader& in) {
+    each_member(*this, in);
+    line_.points.resize(1);
+    in(line_.points.front());
+  }
+  [[nodiscard]] std::size_t point_count() const noexcept { return line_.points.size(); }
+  /// @}
+
   [[nodiscard]] const LinePoint& last() const noexcept { return last_; }
   [[nodiscard]] std::int64_t steps() const noexcept { return steps_; }
   /// Why the line is closed. @pre it is.
@@ -77,6 +94,11 @@ class LineBuilder {
   [[nodiscard]] Line take() const { return line_; }
 
  private:
+  template <class Self, class Archive>
+  static void each_member(Self& self, Archive& archive) {
+    archive(self.last_, self.next_event_arc_, self.next_output_arc_, self.steps_);
+  }
+
   static constexpr double kStraight =
       0.97;  ///< cosine of 14 degrees: a piece that turns more gets points inside
   static constexpr double kPointAngle = 0.2;  ///< [rad] between the points inside a turning piece

@@ -15,10 +15,7 @@
 #include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
-#include "common/trace/exact/exact_walk.h"
-#include "common/trace/line_builder.h"
-#include "common/trace/loop_detector.h"
-#include "common/trace/walk/walk_factory.h"
+#include "common/trace/line_tracer.h"
 
 namespace palpate {
 namespace {
@@ -34,25 +31,8 @@ bool fixed_step(Integrator integrator) {
 }
 
 /// Follows one line to its end.
-void follow(LineWalk& walk, LineBuilder& builder, Progress* progress) {
-  LoopDetector loop;
-  loop.start(walk.end(), walk.direction());
-  builder.start(walk.end());
-  for (std::int64_t n = 1;; ++n) {
-    const std::optional<End> ended = walk.advance();
-    if (walk.has_piece()) {
-      const auto closing =
-          ended ? std::nullopt : loop.closes(walk, walk.begin(), walk.end(), walk.direction());
-      if (closing) {
-        builder.add_last(walk, walk.end(), walk.turn_cosine(), closing->theta, closing->why);
-        return;
-      }
-      if (builder.add(walk, walk.end(), walk.turn_cosine())) return;
-    }
-    if (ended) {
-      builder.finish(*ended);
-      return;
-    }
+void follow(LineTracer& tracer, Progress* progress) {
+  for (std::int64_t n = 1; !tracer.advance(); ++n) {
     if (progress != nullptr && n % kStepsBetweenChecks == 0) progress->check();
   }
 }
@@ -135,33 +115,36 @@ Integrator default_integrator(const VectorField& field) noexcept {
   return field.tet_mesh() != nullptr ? Integrator::kExact : Integrator::kDp54;
 }
 
-TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, const TraceOptions& options,
-                        Progress* progress) {
-  TraceResult result;
-  result.integrator = options.integrator.value_or(default_integrator(field));
-  check_options(field, options, result.integrator);
-  const Work work("traced lines",
-                  counted(seeds.size(), "seed") + " by " + std::string(name_of(result.integrator)));
-  Stopwatch watch;
-  if (progress != nullptr) progress->begin("preparing", 0);
+LineTracing::LineTracing(const VectorField& field, const TraceOptions& options)
+    : field_(field), integrator_(options.integrator.value_or(default_integrator(field))) {
+  check_options(field, options, integrator_);
   const LocalFrame& frame = field.frame();
   const double to_local = power_of_two(-frame.length_exponent);
   const double diagonal = field.diagonal() * to_local;
-  LineLimits limits;
-  limits.max_error = diagonal;
-  limits.max_length = options.max_length > 0.0 ? options.max_length * to_local : kDefaultLength * diagonal;
+  limits_.max_error = diagonal;
+  limits_.max_length = options.max_length > 0.0 ? options.max_length * to_local : kDefaultLength * diagonal;
   if (options.max_time > 0.0) {
-    limits.max_time = options.max_time * power_of_two(frame.speed_exponent - frame.length_exponent);
+    limits_.max_time = options.max_time * power_of_two(frame.speed_exponent - frame.length_exponent);
   }
-  limits.max_steps = options.max_steps;
-  limits.rules = options.stop_rules;
-  const bool fixed = fixed_step(result.integrator);
-  if (!fixed) limits.spacing = options.step * to_local;
+  limits_.max_steps = options.max_steps;
+  limits_.rules = options.stop_rules;
+  if (!fixed_step(integrator_)) limits_.spacing = options.step * to_local;
   WalkSettings settings;
   settings.tolerance = options.tolerance;
   settings.rest_distance = std::min(options.tolerance, kLoosestRest) * diagonal;
   settings.fixed_step = options.step > 0.0 ? options.step * to_local : default_fixed_step(field);
-  const WalkFactory factory(field, result.integrator, settings, options.threads);
+  factory_.emplace(field, integrator_, settings, options.threads);
+}
+
+TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, const TraceOptions& options,
+                        Progress* progress) {
+  TraceResult result;
+  result.integrator = options.integrator.value_or(default_integrator(field));
+  const Work work("traced lines",
+                  counted(seeds.size(), "seed") + " by " + std::string(name_of(result.integrator)));
+  Stopwatch watch;
+  if (progress != nullptr) progress->begin("preparing", 0);
+  const LineTracing tracing(field, options);
   result.seconds_prepare = watch.seconds();
 
   watch.restart();
@@ -172,26 +155,22 @@ TraceResult trace_lines(const VectorField& field, std::span<const Vec3> seeds, c
   std::atomic<std::int64_t> steps{0}, stiff_steps{0};
   std::vector<std::size_t> batch;
   const auto trace_batch = [&](std::size_t first, std::size_t last) {
-    struct Tracer {
-      std::unique_ptr<LineWalk> walk;
-      LineBuilder builder;
-    };
-    std::array<std::optional<Tracer>, 2> tracers;
+    std::array<std::optional<LineTracer>, 2> tracers;
     for (std::size_t i = first; i < last; ++i) {
       const std::size_t seed = batch[i];
       if (progress != nullptr) progress->check();
-      const Vec3 x = frame.local_from_data(seeds[seed]);
+      const Vec3 x = field.frame().local_from_data(seeds[seed]);
       std::size_t slot = seed * per_seed;
       for (const TraceDirection direction : {TraceDirection::kForward, TraceDirection::kBackward}) {
         const bool forward = direction == TraceDirection::kForward;
         if (!(forward ? options.forward : options.backward)) continue;
-        std::optional<Tracer>& tracer = tracers[forward ? 0 : 1];
-        if (!tracer) tracer.emplace(Tracer{factory.make(direction), LineBuilder(frame, limits, direction)});
-        if (!is_finite(x) || !tracer->walk->start(x)) break;
-        follow(*tracer->walk, tracer->builder, progress);
-        steps.fetch_add(tracer->builder.steps(), std::memory_order_relaxed);
-        stiff_steps.fetch_add(tracer->walk->stiff_steps(), std::memory_order_relaxed);
-        lines[slot] = tracer->builder.take();
+        std::optional<LineTracer>& tracer = tracers[forward ? 0 : 1];
+        if (!tracer) tracer.emplace(tracing.tracer(direction));
+        if (!tracer->start(x)) break;
+        follow(*tracer, progress);
+        steps.fetch_add(tracer->steps(), std::memory_order_relaxed);
+        stiff_steps.fetch_add(tracer->stiff_steps(), std::memory_order_relaxed);
+        lines[slot] = tracer->line();
         lines[slot].seed = static_cast<std::uint32_t>(seed);
         ++slot;
         inside[seed] = 1;

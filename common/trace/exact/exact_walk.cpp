@@ -57,6 +57,15 @@ bool ExactWalk::start(const Vec3& seed) {
   return true;
 }
 
+void ExactWalk::save(StateWriter& out) const { each_member(*this, out); }
+
+void ExactWalk::restore(StateReader& in) {
+  each_member(*this, in);
+  has_piece_ = false;
+  modes_.reset();
+  if (loaded_) enter_cell();
+}
+
 std::optional<End> ExactWalk::advance() {
   has_piece_ = false;
   work_ = 1;

@@ -25,6 +25,11 @@ class ExactWalk final : public LineWalk {
   [[nodiscard]] bool start(const Vec3& seed) override;
   [[nodiscard]] std::optional<End> advance() override;
   [[nodiscard]] LinePoint at(double theta) const override;
+  [[nodiscard]] std::int64_t cell() const override { return cell_index_; }
+  /// Modes stay where they were made; a line that has left their cell needs them no more.
+  [[nodiscard]] bool movable() const override { return !modes_ || exit_face_ >= 0; }
+  void save(StateWriter& out) const override;
+  void restore(StateReader& in) override;
   /// Pieces that took the robust path, and cells that took it with twice the digits. Tests see by these which path
   /// a line took: both give the same line.
   [[nodiscard]] std::int64_t robust_pieces() const noexcept { return robust_pieces_; }
@@ -53,6 +58,14 @@ class ExactWalk final : public LineWalk {
     std::array<Pack4, 4> velocity;  ///< at the inner nodes of the rule for the arc length, and at the end
     Pack4 speed;                    ///< there
   };
+
+  template <class Self, class Archive>
+  static void each_member(Self& self, Archive& archive) {
+    each_common_member(self, archive);
+    archive(self.cell_index_, self.loaded_, self.b_, self.w_, self.entry_, self.exit_face_,
+            self.pieces_in_cell_, self.rate_at_entry_, self.standing_, self.crossings_, self.moved_,
+            self.seams_standing_, self.robust_piece_, self.error_, self.robust_pieces_, self.long_cells_);
+  }
 
   void enter_cell();
   [[nodiscard]] const TetMesh::Neighbors& neighbors(CellIndex cell) const {

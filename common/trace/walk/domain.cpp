@@ -70,6 +70,12 @@ bool TetDomain::locate(const Vec3& x) {
   return true;
 }
 
+void TetDomain::restore(StateReader& in) {
+  CellIndex cell = kNoCell;
+  in(cell, crossed_seam_, seam_, stuck_, last_seam_);
+  load(cell);
+}
+
 void TetDomain::load(CellIndex cell) {
   cell_ = cell;
   AffineCell affine;

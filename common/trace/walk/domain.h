@@ -21,6 +21,7 @@
 #include "common/math/pack4.h"
 #include "common/trace/exact/exact_walk.h"
 #include "common/trace/walk/tet_crossing.h"
+#include "common/trace/walk/walk_state.h"
 
 namespace palpate {
 
@@ -101,6 +102,18 @@ class BoxDomain : public BoxFaces {
     load();
     return true;
   }
+  /// @name LineWalk::cell(), and what save() keeps of the domain
+  /// @{
+  [[nodiscard]] std::int64_t cell() const {
+    const std::int64_t row = grid_->points().x - 1, column = grid_->points().y - 1;
+    return index_.x + row * (index_.y + column * index_.z);
+  }
+  void save(StateWriter& out) const { out(index_); }
+  void restore(StateReader& in) {
+    in(index_);
+    load();
+  }
+  /// @}
   [[nodiscard]] bool bad() const { return bad_; }
   /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests (exact_mesh.h), else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
@@ -216,6 +229,9 @@ class TetDomain {
   TetDomain(const ExactMesh& mesh, double sign);
 
   [[nodiscard]] bool locate(const Vec3& x);
+  [[nodiscard]] std::int64_t cell() const { return cell_; }
+  void save(StateWriter& out) const { out(cell_, crossed_seam_, seam_, stuck_, last_seam_); }
+  void restore(StateReader& in);
   [[nodiscard]] bool bad() const { return bad_; }
   /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests, else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
@@ -290,6 +306,9 @@ class FormulaDomain : public BoxFaces {
   }
 
   [[nodiscard]] bool locate(const Vec3& x) const { return inside(Pack4{x, 0.0}, -1); }
+  [[nodiscard]] static std::int64_t cell() { return -1; }
+  static void save(StateWriter&) {}
+  static void restore(StateReader&) {}
   [[nodiscard]] static bool bad() { return false; }
   [[nodiscard]] static double rest_speed() { return 0.0; }
   [[nodiscard]] double size() const { return size_; }

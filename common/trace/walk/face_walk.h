@@ -104,6 +104,17 @@ class FaceWalk final : public LineWalk {
     }
   }
 
+  [[nodiscard]] std::int64_t cell() const override { return domain_.cell(); }
+  void save(StateWriter& out) const override {
+    each_member(*this, out);
+    domain_.save(out);
+  }
+  void restore(StateReader& in) override {
+    each_member(*this, in);
+    domain_.restore(in);
+    has_piece_ = false;
+  }
+
   [[nodiscard]] LinePoint at(double theta) const override {
     if (theta <= 0.0) return begin_;
     if (theta >= 1.0) return end_;
@@ -138,6 +149,14 @@ class FaceWalk final : public LineWalk {
   static constexpr int kMaxAttempts = 80;
   static constexpr int kMaxReaimed = 12;  ///< new aims at another face within a step
   static constexpr int kMaxMissed = 16;   ///< aims at a face within a step that did not come near it
+
+  template <class Self, class Archive>
+  static void each_member(Self& self, Archive& archive) {
+    each_common_member(self, archive);
+    archive(self.method_, self.control_, self.error_, self.two_steps_, self.y_, self.k_, self.bend_,
+            self.gradient_, self.slowing_, self.h_, self.entry_, self.pending_face_, self.standing_,
+            self.fresh_, self.stepped_);
+  }
 
   static double magnitude(const Vec3& x) { return std::abs(x.x) + std::abs(x.y) + std::abs(x.z); }
 

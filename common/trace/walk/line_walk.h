@@ -8,6 +8,7 @@
 
 #include "common/geometry/line.h"
 #include "common/trace/line_builder.h"
+#include "common/trace/walk/walk_state.h"
 
 namespace palpate {
 
@@ -21,6 +22,17 @@ class LineWalk : public DensePiece {
   /// Follows the line by one piece. Returns why it ends there, if it does; has_piece() tells whether there is
   /// a (last) piece.
   [[nodiscard]] virtual std::optional<End> advance() = 0;
+
+  /// @name Going on elsewhere: another walk of the same field, options and direction goes on with the same bits
+  /// @{
+  /// The cell of the grid in which the line is: of boxes x first; -1 for a formula.
+  [[nodiscard]] virtual std::int64_t cell() const = 0;
+  /// Whether save() may be asked for after this advance().
+  [[nodiscard]] virtual bool movable() const { return true; }
+  /// Of the last piece nothing but its end is kept.
+  virtual void save(StateWriter& out) const = 0;
+  virtual void restore(StateReader& in) = 0;
+  /// @}
 
   /// The piece of the last advance(): at(theta) is defined on it.
   [[nodiscard]] bool has_piece() const noexcept { return has_piece_; }
@@ -37,6 +49,12 @@ class LineWalk : public DensePiece {
 
  protected:
   LineWalk() = default;
+  /// The state that all walks have.
+  template <class Self, class Archive>
+  static void each_common_member(Self& self, Archive& archive) {
+    archive(self.begin_, self.end_, self.direction_, self.turn_cosine_, self.stiff_steps_);
+  }
+
   LinePoint begin_, end_;
   Vec3 direction_{0.0};
   double turn_cosine_ = 1.0;

@@ -21,6 +21,9 @@ class ShearedDomain {
   }
 
   [[nodiscard]] bool locate(const Vec3& x) { return box_.locate(grid_->along_axes(x)); }
+  [[nodiscard]] std::int64_t cell() const { return box_.cell(); }
+  void save(StateWriter& out) const { box_.save(out); }
+  void restore(StateReader& in) { box_.restore(in); }
   [[nodiscard]] bool bad() const { return box_.bad(); }
   [[nodiscard]] double rest_speed() const { return box_.rest_speed(); }
   [[nodiscard]] double size() const { return box_.size(); }
