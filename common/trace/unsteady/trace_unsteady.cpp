@@ -95,7 +95,9 @@ struct Run {
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const std::size_t step = steps[i];
       const bool even = (step % 2) == (own.front() % 2);
-      if (even || step == own.back()) kept.push_back(step);
+      // Of an odd number of intervals the last three are one, or what the last one costs would not be seen.
+      const bool last_but_one = own.size() % 2 == 0 && step + 1 == own.back();
+      if ((even && !last_but_one) || step == own.back()) kept.push_back(step);
     }
     return kept;
   }

@@ -383,6 +383,21 @@ TEST(Pathlines, DoNotDependOnTheNumberOfThreads) {
               results[1].trace.lines[l].points.back().position);
 }
 
+// Three intervals: without the second step the last would be as it was.
+TEST(Pathlines, StateWhatTheLastOfAnOddNumberOfIntervalsCosts) {
+  const std::vector<double> times{0.0, 0.9, 1.0, 1.9};
+  const UnsteadyResult result =
+      trace_unsteady(times, test::swinging(Grid::kUniform, times), kSeeds, {.trace = {}});
+  double most = 0.0;
+  for (const Line& line : result.trace.lines) {
+    const LinePoint& last = line.points.back();
+    const double off = glm::distance(last.position, SwingingTurn::carried(kSeeds[line.seed], 0.0, last.time));
+    EXPECT_LE(off, last.error) << "seed " << line.seed;
+    most = std::max(most, off);
+  }
+  EXPECT_GT(most, 1e-3) << "there is something to be stated";
+}
+
 TEST(Pathlines, OfTwoStepsDoNotKnowWhatTheSamplingCosts) {
   const std::vector<double> times{0.0, 1.0};
   const UnsteadyResult result =
