@@ -8,7 +8,6 @@
 
 #include <GLFW/glfw3.h>
 
-#include "common/base/clock.h"
 #include "common/render/gl/gpu_objects.h"
 #include "common/render/gl/target.h"
 #include "common/render/png.h"
@@ -70,7 +69,7 @@ WindowResult ExplorerWindow::run() {
     wait_for_events();
     if (options_.stop_requested && options_.stop_requested()) break;
     take_outcome();
-    const bool counted = (scene_ || on_start_page()) && !(options_.frames_wait && jobs_.running());
+    const bool counted = counts();
     if (counted) {
       const std::vector<std::string> missing = inject_script(options_.script, frame_, glfw_.events());
       missing_.insert(missing_.end(), missing.begin(), missing.end());
@@ -132,6 +131,16 @@ void ExplorerWindow::wait_for_events() {
 
 bool ExplorerWindow::lively() const {
   return lively_frames_ > 0 || state_.playing || touch_.lively() || (workbench_ && workbench_->lively());
+}
+
+bool ExplorerWindow::counts() {
+  if ((!scene_ && !on_start_page()) || (options_.frames_wait && jobs_.running())) return false;
+  if (options_.patience > 0.0 && awaits_control(options_.script, frame_)) {
+    if (!awaiting_) awaiting_.emplace();
+    if (awaiting_->seconds() < options_.patience) return false;
+  }
+  awaiting_.reset();
+  return true;
 }
 
 bool ExplorerWindow::closes() {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/clock.h"
 #include "common/hand/probe_session.h"
 #include "common/hand/workbench/workbench_display.h"
 #include "common/render/png.h"
@@ -59,6 +60,8 @@ class ExplorerWindow {
   [[nodiscard]] bool scripted() const { return options_.frames > 0; }
   void wait_for_events();
   [[nodiscard]] bool lively() const;
+  /// Whether this frame is one of those that the script counts.
+  [[nodiscard]] bool counts();
   /// Whether the window is to be closed, and nothing is lost by that or the user has said so.
   [[nodiscard]] bool closes();
   /// @}
@@ -146,7 +149,8 @@ class ExplorerWindow {
   SeriesChoice series_choice_;
   bool start_asked_ = false;  // though something is open
   int frame_ = 0, lively_frames_ = 3;
-  std::vector<std::string> missing_;  // controls that a script named
+  std::optional<Stopwatch> awaiting_;  // a control that the script names
+  std::vector<std::string> missing_;   // controls that a script named
   TimePlay time_;
   ProbePlot plot_;
   HandNews news_;

@@ -23,6 +23,12 @@ std::optional<Vec2> place_of_control(const ScriptedEvent& scripted) {
 
 }  // namespace
 
+bool awaits_control(const std::vector<ScriptedEvent>& script, int frame) {
+  return std::ranges::any_of(script, [&](const ScriptedEvent& scripted) {
+    return scripted.frame == frame && !scripted.control.empty() && !place_of_control(scripted);
+  });
+}
+
 std::vector<std::string> inject_script(const std::vector<ScriptedEvent>& script, int frame,
                                        std::vector<InputEvent>& events) {
   std::vector<std::string> missing;

@@ -11,6 +11,9 @@
 
 namespace palpate {
 
+/// Whether a control that `script` names for that frame is not drawn.
+[[nodiscard]] bool awaits_control(const std::vector<ScriptedEvent>& script, int frame);
+
 /// Adds what `script` has for that frame to `events`. A control whose label was not drawn gets none.
 /// @return the labels of those controls.
 [[nodiscard]] std::vector<std::string> inject_script(const std::vector<ScriptedEvent>& script, int frame,

@@ -24,7 +24,7 @@ namespace palpate {
 /// [ms], where no other is asked for. What the hand does is seen after one and a half frames in the mean, two at most: with
 /// panels and display that keeps 95 % of it under 60 ms (tests/bench/window_latency_bench.cpp).
 inline constexpr double kFrameBudget = 28.0;
-inline constexpr double kPlayRate = 5.0;      ///< [1/s], likewise
+inline constexpr double kPlayRate = 5.0;  ///< [1/s], likewise
 
 struct WindowOptions {
   std::string program = "palpate";  ///< in the title bar
@@ -60,8 +60,9 @@ struct WindowOptions {
   /// Events put in at their frame as if they came from mouse and keyboard. Frames are counted from the
   /// moment when the first scene is shown, or the start page.
   std::vector<ScriptedEvent> script;
-  int frames = 0;                    ///< > 0: closes after that many frames
-  bool frames_wait = true;           ///< for background jobs; else they are counted while these run, too
+  int frames = 0;           ///< > 0: closes after that many frames
+  bool frames_wait = true;  ///< for background jobs; else they are counted while these run, too
+  double patience = 0.0;    ///< [s] for which frames are not counted while a control of `script` is to come
   std::filesystem::path screenshot;  ///< picture of the whole window, panel and all, at the end
   bool hidden = false;               ///< never shown on the screen
   /// @}

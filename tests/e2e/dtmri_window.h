@@ -42,6 +42,7 @@ class DtmriWindow : public ExplorerTest {
                          .script = std::exchange(script_, {}),
                          .hidden = true};  // a screen is lower than the panel
     window.frames = std::exchange(next_, kFirst) + 30;
+    window.patience = 60.0;
     window.screenshot = picture.empty() ? std::filesystem::path(folder_.path("window.png")) : picture;
     DtmriModel model(parsed.options, "dtmri");
     WindowResult result = run_window(model, window);

@@ -62,6 +62,7 @@ class GridWindow : public ExplorerTest {
                              },
                          .script = script_};
     window.frames = next_ + rest_;
+    window.patience = 60.0;
     if (parsed.options.view.frame_budget > 0.0) window.frame_budget = parsed.options.view.frame_budget;
     window.screenshot = folder_.path("window.png");
     window.session = folder_.path("tooth.palpate.toml");

@@ -149,6 +149,7 @@ class TouchWindowTest : public ::testing::Test {
   WindowResult run() { return run_model(model_); }
   WindowResult run_model(WindowModel& model) {
     options_.frames = last_ + 2 * kPause;
+    options_.patience = 60.0;
     options_.stop_requested = [this] {
       std::this_thread::sleep_for(std::chrono::milliseconds(8));
       const auto now = std::chrono::steady_clock::now();

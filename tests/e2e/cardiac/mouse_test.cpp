@@ -93,6 +93,7 @@ class CardiacMouse : public ExplorerTest {
                              },
                          .script = std::exchange(script_, {}),
                          .frames = std::exchange(next_, kFirst) + 30,
+                         .patience = 60.0,
                          .hidden = true};
     apply_appearance(options, window.view);
     window.screenshot = folder_.path("window.png");

@@ -70,6 +70,7 @@ class CardiacWindow : public ExplorerTest {
   void at(int frame, InputEvent event) { window_.script.push_back({frame, std::move(event)}); }
   WindowResult run_until(int frame) {
     window_.frames = frame;
+    window_.patience = 60.0;
     CardiacModel model(options_, "cardiac");
     return run_window(model, window_);
   }
