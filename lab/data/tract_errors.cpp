@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include "common/base/clock.h"
 #include "common/base/index.h"
@@ -17,8 +18,10 @@
 #include "common/ode/explicit_step.h"
 #include "common/ode/tableau.h"
 #include "common/trace/tract/trace_tracts.h"
+#include "lab/data/fit_errors.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
+#include "lab/peer/tckgen.h"
 
 namespace palpate {
 namespace {
@@ -118,6 +121,87 @@ struct Setting {
   std::vector<double> values;
 };
 
+Vec3 center_of(std::size_t voxel, const UniformTopology& image) {
+  const auto nx = as_size(image.points.x), ny = as_size(image.points.y);
+  return image.origin + image.axes * Vec3(voxel % nx, voxel / nx % ny, voxel / (nx * ny));
+}
+
+/// Numbers of voxels near the beginning of the centre line.
+std::vector<std::size_t> voxels_near(const AnalyticTensor& formula, const UniformTopology& image,
+                                     std::size_t most) {
+  const CenterLine center = formula.center_lines().front();
+  const Mat3 to_voxels = glm::inverse(image.axes);
+  std::vector<std::size_t> found;
+  for (int n = 0; n < 400 && found.size() < most; ++n) {
+    const Vec3 x = center.position(0.3 + 0.0005 * n);
+    const Index3 i = Index3(glm::round(to_voxels * (x - image.origin)));
+    const std::size_t voxel =
+        as_size(i.x) + as_size(image.points.x) * (as_size(i.y) + as_size(image.points.y) * as_size(i.z));
+    if (glm::distance(center_of(voxel, image), x) <= kAside && std::ranges::find(found, voxel) == found.end())
+      found.push_back(voxel);
+  }
+  return found;
+}
+
+/// The median distance of the lines' ends at kLength from those of the formula's curves, each begun as its line begins.
+/// @param whole gets how many lines come so far.
+double off_the_formula(const AnalyticTensor& formula, const std::vector<std::vector<Vec3>>& lines,
+                       double step, std::size_t& whole) {
+  const auto last = static_cast<std::size_t>(std::lround(kLength / step));
+  std::vector<double> distances;
+  for (const std::vector<Vec3>& line : lines) {
+    if (line.size() > last)
+      distances.push_back(glm::distance(line[last], true_end(formula, line.front(), line[1] - line.front())));
+  }
+  whole = distances.size();
+  return value_at_part(std::move(distances));
+}
+
+/// tckgen, and our own methods from the same seeds.
+void run_peers(const AnalyticTensor& formula, const TensorField& field, const UniformTopology& image,
+               Effort effort, TractErrors& errors) {
+  errors.why_no_peer = Tckgen::why_none();
+  if (!errors.why_no_peer.empty()) return;
+  constexpr int kGradients = 30;
+  const bool quick = effort == Effort::kQuick;
+  const std::vector<std::size_t> voxels = voxels_near(formula, image, quick ? 8 : 32);
+  const auto add = [&](const std::string& method, const std::string& setting, double step,
+                       const std::vector<std::vector<Vec3>>& lines, double seconds_a_line) {
+    TractPeerRow row{.method = method, .setting = setting};
+    row.end = off_the_formula(formula, lines, step, row.lines);
+    row.seconds = seconds_a_line;
+    errors.peers.push_back(std::move(row));
+  };
+  const Tckgen peer(formula, image, spread_gradients(kGradients), voxels);
+  for (const double step : quick ? std::vector{1.0, 0.2} : std::vector{1.0, 0.5, 0.2, 0.1}) {
+    constexpr double kCutoff = 0.1, kAngle = 80.0;
+    const TckgenLines found = peer.trace(step, kLength, kCutoff, kAngle);
+    add("tckgen Tensor_Det", "step=" + short_number(step), step, found.lines, found.seconds);
+  }
+  std::vector<Vec3> seeds;
+  for (const std::size_t voxel : voxels) seeds.push_back(center_of(voxel, image));
+  struct Own {
+    Integrator integrator;
+    double step, tolerance;
+    std::string setting;
+  };
+  for (const Own& own :
+       {Own{Integrator::kEuler, 0.2, 1e-4, "step=0.2"}, Own{Integrator::kRk4, 1.0, 1e-4, "step=1"},
+        Own{Integrator::kDp54, 1.0, 1e-3, "tolerance=0.001"}}) {
+    TractOptions options = options_for(own.integrator, own.step, own.tolerance);
+    options.sense = TractSense::kForward;
+    const TractResult result = trace_tracts(field, seeds, options);
+    std::vector<std::vector<Vec3>> lines;
+    for (std::size_t l = 0; l < result.lines.line_count(); ++l) {
+      const auto line = result.lines.line(l);
+      lines.emplace_back(line.begin(), line.end());
+    }
+    add(std::string(name_of(own.integrator)), own.setting, own.step, lines,
+        timed(field, seeds, options, quick ? 0.002 : 0.02) /
+            static_cast<double>(std::max<std::size_t>(lines.size(), 1)));
+  }
+}
+
 TractErrors run_bundle(const std::string& name, Effort effort, Progress* progress) {
   const auto formula = tensor_formula(name);
   TractErrors errors;
@@ -125,7 +209,8 @@ TractErrors run_bundle(const std::string& name, Effort effort, Progress* progres
   errors.voxel = effort == Effort::kQuick ? 2.0 : 1.0;
   errors.length = kLength;
   const Index3 points = Index3(glm::round(formula->bounds().size() / errors.voxel)) + 1;
-  const auto field = make_tensor_field(sample_tensors(*formula, points, 0.0), {.array = kTensorArray}, name);
+  const DataSet image = sample_tensors(*formula, points, 0.0);
+  const auto field = make_tensor_field(image, {.array = kTensorArray}, name);
   std::vector<Vec3> seeds = seeds_of(*formula, effort == Effort::kQuick ? 16 : 64);
 
   // Seeds whose reference line does not leave the image.
@@ -171,6 +256,7 @@ TractErrors run_bundle(const std::string& name, Effort effort, Progress* progres
       if (progress != nullptr) progress->check();
     }
   }
+  run_peers(*formula, *field, std::get<UniformTopology>(image.topology), effort, errors);
   return errors;
 }
 
@@ -230,6 +316,14 @@ ReportSection tract_errors_section(const std::vector<TractErrors>& errors) {
       section.work_precision.push_back({subject, row.method, setting_text(row), row.direction,
                                         "direction [degrees], median", row.seconds});
     }
+    for (const TractPeerRow& row : bundle.peers) {
+      section.table.push_back({bundle.bundle + " from voxels, " + row.method, row.setting,
+                               three_digits(row.end), "", "", three_digits(1e3 * row.seconds)});
+      section.work_precision.push_back(
+          {bundle.bundle + ", " + counted(row.lines, "line") + " from centres of voxels", row.method,
+           row.setting, row.end, "end point from the formula's [mm], median",
+           row.seconds * static_cast<double>(row.lines)});
+    }
     section.measurements.push_back({subject, "trilinear image", "voxel=" + short_number(bundle.voxel),
                                     "end point from the formula's [mm]", bundle.image_end});
   }
@@ -261,7 +355,13 @@ ReportSection tract_errors_section(const std::vector<TractErrors>& errors) {
           short_number(kRounding) + " mm.",
       "Trilinear images have kinks at the faces of cells, over which no method keeps its order. rk4 goes over them "
       "with the step that it was given; dp54 counts its estimate ten times there, and ends its steps there where that "
-      "is too much."};
+      "is too much.",
+      helix.why_no_peer.empty()
+          ? "Rows 'from voxels' are another measure: the distance of end points from the formula's curves, of lines that begin "
+            "at the centres of voxels, for MRtrix's tckgen and for our own methods. tckgen interpolates signals of 30 "
+            "directions and fits a tensor at each step, so that its image is off by another amount. Its time is that of its "
+            "processor, without what a run from one seed takes."
+          : "No peer is on this page: " + helix.why_no_peer + "."};
   return section;
 }
 

@@ -25,12 +25,23 @@ struct TractErrorRow {
   double seconds = 0.0;             ///< of all lines, one thread
 };
 
+/// Of lines from the centres of voxels, against the formula's curves: what an image costs is part of it.
+struct TractPeerRow {
+  std::string method;     ///< "tckgen Tensor_Det", "dp54"
+  std::string setting;    ///< "step=0.5"
+  std::size_t lines = 0;  ///< that come the whole length
+  double end = 0.0;       ///< distance of end points, median [mm]
+  double seconds = 0.0;   ///< processor time a line
+};
+
 struct TractErrors {
   std::string bundle;                ///< "helix"
   double voxel = 0.0, length = 0.0;  ///< [mm]
   std::size_t lines = 0;
   std::vector<TractErrorRow> rows;  ///< by method, loose to tight
   double image_end = 0.0;           ///< median distance of the reference's end points from the formula's [mm]
+  std::vector<TractPeerRow> peers;  ///< the peer, and our own methods beside it
+  std::string why_no_peer;          ///< empty: there is one
 };
 
 /// "helix" and "kissing", whose lines are curved (Euler's method is exact on straight ones). @throws

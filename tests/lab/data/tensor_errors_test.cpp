@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +48,27 @@ TEST(TractErrors, FallWithTheOrderOfTheMethod) {
   }
 }
 
+TEST(TractErrors, HaveAPeerOnTheSameCurvesOrSayWhyNot) {
+  const std::string page = section_html(tract_errors_section(tracts()));
+  for (const TractErrors& bundle : tracts()) {
+    if (!bundle.why_no_peer.empty()) {
+      EXPECT_NE(page.find(bundle.why_no_peer), std::string::npos);
+      continue;
+    }
+    std::map<std::string, double> at;  // distance from the formula's end
+    for (const TractPeerRow& row : bundle.peers) {
+      EXPECT_GE(row.lines, 3U) << row.method;
+      at[row.method + " " + row.setting] = row.end;
+    }
+    // Euler's error falls with the step, and is that of the curve's bend: much the same for both programs.
+    const double coarse = at["tckgen Tensor_Det step=1"], fine = at["tckgen Tensor_Det step=0.2"];
+    EXPECT_GT(coarse, 2.0 * fine) << bundle.bundle;
+    EXPECT_LT(coarse, 5.0) << bundle.bundle << ": on the same bundle";
+    EXPECT_GT(fine, 0.2 * at["euler step=0.2"]) << bundle.bundle;
+    EXPECT_LT(fine, 5.0 * at["euler step=0.2"]) << bundle.bundle;
+  }
+}
+
 TEST(FitErrors, AreInProportionToLittleNoise) {
   for (const StabilityCase& c : fit_error_cases(fit())) EXPECT_TRUE(c.row.holds) << c.row.measured;
   // More noise turns further at every weighting.
@@ -74,14 +98,7 @@ TEST(TensorReport, HasOnlyWhatConcernsTensors) {
   report.sections = {fit_errors_section(fit()), tract_errors_section(tracts())};
   report.stability = fit_error_cases(fit());
   for (StabilityCase& c : tract_error_cases(tracts())) {
-    // A tolerance or a stated error that is missed is said to be: of the few lines of a quick run, in large voxels, 95 % are
-    // all of them.
-    const bool of_few = c.row.name.starts_with("tolerance") || c.row.name.starts_with("stated error");
-    constexpr double kOfFew = 2.0;
-    EXPECT_EQ(c.row.holds, of_few ? c.row.measured <= 1.0 : true) << c.row.name << " " << c.row.measured;
-    if (of_few) {
-      EXPECT_LT(c.row.measured, kOfFew) << c.row.name;
-    }
+    EXPECT_TRUE(c.row.holds) << c.row.name << " " << c.row.measured;
     report.stability.push_back(c);
   }
   const std::string page = report_page(report), json = report_json(report);
