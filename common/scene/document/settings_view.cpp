@@ -350,7 +350,8 @@ const Setting kViewRows[] = {
     {.name = "tract-slab",
      .place = kTractAppearanceAt<&TractAppearance::slab>,
      .help =
-         "thickness of the slab about a slice whose tracts are drawn over it, 0 for none; farther ones are fainter",
+         "thickness of the slab about a slice whose tracts are drawn over it, 0 for none; farther ones are fainter. Where the "
+         "scene has one slice (--slices -,-,20), it shows the tracts in the slab about that alone",
      .value = "D",
      .heading = "View",
      .groups = {Group::kView},

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "common/base/error.h"
 #include "common/base/text.h"
@@ -84,6 +87,25 @@ struct OpenFrame {
   std::optional<VectorFrame> stated;
 };
 
+/// By how much the main directions turn where their axes are others: the median [degrees], of a sample of the voxels.
+double median_turn(const std::vector<float>& stored, const Mat3& axes, const Mat3& others) {
+  constexpr std::size_t kMostAsked = 1000;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  const std::size_t voxels = stored.size() / 6, stride = std::max<std::size_t>(1, voxels / kMostAsked);
+  std::vector<double> turns;
+  for (std::size_t p = 0; p < voxels; p += stride) {
+    Six six{};
+    std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(6 * p), 6, six.begin());
+    if (!std::ranges::all_of(six, [](double d) { return std::isfinite(d); })) continue;
+    const Vec3 e = symmetric_eigen(symmetric_matrix(six)).vectors[0];
+    turns.push_back(kDegrees * axis_angle(axes * e, others * e));
+  }
+  if (turns.empty()) return 0.0;
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::ranges::nth_element(turns, middle);
+  return *middle;
+}
+
 /// The one that is asked for, else that the file states, else of `likely`, the likeliest first, the one in which
 /// directions line up best.
 FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology& topology,
@@ -101,8 +123,20 @@ FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology
                                 ? ", as the file states"
                                 : ": the file does not say, and nothing in the image speaks against it"};
   if (frames.size() == 1) return choice;
+  std::size_t farthest = 0;
+  double most = 0.0;
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    const double turn = median_turn(stored, matrices[0], matrices[f]);
+    if (turn > most) farthest = f;
+    most = std::max(most, turn);
+  }
+  // What is at stake, where the image does not decide.
+  std::string otherwise;
+  if (most >= 1.0)
+    otherwise = "; along " + std::string(words_of(frames[farthest])) + " main directions would be " +
+                short_number(std::round(most)) + " degrees from these, in the median";
   if (map.size() < kLeastCoherent) {
-    choice.why = ": the file does not say, and the image has too few fibres to tell";
+    choice.why = ": the file does not say, and the image has too few fibres to tell" + otherwise;
     return choice;
   }
   for (std::size_t f = 1; f < frames.size(); ++f) {
@@ -111,6 +145,7 @@ FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology
               .coherence = scores[f],
               .why = ": the file does not say, and neighbouring directions line up best so"};
   }
+  if (choice.frame == frames.front()) choice.why += otherwise;
   return choice;
 }
 
