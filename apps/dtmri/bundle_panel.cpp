@@ -74,7 +74,13 @@ std::vector<BundleStep> steps_of_drawn(const DrawnLines& drawn, double edge) {
 /// Bundles of what is traced, opened or drawn.
 void draw_sources(PanelContext& on, Bundles& bundles) {
   Document& document = on.state.document;
-  const bool traced = !document.tracts.seeds.empty(), opened = !document.tract_appearance.file.empty();
+  std::filesystem::path file = document.tract_appearance.file;
+  // A tractogram that is open alone is the input, until a bundle takes its tracts.
+  const bool beside = on.scene.bundles ? on.scene.bundles->tracts != nullptr : on.scene.tracts.has_value();
+  if (const auto& input = document.input.files;
+      file.empty() && beside && !on.view.tensors->image->field && !input.empty())
+    file = std::filesystem::absolute(input.front());
+  const bool traced = !document.tracts.seeds.empty(), opened = !file.empty();
   ImGui::BeginDisabled(!traced && !opened);
   const bool keeps = button("Keep as bundle");
   ImGui::EndDisabled();
@@ -87,7 +93,6 @@ void draw_sources(PanelContext& on, Bundles& bundles) {
   ImGui::EndDisabled();
   hint("the tracts that were drawn and kept, thinned to a point every half voxel");
   if (keeps && opened) {
-    const std::filesystem::path file = document.tract_appearance.file;
     add_bundle(file.stem().string(), {{"file", file.string()}}, bundles);
     document.tract_appearance.file.clear();
   } else if (keeps && traced) {
@@ -98,9 +103,10 @@ void draw_sources(PanelContext& on, Bundles& bundles) {
 }
 
 void edit_color(const std::string& number, const SceneView& view, std::size_t i, BundleText& bundle) {
+  const std::vector<SliceImage> images = slice_images_in(view.volume, view.tensors);
   const auto own = color_of_text(bundle.color);
   std::vector<std::string> words{"direction", "its own"};
-  for (const SliceImage& image : view.volume->slice_images) {
+  for (const SliceImage& image : images) {
     if (image.name != "direction") words.push_back(image.name);
   }
   std::string word = own ? "its own" : bundle.color;
@@ -110,7 +116,7 @@ void edit_color(const std::string& number, const SceneView& view, std::size_t i,
     std::array<float, 3> color{own->x, own->y, own->z};
     if (color_edit(("paint " + number).c_str(), color.data(), ImGuiColorEditFlags_NoInputs))
       bundle.color = text_of_color({color[0], color[1], color[2]});
-  } else if (const SliceImage* const image = find_slice_image(view.volume->slice_images, bundle.color);
+  } else if (const SliceImage* const image = find_slice_image(images, bundle.color);
              image != nullptr && bundle.color != "direction") {
     ImGui::TextDisabled("dark %s to bright %s",
                         short_number(image->window.level - 0.5 * image->window.width).c_str(),
@@ -416,7 +422,7 @@ void draw_files(BundlePanel& panel, const PanelContext& on, const Bundles& bundl
 void draw_profiles(PanelContext& on, const Bundles& bundles) {
   std::string& measure = on.state.document.tract_appearance.bundle_profile;
   std::vector<std::string> words{"nothing"};
-  for (const SliceImage& image : on.view.volume->slice_images) {
+  for (const SliceImage& image : slice_images_in(on.view.volume, on.view.tensors)) {
     if (image.name != "direction") words.push_back(image.name);
   }
   std::string word = measure.empty() ? "nothing" : measure;

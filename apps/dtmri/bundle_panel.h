@@ -33,7 +33,7 @@ struct BundlePanel {
 };
 
 /// Every edit changes the document's text of a bundle: it is undone, saved and made anew like all of the document.
-/// @pre on.view.tensors has a field.
+/// @pre on.view.tensors.
 void draw_bundles(BundlePanel& panel, PanelContext& on);
 
 }  // namespace palpate

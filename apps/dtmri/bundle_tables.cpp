@@ -24,7 +24,7 @@ namespace {
 bool has_one_number(const std::string& measure) { return component_count(measure_from_name(measure)) == 1; }
 
 /// What the profile is of: of another image, or measured from the tensors.
-std::shared_ptr<const ScalarField> profiled_field(const Document& options, const TensorImage& made,
+std::shared_ptr<const ScalarField> profiled_field(const Document& options, const TensorImage* made,
                                                   const std::string& title, Progress& progress) {
   const int threads = options.common.threads;
   if (!options.output.profiled.empty()) {
@@ -32,11 +32,13 @@ std::shared_ptr<const ScalarField> profiled_field(const Document& options, const
     image.tensor.handedness = options.input.tensor.handedness;
     return Input::open(image, &progress).load_scalar(threads, &progress);
   }
+  if (made == nullptr)
+    throw usage_error("--profile: there are no tensors to measure: name an image with --profile-image");
   std::vector<float> values =
-      measure_tensors(made.image, made.choice, measure_from_name(options.output.measure), threads,
+      measure_tensors(made->image, made->choice, measure_from_name(options.output.measure), threads,
                       westin_from_name(options.output.westin));
   DataSet block;
-  block.topology = made.image.topology;
+  block.topology = made->image.topology;
   block.arrays.push_back(make_array(options.output.measure, Association::kPoint, 1, std::move(values)));
   return make_scalar_field({block}, {options.output.measure}, title, threads);
 }
@@ -97,8 +99,8 @@ void check_bundle_options(const Document& options) {
   }
 }
 
-void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage& made,
-                  const TensorField& field, const Tractogram& lines, std::vector<std::string>& notes) {
+void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage* made,
+                  const UniformTopology& voxels, const Tractogram& lines, std::vector<std::string>& notes) {
   const OutputOptions& output = options.output;
   if (!output.profile.empty()) {
     const auto values = profiled_field(options, made, input.title(), context.progress);
@@ -116,9 +118,10 @@ void write_bundle(const Document& options, const VerbContext& context, Input& in
   }
   if (output.density.empty() && output.lines_mask.empty()) return;
   context.progress.begin("counting lines", 0);
-  const UniformTopology& voxels = *field.voxels();
   const BundleDensity density = bundle_density(lines, {voxels.points, voxels.axes, voxels.origin});
-  ImageOrigin origin = origin_of(input);
+  ImageOrigin origin;
+  origin.space = ImageSpace::kPatient;  // as tracts are
+  if (made != nullptr) origin = origin_of(input);
   if (origin.header) origin.header = origin.header->of_others();
   for (const auto& [file, is_mask] : {std::pair{output.density, false}, std::pair{output.lines_mask, true}}) {
     if (file.empty()) continue;

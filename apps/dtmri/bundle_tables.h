@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/cli/verbs.h"
-#include "common/field/tensor/tensor_field.h"
+#include "common/field/data_set.h"
 #include "common/geometry/tractogram.h"
 #include "common/load/write/image_origin.h"
 #include "common/scene/input.h"
@@ -22,10 +22,10 @@ void check_bundle_options(const Document& options);
 
 /// Writes what these ask for, and adds a sentence for each to `notes`. The profile's table has a row
 /// a node: node,part,x,y,z,lines,valueless,mean,deviation,lower,median,upper.
-/// @param made the tensors of `input`.
+/// @param made the tensors of `input`; null: it holds tracts alone. @param voxels that lines are counted in.
 /// @throws Error as the writers; (bad input) where the profile's image cannot be read; Cancelled.
-void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage& made,
-                  const TensorField& field, const Tractogram& lines, std::vector<std::string>& notes);
+void write_bundle(const Document& options, const VerbContext& context, Input& input, const TensorImage* made,
+                  const UniformTopology& voxels, const Tractogram& lines, std::vector<std::string>& notes);
 
 /// The table of --profile.
 /// @throws Error as OutputFile.

@@ -189,6 +189,15 @@ TractTracingOptions tracing_of(std::span<const BundleStep> steps) {
   return document.tracts;
 }
 
+bool takes_file(const std::vector<std::string>& texts, const std::filesystem::path& file) {
+  const std::filesystem::path wanted = std::filesystem::weakly_canonical(file);
+  return std::ranges::any_of(texts, [&](const std::string& text) {
+    return std::ranges::any_of(parse_bundle(text).steps, [&](const BundleStep& step) {
+      return step.key == "file" && std::filesystem::weakly_canonical(step.value) == wanted;
+    });
+  });
+}
+
 std::optional<Rgb> color_of_text(std::string_view text) {
   constexpr std::size_t kLength = 7;
   constexpr int kHex = 16;

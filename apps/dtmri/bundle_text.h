@@ -14,6 +14,7 @@
 ///   also= … all=            what stands between adds tracts, and edits those alone
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -51,6 +52,9 @@ struct BundleText {
 [[nodiscard]] TractTracingOptions tracing_of(std::span<const BundleStep> steps);
 /// Whether the step is an option of tracing.
 [[nodiscard]] bool is_tracing(const BundleStep& step);
+
+/// Whether a bundle of these texts takes its tracts from `file`.
+[[nodiscard]] bool takes_file(const std::vector<std::string>& texts, const std::filesystem::path& file);
 
 /// Of "#rrggbb"; none of another word.
 [[nodiscard]] std::optional<Rgb> color_of_text(std::string_view text);

@@ -9,6 +9,7 @@
 #include "apps/dtmri/region_text.h"
 #include "apps/dtmri/slice_images.h"
 #include "apps/dtmri/tract_request.h"
+#include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/vec_text.h"
@@ -90,6 +91,9 @@ class BundleMaker {
                             ground_.progress);
   }
   ViewTracts trace(std::span<const BundleStep> options) {
+    if (!ground_.voxels.field)
+      throw usage_error("--bundle: " + steps_text(options) +
+                        "|trace=: there are no tensors to trace tracts through");
     Document with = ground_.document;
     with.tracts = tracing_of(options);
     return trace_view_tracts(with, ground_.voxels, ground_.cones, ground_.progress);
@@ -193,6 +197,28 @@ void add_colors(const std::string& color, const SliceImage* image, const Tractog
 }
 
 }  // namespace
+
+std::shared_ptr<const TensorVoxels> lattice_of_lines(const Tractogram& lines) {
+  auto lattice = std::make_shared<TensorVoxels>();
+  if (lines.image) {
+    lattice->points = lines.image->voxels;
+    lattice->axes = lines.image->axes;
+    lattice->origin = lines.image->origin;
+  } else {
+    constexpr double kMostVoxels = 256.0;  // along an edge
+    Box box;
+    for (const Vec3f& x : lines.points) {
+      if (is_finite(Vec3(x))) box.include(Vec3(x));
+    }
+    const Vec3 size = box.size();
+    const double edge = std::max(1.0, std::max({size.x, size.y, size.z}) / kMostVoxels);
+    lattice->points = Index3(glm::ceil(size / edge)) + 1;
+    lattice->axes = Mat3(edge);
+    lattice->origin = 0.5 * (box.lower + box.upper) - 0.5 * edge * (Vec3(lattice->points) - 1.0);
+  }
+  lattice->last_shown = lattice->points - 1;
+  return lattice;
+}
 
 std::shared_ptr<const Tractogram> make_bundle_lines(const BundleText& bundle, const BundleGround& ground,
                                                     BundleSet& set, std::vector<std::string>& notes) {

@@ -20,11 +20,15 @@ namespace palpate {
 /// What bundles are made in.
 struct BundleGround {
   const Document& document;           ///< bundles are taken from it, and how its image is read
-  const TensorVoxels& voxels;         ///< with a field
+  const TensorVoxels& voxels;         ///< their image; without a field nothing can be traced
   const DataArray* cones = nullptr;   ///< as trace_view_tracts()
   const BundleSet* before = nullptr;  ///< of the same image, read in the same way; null: none
   Progress* progress = nullptr;
 };
+
+/// The image that lines lie in where there is no other: that of their file, or voxels of 1 mm and more about them.
+/// @pre a point is finite.
+[[nodiscard]] std::shared_ptr<const TensorVoxels> lattice_of_lines(const Tractogram& lines);
 
 /// The lines of one bundle. What its files and traces gave is taken from `set.sources`, and kept there.
 /// @param notes get what was left out, said of the bundle's name. @throws Error as tracing and reading; Cancelled.

@@ -8,6 +8,7 @@
 #include "apps/dtmri/bundle_text.h"
 #include "apps/dtmri/bundles.h"
 #include "apps/dtmri/region_text.h"
+#include "apps/dtmri/slice_images.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
@@ -36,10 +37,12 @@ bool same_tracts(const Document& a, const Document& b) {
          a.tract_appearance.file == b.tract_appearance.file && a.tracts == b.tracts;
 }
 
+const DataArray* cones_of(const DtmriScene& content) { return content.cones ? &*content.cones : nullptr; }
+
 /// Tracts of a file, or traced from seeds: those of `before` where these are the same.
 /// @param document with the input in its role. @param shown that of `before`, likewise.
 void show_tracts(const Document& document, const SceneState* before, const Document& shown,
-                 const DataArray* cones, Progress& progress, SceneState& state) {
+                 const DtmriScene& content, Progress& progress, SceneState& state) {
   const auto show = [&](const std::shared_ptr<const TractBundle>& bundle) {
     state.tracts = make_tract_view(bundle, document.tract_appearance);
   };
@@ -55,15 +58,17 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
     state.seconds_trace = before->seconds_trace;
   } else if (document.tracts.seeds.empty()) {
     const TensorField* const field = state.tensors ? state.tensors->image->field.get() : nullptr;
-    const ViewTracts read =
-        read_view_tracts({.file = document.tract_appearance.file}, field, document.common.threads, &progress);
+    const ViewTracts read = content.tracts ? *content.tracts
+                                           : read_view_tracts({.file = document.tract_appearance.file}, field,
+                                                              document.common.threads, &progress);
     show(read.bundle);
     state.notes.insert(state.notes.end(), read.notes.begin(), read.notes.end());
     if (!read.left_out.empty()) state.notes.push_back(read.left_out);
   } else if (!state.tensors) {
     throw usage_error("there are no tensors to trace tracts through");
   } else {
-    const ViewTracts traced = trace_view_tracts(document, *state.tensors->image, cones, &progress);
+    const ViewTracts traced =
+        trace_view_tracts(document, *state.tensors->image, cones_of(content), &progress);
     show(traced.bundle);
     state.notes.insert(state.notes.end(), traced.notes.begin(), traced.notes.end());
     state.seeds = traced.seeds;
@@ -73,12 +78,12 @@ void show_tracts(const Document& document, const SceneState* before, const Docum
   }
 }
 
-/// The bundles of the document beside the tracts that are shown. @pre tensors with a volume are.
+/// The bundles of the document beside the tracts that are shown. @pre state.tensors.
 void show_bundles(const Document& document, const SceneState* before, const Document& shown,
                   const DataArray* cones, Progress& progress, SceneState& state) {
   const bool same = before != nullptr && before->tensors && before->tensors->image == state.tensors->image &&
                     document.common.seed == shown.common.seed;
-  const std::vector<SliceImage>& images = state.volume->slice_images;
+  const std::vector<SliceImage> images = slice_images_in(state.volume, state.tensors);
   const auto set = make_bundles({.document = document,
                                  .voxels = *state.tensors->image,
                                  .cones = cones,
@@ -93,6 +98,11 @@ void show_bundles(const Document& document, const SceneState* before, const Docu
   state.tracts = drawn ? std::optional(make_tract_view(drawn, document.tract_appearance)) : std::nullopt;
   if (!drawn) return;
   if (std::string note = tracts_left_out(*drawn); !note.empty()) state.notes.push_back(std::move(note));
+}
+
+/// Whether what is open is a tractogram.
+bool holds_tracts(const Document& document, Progress* progress) {
+  return !document.input.files.empty() && role_of(Input::open(document.input, progress)) == FileRole::kTracts;
 }
 
 /// What the verdict advises, where nothing was turned by hand yet: two turns together are none that a button can say.
@@ -122,7 +132,13 @@ DtmriContent DtmriModel::read(Input& input, const Document& document, Progress& 
     (void)with_input_role(document, input);  // refuses what cannot be shown
     SceneState state = begin_state(input, {});
     state.info = std::make_shared<const SceneInfo>(describe_open_input(input));
-    return std::make_shared<const DtmriScene>(DtmriScene{.state = std::move(state), .cones = {}});
+    DtmriScene scene{.state = std::move(state), .cones = {}, .tracts = {}, .lattice = {}};
+    if (role_of(input) == FileRole::kTracts) {
+      scene.tracts = read_view_tracts({.file = input.spec().files.front().string()}, nullptr,
+                                      document.common.threads, &progress);
+      scene.lattice = lattice_of_lines(*scene.tracts->bundle->lines);
+    }
+    return std::make_shared<const DtmriScene>(std::move(scene));
   }
   TensorImage made;
   auto field = input.load_tensor(document.common.threads, &progress, &made);
@@ -139,8 +155,11 @@ DtmriContent DtmriModel::read(Input& input, const Document& document, Progress& 
   state.notes.insert(state.notes.end(), field->notes().lines.begin(), field->notes().lines.end());
   add_fix(made.orientation, document, state);
   const DataArray* const cones = made.image.find(std::string(kConeArray), Association::kPoint);
-  return std::make_shared<const DtmriScene>(DtmriScene{
-      .state = std::move(state), .cones = cones != nullptr ? std::optional(*cones) : std::nullopt});
+  return std::make_shared<const DtmriScene>(
+      DtmriScene{.state = std::move(state),
+                 .cones = cones != nullptr ? std::optional(*cones) : std::nullopt,
+                 .tracts = {},
+                 .lattice = {}});
 }
 
 SceneState DtmriModel::present(Input& input, const DtmriContent& content, const Document& document,
@@ -157,7 +176,7 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
     state.volume->slice_images = made.volume->slice_images;
     state.appearances = {direction_lens(document.volume, *state.volume->image)};
   }
-  show_tracts(with, before, shown, content->cones ? &*content->cones : nullptr, progress, state);
+  show_tracts(with, before, shown, *content, progress, state);
   if (const std::string& file = with.tensors.underlay; !file.empty()) {
     const bool read = before != nullptr && before->tensors && before->tensors->underlay &&
                       shown.tensors.underlay == file &&
@@ -173,18 +192,21 @@ SceneState DtmriModel::present(Input& input, const DtmriContent& content, const 
   }
   if (made.tensors) {
     complete_panes(document.panes, *state.tensors, *state.volume);
-    show_bundles(with, before, shown, content->cones ? &*content->cones : nullptr, progress, state);
+    show_bundles(with, before, shown, cones_of(*content), progress, state);
     if (state.volume->panes.layout > 1) {
       if (std::string note = panes_note(*state.volume); !note.empty()) state.notes.push_back(std::move(note));
     }
     return state;
   }
-  if (!document.tract_appearance.bundles.empty())
-    state.notes.emplace_back("WARNING: bundles are shown with tensors alone: there are none here");
-  // Where there are no tensors, the scene is as large as what is shown in their place.
-  const SceneView view =
-      make_tensor_scene(input, {.tensors = state.tensors, .tracts = state.tracts}, document, 1.0);
+  // Where there are no tensors, the scene is as large as what the file holds in their place.
+  std::optional<TractView> held = state.tracts;
+  if (content->tracts) held = make_tract_view(content->tracts->bundle, document.tract_appearance);
+  const SceneView view = make_tensor_scene(input, {.tensors = state.tensors, .tracts = held}, document, 1.0);
   state.info = info_of(input, view);
+  // Slices of no image: the crosshair alone.
+  if (content->lattice && !state.tensors)
+    state.tensors = make_tensor_view(content->lattice, document.tensors);
+  if (state.tensors) show_bundles(with, before, shown, nullptr, progress, state);
   return state;
 }
 
@@ -196,7 +218,7 @@ std::optional<Document> DtmriModel::join(const InputFiles& files, const Document
   switch (role_of(input)) {
     case FileRole::kTracts:
       if (const std::filesystem::path file = std::filesystem::absolute(files.files.front());
-          now.tract_appearance.file.empty()) {
+          now.tract_appearance.file.empty() && !holds_tracts(now, &progress)) {
         with.tract_appearance.file = file.string();
         with.tracts.seeds.clear();
       } else {

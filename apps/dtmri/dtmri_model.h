@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/dtmri/tract_request.h"
 #include "common/compose/input_model.h"
 #include "common/window/panels/panel.h"
 
@@ -16,7 +17,9 @@ namespace palpate {
 /// else that is shown.
 struct DtmriScene {
   SceneState state;
-  std::optional<DataArray> cones;  ///< of the voxels [degrees]; none: the tensors were not fitted
+  std::optional<DataArray> cones;    ///< of the voxels [degrees]; none: the tensors were not fitted
+  std::optional<ViewTracts> tracts;  ///< that the input holds in place of tensors
+  std::shared_ptr<const TensorVoxels> lattice;  ///< of these tracts, where no image says where voxels lie
 };
 using DtmriContent = std::shared_ptr<const DtmriScene>;
 

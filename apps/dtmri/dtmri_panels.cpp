@@ -256,7 +256,7 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   ImGui::EndDisabled();
 }
 
-/// Which tracts are drawn over slices.
+/// Which tracts are drawn over slices, and with one slice of the scene.
 void draw_tract_slab(TractView& look, const TensorVoxels& voxels) {
   constexpr double kUsual = 2.0;  // voxels, where none is said
   double thickness = look.slab_thickness.value_or(kUsual * shortest_edge(voxels));
@@ -333,14 +333,14 @@ std::vector<PanelPart> dtmri_panels() {
     if (on.scene.tensors && on.view.tensors) {
       draw_tensors(on.state, on.scene, choice, on.view);
       if (on.view.tensors->image->field) draw_reading(texts, on.state.document.input.tensor);
-      if (on.view.volume) {
-        edit_panes(*on.view.volume, nullptr, on.view.anatomical);
-        if (on.view.tracts && on.view.volume->panes.layout > 1)
-          draw_tract_slab(*on.view.tracts, *on.view.tensors->image);
-      }
+      if (on.view.volume) edit_panes(*on.view.volume, nullptr, on.view.anatomical);
+      if (on.view.tracts) draw_tract_slab(*on.view.tracts, *on.view.tensors->image);
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
-      if (on.view.tensors->image->field) draw_regions(regions, on);
-      if (on.view.tensors->image->field && on.view.volume) draw_bundles(bundles, on);
+      const bool lines = on.view.tracts || !on.state.document.tract_appearance.bundles.empty();
+      if (on.view.tensors->image->field || lines) {
+        draw_regions(regions, on);
+        draw_bundles(bundles, on);
+      }
     } else if (on.view.tracts) {
       if (section("TRACTS")) draw_tract_appearance(*on.view.tracts);
     }

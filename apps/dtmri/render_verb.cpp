@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "apps/dtmri/bundles.h"
 #include "apps/dtmri/dtmri_verbs.h"
+#include "apps/dtmri/slice_images.h"
 #include "apps/dtmri/tensor_scene.h"
 #include "apps/dtmri/tract_request.h"
 #include "common/base/error.h"
@@ -35,22 +37,24 @@ ViewTracts tracts_of(const Document& options, const VerbContext& context,
   return tracts;
 }
 
-/// The bundles of the options beside what is drawn.
-void add_bundles(const Document& options, const VerbContext& context, const TensorImage& made,
+/// The bundles of the options beside what is drawn. @param taken whether one of them has the tracts that are drawn.
+void add_bundles(const Document& options, const VerbContext& context, const TensorImage& made, bool taken,
                  DrawnScene& drawn) {
   if (options.tract_appearance.bundles.empty()) return;
   SceneView& view = drawn.view;
-  if (!view.tensors || !view.volume)
-    throw usage_error("--bundle: there are no tensors that bundles could be shown with");
-  const std::vector<SliceImage>& images = view.volume->slice_images;
+  if (!view.tensors && !view.tracts)
+    throw usage_error("--bundle: there is no image and no tractogram that bundles could be shown with");
+  const std::vector<SliceImage> images = slice_images_in(view.volume, view.tensors);
+  const auto voxels = view.tensors ? view.tensors->image : lattice_of_lines(*view.tracts->bundle->lines);
   std::vector<std::string> notes;
   const auto set = make_bundles({.document = options,
-                                 .voxels = *view.tensors->image,
+                                 .voxels = *voxels,
                                  .cones = made.image.find(std::string(kConeArray), Association::kPoint),
                                  .progress = &context.progress},
                                 images, notes);
-  const auto together = drawn_together(view.tracts ? view.tracts->bundle : nullptr, *set, images, notes);
-  if (together) view.tracts = make_tract_view(together, options.tract_appearance);
+  const auto together =
+      drawn_together(view.tracts && !taken ? view.tracts->bundle : nullptr, *set, images, notes);
+  view.tracts = together ? std::optional(make_tract_view(together, options.tract_appearance)) : std::nullopt;
   for (const std::string& note : notes) context.console.note(note);
   for (const BundleView& bundle : set->bundles) {
     drawn.lines += bundle.lines->line_count();
@@ -60,7 +64,10 @@ void add_bundles(const Document& options, const VerbContext& context, const Tens
 }
 
 DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
-  const Document options = with_input_role(given, input);
+  Document options = with_input_role(given, input);
+  // The scene is as large as the tracts of the input, whichever bundle takes them.
+  const bool taken = role_of(input) == FileRole::kTracts && options.tract_appearance.file.empty();
+  if (taken) options.tract_appearance.file = input.spec().files.front().string();
   DrawnScene drawn;
   TensorSceneParts parts;
   TensorImage made;
@@ -92,8 +99,14 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
       context.console.note(note);
     drawn.what += ", an underlay of " + counted(underlay.image->point_count(), "voxel");
   }
+  if (const auto& slices = parts.tensors ? parts.tensors->slices : std::array<bool, 3>{};
+      options.tract_appearance.slab && options.panes.layout == PanesOptions{}.layout &&
+      std::ranges::count(slices, true) != 1)
+    context.console.note(
+        "--tract-slab: all tracts are drawn: the scene has no single slice; --slices -,-,0 leaves one");
   drawn.view = make_tensor_scene(input, std::move(parts), options, aspect);
-  add_bundles(options, context, made, drawn);
+  if (taken) drawn.lines = drawn.points = 0;
+  add_bundles(options, context, made, taken, drawn);
   return drawn;
 }
 

@@ -47,6 +47,13 @@ SliceImage slice_image_of(const UnderlayView& underlay) {
   return {.name = "underlay", .image = underlay.image, .window = underlay.window};
 }
 
+std::vector<SliceImage> slice_images_in(const std::optional<VolumeView>& volume,
+                                        const std::optional<TensorView>& tensors) {
+  if (volume) return volume->slice_images;
+  if (tensors && tensors->underlay) return {slice_image_of(*tensors->underlay)};
+  return {};
+}
+
 const SliceImage* find_slice_image(const std::vector<SliceImage>& images, const std::string& name) {
   const auto at = std::ranges::find(images, name, &SliceImage::name);
   return at == images.end() ? nullptr : &*at;

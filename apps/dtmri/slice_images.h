@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/render/scene_view.h"
 #include "common/render/slice/slice_view.h"
 #include "common/render/tensor/tensor_view.h"
 #include "common/scene/tensor/tensor_image.h"
@@ -20,6 +22,10 @@ namespace palpate {
 
 /// "underlay", with the window that it has below the slices of the scene.
 [[nodiscard]] SliceImage slice_image_of(const UnderlayView& underlay);
+
+/// Those that the slices of a scene show: of its volume, or the underlay alone.
+[[nodiscard]] std::vector<SliceImage> slice_images_in(const std::optional<VolumeView>& volume,
+                                                      const std::optional<TensorView>& tensors);
 
 /// The one of that name; null: there is none.
 [[nodiscard]] const SliceImage* find_slice_image(const std::vector<SliceImage>& images,

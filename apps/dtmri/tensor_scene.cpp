@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/dtmri/bundle_text.h"
 #include "apps/dtmri/region_text.h"
 #include "apps/dtmri/slice_images.h"
 #include "common/base/error.h"
@@ -53,7 +54,7 @@ Document with_input_role(Document options, const Input& input) {
   const std::string file = input.spec().files.front().string();
   if (kind == FileRole::kTracts) {
     if (!options.tract_appearance.file.empty()) refuse("--tracts");
-    options.tract_appearance.file = file;
+    if (!takes_file(options.tract_appearance.bundles, file)) options.tract_appearance.file = file;
   } else {
     if (!options.tensors.underlay.empty()) refuse("--underlay");
     options.tensors.underlay = file;

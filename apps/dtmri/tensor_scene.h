@@ -28,7 +28,7 @@ enum class FileRole : std::uint8_t {
 /// @pre input.spec().kind is kTensor.
 [[nodiscard]] FileRole role_of(const Input& input);
 
-/// `options` with the input in its role: a tractogram as `--tracts`, a scalar image beside `--tracts` as
+/// `options` with the input in its role: a tractogram as `--tracts`, unless a bundle takes its tracts, a scalar image beside `--tracts` as
 /// `--underlay`. @throws Error (usage) where options take that role, too, or seeds have nothing to be traced
 /// through; (bad input) where nothing of the input can be shown.
 [[nodiscard]] Document with_input_role(Document options, const Input& input);

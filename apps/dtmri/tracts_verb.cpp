@@ -9,6 +9,7 @@
 #include "apps/dtmri/bundle_text.h"
 #include "apps/dtmri/bundles.h"
 #include "apps/dtmri/dtmri_verbs.h"
+#include "apps/dtmri/tensor_scene.h"
 #include "common/base/error.h"
 #include "common/base/text.h"
 #include "common/cli/json/json_output.h"
@@ -25,21 +26,17 @@ namespace palpate {
 namespace {
 
 /// All bundles of the options, one behind the other; of several, each is a group of the lines.
-TractogramFile lines_of_bundles(const Document& options, const VerbContext& context, const TensorImage& made,
-                                std::shared_ptr<const TensorField> field, const std::string& title) {
+/// @param cones as BundleGround::cones.
+TractogramFile lines_of_bundles(const Document& options, const VerbContext& context, const DataArray* cones,
+                                const TensorVoxels& voxels) {
   TractogramFile all;
-  const auto voxels = make_tensor_voxels(std::move(field), title, options.common.threads);
   const std::vector<std::string>& texts = options.tract_appearance.bundles;
   BundleSet set;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const BundleText bundle = parse_bundle(texts[i]);
-    Tractogram lines =
-        *make_bundle_lines(bundle,
-                           {.document = options,
-                            .voxels = *voxels,
-                            .cones = made.image.find(std::string(kConeArray), Association::kPoint),
-                            .progress = &context.progress},
-                           set, all.info.notes);
+    Tractogram lines = *make_bundle_lines(
+        bundle, {.document = options, .voxels = voxels, .cones = cones, .progress = &context.progress}, set,
+        all.info.notes);
     if (texts.size() > 1) {
       const std::string name = bundle.name.empty() ? std::to_string(i + 1) : bundle.name;
       lines.of_lines.push_back(
@@ -62,6 +59,39 @@ bool asks_for_cones(const std::string& text) {
                              [](const BundleStep& step) { return step.key == "max-cone"; });
 }
 
+ExitCode told(const VerbContext& context, const TractFitSummary& summary) {
+  for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
+  context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
+                        counted(summary.lines.lines, "line") + ", " + counted(summary.lines.points, "point") +
+                        ", median length " + short_number(summary.lines.lengths.median) + "\n");
+  context.console.print_json(tract_fit_json(summary));
+  return ExitCode::kDone;
+}
+
+/// Bundles of a tractogram that no image goes with.
+ExitCode run_alone(const Document& options, const VerbContext& context, Input& input) {
+  const OutputOptions& output = options.output;
+  if (options.tract_appearance.bundles.empty() || !output.turn.empty())
+    throw usage_error(
+        input.title() +
+        " holds tracts and no tensors that they could be held against: --bundle edits them alone");
+  const auto lattice = lattice_of_lines(read_tractogram(input.spec().files.front(), &context.progress).lines);
+  TractogramFile file = lines_of_bundles(options, context, nullptr, *lattice);
+  TractFitSummary summary;
+  summary.input = input.title();
+  summary.tracts = "bundles";
+  summary.notes = file.info.notes;
+  summary.lines = {file.lines.line_count(), file.lines.points.size(), lengths_of(file.lines)};
+  if (!output.file.empty()) {
+    file.lines.image = TractogramImage{lattice->points, lattice->axes, lattice->origin};
+    write_tractogram(output.file, file.lines, options.common.force);
+    summary.output = output.file.string();
+  }
+  write_bundle(options, context, input, nullptr, {lattice->points, lattice->origin, lattice->axes},
+               file.lines, summary.notes);
+  return told(context, summary);
+}
+
 ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const std::vector<std::string>& bundles = options.tract_appearance.bundles;
@@ -79,13 +109,16 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   TractogramFile file;
   if (bundles.empty()) file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
+  if (role_of(input) == FileRole::kTracts) return run_alone(options, context, input);
   const bool cones =
       (options.output.measure == name_of(TensorMeasure::kCone) && !options.output.profile.empty()) ||
       std::ranges::any_of(bundles, asks_for_cones);
   const TensorImage made = input.load_tensor_image(options.common.threads, &context.progress, cones);
   const auto field =
       make_tensor_field(made.image, made.choice, input.title(), options.common.threads, made.notes);
-  if (!bundles.empty()) file = lines_of_bundles(options, context, made, field, input.title());
+  if (!bundles.empty())
+    file = lines_of_bundles(options, context, made.image.find(std::string(kConeArray), Association::kPoint),
+                            *make_tensor_voxels(field, input.title(), options.common.threads));
   context.progress.begin("comparing", 0);
 
   TractFitSummary summary;
@@ -110,13 +143,8 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
     write_tractogram(options.output.file, file.lines, options.common.force);
     summary.output = options.output.file.string();
   }
-  write_bundle(options, context, input, made, *field, file.lines, summary.notes);
-  for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
-  context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
-                        counted(summary.lines.lines, "line") + ", " + counted(summary.lines.points, "point") +
-                        ", median length " + short_number(summary.lines.lengths.median) + "\n");
-  context.console.print_json(tract_fit_json(summary));
-  return ExitCode::kDone;
+  write_bundle(options, context, input, &made, *field->voxels(), file.lines, summary.notes);
+  return told(context, summary);
 }
 
 }  // namespace

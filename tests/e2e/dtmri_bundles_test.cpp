@@ -1,6 +1,8 @@
 // Bundles of tracts by the mouse and without a window: kept, picked, edited, undone, measured, saved, and back with the
 // session; the corpus callosum and both cortico-spinal tracts of a whole head.
 
+#include "tests/e2e/dtmri_bundles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,8 +12,6 @@
 
 #include "common/geometry/tractogram.h"
 #include "common/load/read_tractogram.h"
-#include "common/render/camera.h"
-#include "tests/e2e/dtmri_window.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/shared_data.h"
 
@@ -20,27 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class DtmriBundles : public DtmriWindow {
- protected:
-  void SetUp() override {
-    before_ = fs::current_path();
-    fs::current_path(folder_.path());  // files are saved where the program runs
-  }
-  void TearDown() override { fs::current_path(before_); }
-
-  static const std::vector<std::string>& bundles(const WindowResult& result) {
-    return result.document.tract_appearance.bundles;
-  }
-  static std::size_t shown(const WindowResult& result) {
-    return result.view.tracts ? result.view.tracts->bundle->order.size() : 0;
-  }
-
- private:
-  fs::path before_;
-};
-
-constexpr int kKeyS = 'S', kKeyZ = 'Z';
-constexpr float kLetterHeight = 14.0F;  // [pixels] of the panel
+class DtmriBundles : public BundlesWindow {};
 
 TEST_F(DtmriBundles, AreEditedMeasuredAndWrittenWithoutAWindow) {
   const std::string traced = "seeds=fa:0.6|trace=";
@@ -107,12 +87,10 @@ TEST_F(DtmriBundles, AreKeptPickedCutUndoneAndBackWithTheSession) {
   EXPECT_EQ(again.view.tracts->bundle->lines->points, first.view.tracts->bundle->lines->points)
       << "traced and edited anew, to the last bit";
 
-  const PictureArea area = layout(width_, height_, kLetterHeight).picture;
   const auto line = again.view.tracts->bundle->lines->line(shown(again) / 2);
-  const Vec3 place = project(again.view.camera, Vec3(line[line.size() / 2]), static_cast<int>(area.width),
-                             static_cast<int>(area.height));
+  const Vec3 place = pixel_of(again, Vec3(line[line.size() / 2]));
   press("pick tracts");
-  click(area.left + place.x, area.top + place.y);
+  click(place.x, place.y);
   press("Delete tract");
   key(kKeyS, kModifierControl);
   const WindowResult deleted = open({"open", "--session", folder_.path("a.palpate.toml")});

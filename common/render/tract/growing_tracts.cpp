@@ -1,6 +1,7 @@
 #include "common/render/tract/growing_tracts.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/base/clock.h"
 
@@ -9,6 +10,18 @@ namespace {
 
 // Tracts lie side by side in their thousands, and may be moved further than other lines: by half a pixel at most.
 constexpr double kTractTolerance = 2.0;
+
+/// Where a thickness is said and the scene has one slice: what lies within the slab about that.
+std::optional<TractSlab> slab_of_scene(const SceneView& view) {
+  if (!view.tracts->slab_thickness || !view.tensors) return std::nullopt;
+  const TensorView& tensors = *view.tensors;
+  if (std::ranges::count(tensors.slices, true) != 1) return std::nullopt;
+  const auto axis = static_cast<int>(std::ranges::find(tensors.slices, true) - tensors.slices.begin());
+  const Mat3& a = tensors.image->axes;
+  return TractSlab{.normal = glm::normalize(glm::cross(a[(axis + 1) % 3], a[(axis + 2) % 3])),
+                   .place = tensors.position,
+                   .half = 0.5 * *view.tracts->slab_thickness};
+}
 
 }  // namespace
 
@@ -38,7 +51,7 @@ void GrowingTracts::draw(const SceneView& view, const LineDraw& base, float unit
                       .dimming = static_cast<float>(std::clamp(view.style.dimming, 0.0, 1.0)),
                       .opacity = static_cast<float>(progress_.opacity()),
                       .tolerance = kTractTolerance * base.tolerance,
-                      .slab = view.tracts->slab};
+                      .slab = view.tracts->slab ? view.tracts->slab : slab_of_scene(view)};
   progress_.drawn(pass_->draw(how, progress_.next(), progress_.goal(), milliseconds, stop));
   drawn_ms_ = 1e3 * watch.seconds();
 }
