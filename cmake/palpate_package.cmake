@@ -142,6 +142,9 @@ of the GNU Affero General Public License, version 3, <https://www.gnu.org/licens
 endif()
 if(TARGET palpate)
   palpate_debian(libpalpate SUMMARY "fields and lines of Palpate, as a library" SECTION libs DEPENDS "palpate-common ${same}")
+  if(TARGET palpate-mpi)
+    palpate_debian(palpate-mpi SUMMARY "traces lines of flow fields on many machines" DEPENDS "palpate-common ${same}")
+  endif()
   palpate_debian(libpalpate-dev SUMMARY "fields and lines of Palpate, for programs of one's own" SECTION libdevel
     DEPENDS "libpalpate ${same}")
 endif()

@@ -15,9 +15,13 @@
 #include "common/field/data_set.h"
 #include "common/field/scalar_field.h"
 #include "common/field/vector_field.h"
+#include "common/geometry/line.h"
+#include "common/haptics/proxy_chain.h"
 #include "common/math/vec.h"
 #include "common/scene/input.h"
+#include "common/servo/hand_step.h"
 #include "library/palpate/palpate.h"
+#include "library/palpate/touch.h"
 
 namespace palpate::api {
 
@@ -103,6 +107,37 @@ struct Access {
   static const std::shared_ptr<const ScalarField>& of(const Scalar& handle) { return handle.data_->field; }
   static OpenData& of(const Data& handle) { return *handle.data_; }
   static void set(Lines& handle, std::shared_ptr<const LineData> made) { handle.data_ = std::move(made); }
+  static std::vector<Line> lines(const Lines& handle);
+};
+
+struct LinkData;
+
+struct ChainData {
+  std::vector<std::shared_ptr<const LinkData>> links;
+  ChainSettings settings;
+  DeviceLimits limits;
+  double scale = 1.0;
+};
+
+/// What was felt, step by step.
+struct TouchData {
+  std::size_t links = 0;
+  std::vector<double> times;
+  std::vector<Point> probes, proxies, force;
+  std::vector<double> residual;
+  std::vector<std::uint8_t> state;
+
+  /// @param probe where the hand was, as the caller knows it; null: as the step has it.
+  void add(const HandStep& step, double scale, const Point* probe = nullptr);
+};
+
+struct TouchAccess {
+  static Link link(LinkData made);
+  static const std::shared_ptr<const LinkData>& of(const Link& handle) { return handle.data_; }
+  static const ChainData& of(const Chain& handle) { return *handle.data_; }
+  static Touch touch(TouchData made);
+  /// Without proxies, as a chain begins.
+  static std::unique_ptr<ProxyChain> make(const Chain& chain);
 };
 
 /// A mesh of tetrahedra; its points are not copied. @param cells four points each.

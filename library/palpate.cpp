@@ -207,20 +207,25 @@ std::span<const double> Lines::error() const noexcept { return data_->error; }
 const std::vector<std::uint32_t>& Lines::outside_seeds() const noexcept { return data_->outside; }
 const std::string& Lines::method() const noexcept { return data_->method; }
 
+std::vector<Line> Access::lines(const Lines& handle) {
+  const LineData& data = *handle.data_;
+  std::vector<Line> lines(data.seed.size());
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    lines[l].end = static_cast<End>(data.end[l]);
+    lines[l].seed = data.seed[l];
+    lines[l].direction = data.backward[l] != 0 ? TraceDirection::kBackward : TraceDirection::kForward;
+    for (auto i = as_size(data.offsets[l]); i < as_size(data.offsets[l + 1]); ++i) {
+      lines[l].points.push_back(
+          {vec_of(data.points[i]), data.time[i], data.arc[i], data.speed[i], data.error[i]});
+    }
+  }
+  return lines;
+}
+
 void Lines::save(const std::string& path, bool overwrite) const {
   guarded([&] {
-    std::vector<Line> lines(count());
-    for (std::size_t l = 0; l < count(); ++l) {
-      lines[l].end = static_cast<End>(data_->end[l]);
-      lines[l].seed = data_->seed[l];
-      lines[l].direction = data_->backward[l] != 0 ? TraceDirection::kBackward : TraceDirection::kForward;
-      for (auto i = as_size(data_->offsets[l]); i < as_size(data_->offsets[l + 1]); ++i) {
-        lines[l].points.push_back(
-            {vec_of(data_->points[i]), data_->time[i], data_->arc[i], data_->speed[i], data_->error[i]});
-      }
-    }
     check_line_output(path, overwrite);
-    write_lines(path, lines, overwrite);
+    write_lines(path, Access::lines(*this), overwrite);
   });
 }
 

@@ -78,33 +78,39 @@ struct LinkData {
   double diagonal = 0.0;  ///< of the data; 0: it has none
 };
 
-struct ChainData {
-  std::vector<std::shared_ptr<const LinkData>> links;
-  ChainSettings settings;
-  DeviceLimits limits;
-  double scale = 1.0;
-};
+Link TouchAccess::link(LinkData made) {
+  Link handle;
+  handle.data_ = std::make_shared<LinkData>(std::move(made));
+  return handle;
+}
 
-struct TouchData {
-  std::size_t links = 0;
-  std::vector<Point> proxies, force;
-  std::vector<double> residual;
-  std::vector<std::uint8_t> state;
-};
+Touch TouchAccess::touch(TouchData made) {
+  Touch handle;
+  handle.data_ = std::make_shared<TouchData>(std::move(made));
+  return handle;
+}
 
-struct TouchAccess {
-  static Link link(LinkData made) {
-    Link handle;
-    handle.data_ = std::make_shared<LinkData>(std::move(made));
-    return handle;
+std::unique_ptr<ProxyChain> TouchAccess::make(const Chain& chain) {
+  const ChainData& data = of(chain);
+  std::vector<std::unique_ptr<Constraint>> links;
+  for (const auto& link : data.links) links.push_back(link->make(data.scale));
+  return std::make_unique<ProxyChain>(std::move(links), data.settings);
+}
+
+void TouchData::add(const HandStep& step, double scale, const Point* probe) {
+  const Point where = probe != nullptr ? *probe : point_of(step.probe / scale);
+  for (std::size_t l = 0; l < links; ++l) {
+    const Vec3 proxy = static_cast<int>(l) < step.chain.links ? step.chain.proxies[l] : step.probe;
+    // Where nothing holds it the proxy is the probe, to the last bit.
+    const bool free = proxy == step.probe && is_finite(vec_of(where));
+    proxies.push_back(free ? where : point_of(proxy / scale));
   }
-  static Touch touch(TouchData made) {
-    Touch handle;
-    handle.data_ = std::make_shared<TouchData>(std::move(made));
-    return handle;
-  }
-  static const std::shared_ptr<const LinkData>& of(const Link& handle) { return handle.data_; }
-};
+  times.push_back(step.time);
+  probes.push_back(where);
+  force.push_back(point_of(step.force));
+  residual.push_back(step.chain.residual / scale);
+  state.push_back(static_cast<std::uint8_t>(step.state));
+}
 
 Link Link::streamline(const Field& field) {
   const auto of = Access::of(field);
@@ -209,9 +215,7 @@ Touch Chain::run(std::span<const Point> path, std::span<const double> times, con
     constexpr double kStep = 0.001;  // [s]
     constexpr std::size_t kStepsBetweenChecks = 4096;
     const double scale = data_->scale;
-    std::vector<std::unique_ptr<Constraint>> links;
-    for (const auto& link : data_->links) links.push_back(link->make(scale));
-    HandStepper stepper(std::make_unique<ProxyChain>(std::move(links), data_->settings), data_->limits);
+    HandStepper stepper(TouchAccess::make(*this), data_->limits);
     TouchData data{.links = data_->links.size()};
     data.proxies.reserve(path.size() * data.links);
     progress.begin("probing", path.size());
@@ -220,16 +224,7 @@ Touch Chain::run(std::span<const Point> path, std::span<const double> times, con
       const double time = times.empty() ? kStep * static_cast<double>(i) : times[i];
       HandInput hand{.time = time, .present = true};
       hand.sample = {time, scale * vec_of(path[i]), 0};
-      const HandStep step = stepper.step(hand);
-      for (std::size_t l = 0; l < data.links; ++l) {
-        const Vec3 proxy = static_cast<int>(l) < step.chain.links ? step.chain.proxies[l] : step.probe;
-        // Where nothing holds it the proxy is the probe, to the last bit.
-        const bool free = proxy == step.probe && is_finite(vec_of(path[i]));
-        data.proxies.push_back(free ? path[i] : point_of(proxy / scale));
-      }
-      data.force.push_back(point_of(step.force));
-      data.residual.push_back(step.chain.residual / scale);
-      data.state.push_back(static_cast<std::uint8_t>(step.state));
+      data.add(stepper.step(hand), scale, &path[i]);
       progress.advance();
     }
     return TouchAccess::touch(std::move(data));
@@ -238,6 +233,8 @@ Touch Chain::run(std::span<const Point> path, std::span<const double> times, con
 
 std::size_t Touch::count() const noexcept { return data_->state.size(); }
 std::size_t Touch::links() const noexcept { return data_->links; }
+std::span<const double> Touch::times() const noexcept { return data_->times; }
+std::span<const Point> Touch::probes() const noexcept { return data_->probes; }
 std::span<const Point> Touch::proxies() const noexcept { return data_->proxies; }
 std::span<const Point> Touch::force() const noexcept { return data_->force; }
 std::span<const double> Touch::residual() const noexcept { return data_->residual; }

@@ -16,7 +16,7 @@ packages_workbench="libceres-dev"
 packages_python="pybind11-dev python3-dev python3-numpy"
 # The tests: framework, benchmarks, virtual display, its mouse and keyboard, style, the compiler of the sanitizers.
 packages_tests="libgtest-dev libbenchmark-dev xvfb xauth clang-format clang-tidy clang lld libclang-rt-dev
-  libumockdev-dev umockdev mypy xdotool"
+  libumockdev-dev umockdev mypy xdotool libopenigtlink-dev"
 
 apps="cardiac dtmri flow grid workbench"
 

@@ -73,7 +73,7 @@ std::string camera_text(const Camera& camera, const Box& bounds, double aspect) 
          rounded(angles.roll, kOfDegree) + "," + rounded(angles.zoom, kOfZoom);
 }
 
-SceneView make_line_view(const Input& input, const VectorField& field,
+SceneView make_line_view(const std::string& title, const VectorField& field,
                          std::shared_ptr<const std::vector<Line>> lines, const Document& options,
                          const LineStyle& style, double aspect) {
   SceneView view;
@@ -82,10 +82,17 @@ SceneView make_line_view(const Input& input, const VectorField& field,
   view.outline = domain_outline(field);
   view.style = style;
   apply_appearance(options, view);
-  view.title = input.title();
+  view.title = title;
   view.subtitle = field.name() + ", " + counted(view.lines ? view.lines->size() : 0, "line");
-  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   view.camera = camera_of(options.view, view.bounds, aspect, projection_of(options.volume));
+  return view;
+}
+
+SceneView make_line_view(const Input& input, const VectorField& field,
+                         std::shared_ptr<const std::vector<Line>> lines, const Document& options,
+                         const LineStyle& style, double aspect) {
+  SceneView view = make_line_view(input.title(), field, std::move(lines), options, style, aspect);
+  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
   return view;
 }
 

@@ -38,6 +38,10 @@ inline constexpr double kViewDiagonals = 1.0;
 
 /// A scene of `lines` seen by the camera that `options` name.
 /// @param aspect width / height of the picture.
+[[nodiscard]] SceneView make_line_view(const std::string& title, const VectorField& field,
+                                       std::shared_ptr<const std::vector<Line>> lines,
+                                       const Document& options, const LineStyle& style, double aspect);
+/// The same with the title of the input, and its time where it has several.
 [[nodiscard]] SceneView make_line_view(const Input& input, const VectorField& field,
                                        std::shared_ptr<const std::vector<Line>> lines,
                                        const Document& options, const LineStyle& style, double aspect);

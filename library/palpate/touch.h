@@ -59,6 +59,8 @@ class PALPATE_API Touch {
  public:
   [[nodiscard]] std::size_t count() const noexcept;
   [[nodiscard]] std::size_t links() const noexcept;
+  [[nodiscard]] std::span<const double> times() const noexcept;  ///< [s] of the steps
+  [[nodiscard]] std::span<const Point> probes() const noexcept;  ///< where the hand was, data lengths
   /// The proxy of each link after the other at each point: links() of them a point. That of the last one is where the
   /// hand is shown to be.
   [[nodiscard]] std::span<const Point> proxies() const noexcept;

@@ -73,6 +73,9 @@ auto unlocked(const Work& work) {
 /// @{
 void add_tensors(py::module_& m);  ///< tensors, tracts, layers
 void add_touch(py::module_& m);
+void add_servo(py::module_& m);  ///< after it
+void add_picture(py::module_& m);
+void add_slicer(py::module_& m);  ///< after tensors and the servo
 /// @}
 
 }  // namespace palpate::python

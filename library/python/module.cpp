@@ -310,4 +310,7 @@ PYBIND11_MODULE(_palpate, m) {
   python::add_lines(m);
   python::add_tensors(m);
   python::add_touch(m);
+  python::add_servo(m);
+  python::add_picture(m);
+  python::add_slicer(m);
 }

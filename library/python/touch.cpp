@@ -65,6 +65,18 @@ void add_touch(py::module_& m) {
                          "What was felt along a path: arrays by point, which cannot be written to.")
       .def("__len__", &api::Touch::count)
       .def_property_readonly(
+          "times",
+          [](const py::object& self) { return column(self.cast<const api::Touch&>().times(), self); },
+          "Of the steps [s], shape (n,).")
+      .def_property_readonly(
+          "probes",
+          [](const py::object& self) {
+            const auto probes = self.cast<const api::Touch&>().probes();
+            return view({static_cast<py::ssize_t>(probes.size()), py::ssize_t{3}},
+                        reinterpret_cast<const double*>(probes.data()), self);
+          },
+          "Where the hand was, shape (n, 3), data lengths.")
+      .def_property_readonly(
           "proxies",
           [](const py::object& self) {
             const auto& touch = self.cast<const api::Touch&>();
