@@ -128,8 +128,7 @@ void RoundTrace::keep_part(const HeldLine& held, const Line& line, bool last) {
   LinePart part{
       .line = held.line, .part = held.part, .last = last, .outside = false, .end = line.end, .points = {}};
   // The first point is the last one of what went before; a line that was only begun holds its seed.
-  part.points.assign(line.points.begin() + 1, line.points.end());
-  if (held.part == 0) part.points.insert(part.points.begin(), line.points.front());
+  part.points.assign(line.points.begin() + (held.part == 0 ? 0 : 1), line.points.end());
   pack(part, parts_);
 }
 

@@ -24,7 +24,9 @@ void write(const fs::path& path, std::span<const std::byte> bytes) {
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;
+  text << in.rdbuf();
+  return std::move(text).str();
 }
 
 /// The first line of `kept` that differs from the one of `asked` in its place.
