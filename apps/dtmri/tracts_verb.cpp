@@ -59,7 +59,7 @@ bool asks_for_cones(const std::string& text) {
                              [](const BundleStep& step) { return step.key == "max-cone"; });
 }
 
-ExitCode told(const VerbContext& context, const TractFitSummary& summary) {
+ExitCode reported(const VerbContext& context, const TractFitSummary& summary) {
   for (const std::string& note : summary.notes) context.console.note(summary.tracts + ": " + note);
   context.console.print((summary.output.empty() ? summary.tracts : summary.output) + ": " +
                         counted(summary.lines.lines, "line") + ", " + counted(summary.lines.points, "point") +
@@ -89,7 +89,7 @@ ExitCode run_alone(const Document& options, const VerbContext& context, Input& i
   }
   write_bundle(options, context, input, nullptr, {lattice->points, lattice->origin, lattice->axes},
                file.lines, summary.notes);
-  return told(context, summary);
+  return reported(context, summary);
 }
 
 ExitCode run_tracts(const Document& options, const VerbContext& context) {
@@ -144,7 +144,7 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
     summary.output = options.output.file.string();
   }
   write_bundle(options, context, input, &made, *field->voxels(), file.lines, summary.notes);
-  return told(context, summary);
+  return reported(context, summary);
 }
 
 }  // namespace

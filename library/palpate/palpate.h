@@ -171,7 +171,7 @@ enum class Direction : std::uint8_t { kForward, kBackward, kBoth };
 
 /// Defaults as of `flow trace`.
 struct TraceOptions {
-  std::string method;  ///< "exact", "dp54", …; empty: exact on tetrahedra, dp54 elsewhere
+  std::string method = {};  ///< "exact", "dp54", …; empty: exact on tetrahedra, dp54 elsewhere
   Direction direction = Direction::kForward;
   double tolerance = 1e-6;  ///< position error per diagonal travelled, relative to the diagonal
   double step = 0.0;        ///< fixed-step methods: its length; others: between points; 0: by the cells

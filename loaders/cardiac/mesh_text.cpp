@@ -84,8 +84,8 @@ void leave_out_missing(Directions& directions, std::vector<std::string>& notes) 
   for (const double length : directions.lengths)
     if (length > 0.0 && std::isfinite(length)) known.push_back(length);
   if (!known.empty()) {
-    const auto usual =
-        known.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(known.size() - 1));
+    const auto usual = known.begin() +
+                       static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(known.size() - 1)));
     std::nth_element(known.begin(), usual, known.end());
     std::size_t tiny = 0;
     for (std::size_t i = 0; i < directions.lengths.size(); ++i) {

@@ -72,8 +72,8 @@ void drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice, std::vec
   for (std::size_t i = 0; i < fibre->tuples; ++i)
     if (const double each = length(i); each > 0.0 && std::isfinite(each)) lengths.push_back(each);
   if (lengths.empty()) return;
-  const auto usual =
-      lengths.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(lengths.size() - 1));
+  const auto usual = lengths.begin() +
+                     static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(lengths.size() - 1)));
   std::nth_element(lengths.begin(), usual, lengths.end());
   const double least = kTiny * *usual;
   std::size_t tiny = 0;

@@ -60,7 +60,8 @@ void SpherePass::draw(std::span<const SphereInstance> spheres, float halo_width,
   if (!program_) {
     program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag");
     const std::string halo = "HALO";
-    halo_program_ = compile_program("glyph/sphere.vert", "glyph/sphere.frag", shader_files(), std::span(&halo, 1));
+    halo_program_ =
+        compile_program("glyph/sphere.vert", "glyph/sphere.frag", shader_files(), std::span(&halo, 1));
     no_vertices_ = make_vertex_array();
   }
   const GlBuffer instances = make_buffer(spheres);

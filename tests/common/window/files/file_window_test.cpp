@@ -64,6 +64,7 @@ TEST_F(FileWindow, AFileIsOpenedByTheMouseAndWhatCannotBeOpenedIsNotListed) {
   last_ = 0;
   control('O');
   options_.frames = last_ + 2 * kPause;
+  options_.patience = 0.0;
   at_control(next(), {.kind = InputKind::kMove}, "notes.txt");
   options_.frames = last_ + 2 * kPause;
   EXPECT_EQ(run_window(model_, options_).missing, std::vector<std::string>{"notes.txt"});
