@@ -263,8 +263,8 @@ TEST(Netcdf, AxesWithoutPlacesAreRefused) {
   ClassicFile file = ocean("m");
   const std::string name = file.dimensions[0].first;
   file.dimensions[0].second = 0;  // of records, of which there are none, and which stand behind the rest
-  std::ranges::stable_partition(file.variables,
-                                [](const ClassicFile::Variable& v) { return v.dimensions.front() != 0; });
+  std::stable_partition(file.variables.begin(), file.variables.end(),
+                        [](const ClassicFile::Variable& v) { return v.dimensions.front() != 0; });
   const TempFolder folder;
   const std::string why = refusal(folder.write("a.nc", file.bytes()));
   EXPECT_NE(why.find("no place along '" + name + "'"), std::string::npos) << why;
