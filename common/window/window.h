@@ -22,7 +22,7 @@
 namespace palpate {
 
 /// [ms], where no other is asked for. What the hand does is seen after one and a half frames in the mean, two at most: with
-/// panels and display that keeps 95 % of it under 60 ms (tests/bench/window_latency_bench.cpp).
+/// panels and display that keeps 95 % of turning under 60 ms (tests/bench/window_latency_bench.cpp).
 inline constexpr double kFrameBudget = 28.0;
 inline constexpr double kPlayRate = 5.0;  ///< [1/s], likewise
 
