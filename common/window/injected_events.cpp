@@ -25,7 +25,8 @@ std::optional<Vec2> place_of_control(const ScriptedEvent& scripted) {
 
 bool awaits_control(const std::vector<ScriptedEvent>& script, int frame) {
   return std::ranges::any_of(script, [&](const ScriptedEvent& scripted) {
-    return scripted.frame == frame && !scripted.control.empty() && !place_of_control(scripted);
+    return scripted.frame == frame && !scripted.control.empty() &&
+           (!place_of_control(scripted) || scrolls_to_control(scripted.control, scripted.which));
   });
 }
 

@@ -11,7 +11,7 @@
 
 namespace palpate {
 
-/// Whether a control that `script` names for that frame is not drawn.
+/// Whether a control that `script` names for that frame is not drawn, or is out of sight: it is scrolled to.
 [[nodiscard]] bool awaits_control(const std::vector<ScriptedEvent>& script, int frame);
 
 /// Adds what `script` has for that frame to `events`. A control whose label was not drawn gets none.

@@ -9,6 +9,7 @@
 
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/heart/tissue.h"
 #include "common/load/gzip_head.h"
 #include "common/math/vec.h"
 
@@ -79,24 +80,16 @@ Directions read_directions(TextLines& lines, std::size_t count, const DirectionR
 }
 
 void leave_out_missing(Directions& directions, std::vector<std::string>& notes) {
-  constexpr double kTiny = 1e-6, kUsual = 0.95;  // of the length that most do not surpass
-  std::vector<double> known;
-  for (const double length : directions.lengths)
-    if (length > 0.0 && std::isfinite(length)) known.push_back(length);
-  if (!known.empty()) {
-    const auto usual = known.begin() +
-                       static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(known.size() - 1)));
-    std::nth_element(known.begin(), usual, known.end());
-    std::size_t tiny = 0;
-    for (std::size_t i = 0; i < directions.lengths.size(); ++i) {
-      if (!(directions.lengths[i] > 0.0) || !(directions.lengths[i] < kTiny * *usual)) continue;
-      std::fill_n(directions.fibre.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, kNaN);
-      ++tiny;
-    }
-    directions.missing += tiny;
-    if (tiny > 0)
-      notes.push_back(counted(tiny, "fibre") + " a million times shorter than the others: taken for none");
+  const double least = least_direction_length(directions.lengths);
+  std::size_t tiny = 0;
+  for (std::size_t i = 0; i < directions.lengths.size(); ++i) {
+    if (!(directions.lengths[i] > 0.0) || !(directions.lengths[i] < least)) continue;
+    std::fill_n(directions.fibre.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, kNaN);
+    ++tiny;
   }
+  directions.missing += tiny;
+  if (tiny > 0)
+    notes.push_back(counted(tiny, "fibre") + " a million times shorter than the others: taken for none");
   if (directions.missing > 0)
     notes.push_back(counted(directions.missing, "element") + " without a fibre direction: zero or NaN");
 }

@@ -72,6 +72,7 @@ class PanelWalk : public ExplorerTest {
                          .play_rate = document.view.play_rate,
                          .script = std::move(script),
                          .frames = frames,
+                         .patience = 60.0,
                          .screenshot = folder_.path("window.png"),
                          .hidden = true};
     const std::unique_ptr<WindowModel> model = program.model(document);
@@ -295,8 +296,8 @@ class PanelWalk : public ExplorerTest {
   inline static std::set<std::pair<std::string, std::string>> walked_;  // by the programs of all walks
   static constexpr int kSettled = 12;  // frames after which most windows show what they were told last
   static constexpr int kEnter = 257;   // GLFW's
-  // As high as the longest panel; no wider than a picture needs: its pixels cost the time of this test.
-  static constexpr int kWidth = 480, kHeight = 3000;
+  // No larger than a picture and lists need: its pixels cost the time of this test.
+  static constexpr int kWidth = 480, kHeight = 900;
   static constexpr float kTextHeight = 14.0F;
 };
 

@@ -61,24 +61,16 @@ struct Region {
 
 /// Takes directions that are next to nothing for none, and says so.
 void drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice, std::vector<std::string>& notes) {
-  constexpr double kTiny = 1e-6, kUsual = 0.95;  // of the length that most do not surpass
   const DataArray* const fibre = mesh.find(choice.array, choice.association);
   if (fibre == nullptr || fibre->components != 3) return;
-  std::vector<double> values(3 * fibre->tuples), lengths;
+  std::vector<double> values(3 * fibre->tuples), lengths(fibre->tuples);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = fibre->at(i / 3, static_cast<int>(i % 3));
-  const auto length = [&values](std::size_t i) {
-    return std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
-  };
-  for (std::size_t i = 0; i < fibre->tuples; ++i)
-    if (const double each = length(i); each > 0.0 && std::isfinite(each)) lengths.push_back(each);
-  if (lengths.empty()) return;
-  const auto usual = lengths.begin() +
-                     static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(lengths.size() - 1)));
-  std::nth_element(lengths.begin(), usual, lengths.end());
-  const double least = kTiny * *usual;
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    lengths[i] = std::hypot(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+  const double least = least_direction_length(lengths);
   std::size_t tiny = 0;
   for (std::size_t i = 0; i < fibre->tuples; ++i) {
-    if (!(length(i) > 0.0) || !(length(i) < least)) continue;
+    if (!(lengths[i] > 0.0) || !(lengths[i] < least)) continue;
     std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, 0.0);
     ++tiny;
   }
@@ -92,6 +84,18 @@ void drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice, std::vec
 }
 
 }  // namespace
+
+double least_direction_length(std::span<const double> lengths) {
+  constexpr double kTiny = 1e-6, kUsual = 0.95;
+  std::vector<double> known;
+  for (const double length : lengths)
+    if (length > 0.0 && std::isfinite(length)) known.push_back(length);
+  if (known.empty()) return 0.0;
+  const auto usual =
+      known.begin() + static_cast<std::ptrdiff_t>(std::ceil(kUsual * static_cast<double>(known.size() - 1)));
+  std::nth_element(known.begin(), usual, known.end());
+  return kTiny * *usual;
+}
 
 std::string region_array(const std::vector<ArrayInfo>& arrays) {
   for (const ArrayInfo& array : arrays)

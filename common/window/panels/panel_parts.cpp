@@ -35,6 +35,11 @@ struct Drawn {
   bool in_sight = false;                           ///< it has been scrolled to
   std::string marked;                              ///< setting that was gone to last
   double marked_until = 0.0;                       ///< [s] of Dear ImGui's clock
+  struct Sought {
+    std::string label;
+    int which = 0;   ///< of several of that label
+    int frames = 0;  ///< since it was first asked for
+  } sought;
   std::string reset;
 };
 Drawn& drawn() {
@@ -147,7 +152,14 @@ void note_control(const char* label, const ImVec2& corner, const ImVec2& size) {
   for (const char* end : {"##", "  ("}) {
     if (const std::size_t at = name.find(end); at != std::string::npos && at > 0) name.resize(at);
   }
-  drawn().now.push_back({std::move(name), corner.x, corner.y, size.x, size.y});
+  Drawn& all = drawn();
+  const ImVec2 middle{corner.x + 0.5F * size.x, corner.y + 0.5F * size.y};
+  const bool in_sight =
+      ImGui::IsRectVisible({middle.x - 1.0F, middle.y - 1.0F}, {middle.x + 1.0F, middle.y + 1.0F});
+  if (!in_sight && name == all.sought.label &&
+      std::ranges::count(all.now, name, &DrawnControl::label) == all.sought.which)
+    ImGui::SetScrollFromPosY(middle.y - ImGui::GetWindowPos().y);
+  all.now.push_back({std::move(name), corner.x, corner.y, size.x, size.y, {}, in_sight});
 }
 
 void note_control(const char* label) {
@@ -155,6 +167,20 @@ void note_control(const char* label) {
 }
 
 const std::vector<DrawnControl>& drawn_controls() noexcept { return drawn().last; }
+
+bool scrolls_to_control(const std::string& label, int which) {
+  constexpr int kMost = 4;  // frames: one to ask, one to scroll, one to draw it there
+  Drawn::Sought& sought = drawn().sought;
+  int before = 0;
+  for (const DrawnControl& control : drawn_controls()) {
+    if (control.label != label || before++ < which) continue;
+    if (control.in_sight) break;
+    if (sought.label != label || sought.which != which) sought = {label, which};
+    return ++sought.frames <= kMost;
+  }
+  sought = {};
+  return false;
+}
 
 void begin_controls() {
   Drawn& all = drawn();

@@ -46,9 +46,13 @@ struct DrawnControl {
   std::string label;
   double left = 0.0, top = 0.0, width = 0.0, height = 0.0;  ///< in the window [pixels]
   std::string setting = {};  ///< the row that it edits, by edit_setting() or explain(); empty: none
+  bool in_sight = true;      ///< its middle: not scrolled away
 };
 /// Those of the last frame that was complete, in the order in which they were drawn.
 [[nodiscard]] const std::vector<DrawnControl>& drawn_controls() noexcept;
+/// Scrolls to that one of the controls of this label, as a user would who looks for it.
+/// @return whether to wait: it is on its way into sight. False where nothing brings it there.
+[[nodiscard]] bool scrolls_to_control(const std::string& label, int which);
 /// Begins a frame.
 void begin_controls();
 /// @}

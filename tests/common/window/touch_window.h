@@ -142,17 +142,20 @@ class TouchWindowTest : public ::testing::Test {
     options_.hidden = true;
   }
 
-  // Frames, of 8 ms at least: those between two events give the servo time to answer.
-  static constexpr int kPause = 12;
+  // Frames, of kFrame at least: those between two events give the servo time to answer. They are few, since
+  // drawing them is what these tests take.
+  static constexpr int kPause = 5;
+  static constexpr std::chrono::milliseconds kFrame{25};
 
   /// Runs the script and `kPause` frames more.
   WindowResult run() { return run_model(model_); }
   WindowResult run_model(WindowModel& model) {
     options_.frames = last_ + 2 * kPause;
     options_.patience = 60.0;
-    options_.stop_requested = [this] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(8));
+    options_.stop_requested = [this, last = std::chrono::steady_clock::now()]() mutable {
+      std::this_thread::sleep_until(last + kFrame);
       const auto now = std::chrono::steady_clock::now();
+      last = now;
       frame_times_.push_back(std::chrono::duration<double, std::milli>(now.time_since_epoch()).count());
       return false;
     };

@@ -49,28 +49,35 @@ struct RigidMesh {
   }
 };
 
+/// Pathlines of `data`, which has a member at(t) and moves as `motion`, from between two steps: each point must lie
+/// where the motion brings its particle, to within `tolerance`.
+template <typename Data>
+void expect_carried(const Data& data, const RigidMesh& motion, double tolerance) {
+  constexpr double kFrom = 0.12;
+  const std::vector<double> times = test::steps_until(2.0, 40);
+  const auto read = [&](std::size_t step) { return data.at(times[step]); };
+  std::vector<Vec3> seeds;
+  for (const Vec3& x : kCarried) seeds.push_back(motion.moved(x, kFrom));
+  const UnsteadyResult result = trace_unsteady(
+      times, read, seeds, {.order = TimeOrder::kCubic, .from = kFrom, .trace = {.max_length = 1e3}});
+  EXPECT_TRUE(result.in_time.moving_mesh);
+  EXPECT_FALSE(result.in_time.other_meshes);
+  ASSERT_EQ(result.trace.lines.size(), seeds.size());
+  for (const Line& line : result.trace.lines) {
+    EXPECT_EQ(line.end, End::kEndOfTime) << name_of(line.end) << ", shift " << motion.shift;
+    for (const LinePoint& point : line.points) {
+      Vec3 there = motion.moved(kCarried[line.seed], kFrom + point.time);
+      there.z += motion.slip * point.time;
+      EXPECT_LT(glm::distance(point.position, there), tolerance) << "shift " << motion.shift;
+    }
+  }
+}
+
 TEST(Pathlines, GoWithAMeshThatMoves) {
   // Shifts of a part of the mesh, and of more than its size from step to step.
   for (const RigidMesh mesh :
-       {RigidMesh{0.5, 0.3, 0.1}, RigidMesh{1.0, 0.0, -0.2}, RigidMesh{0.0, 40.0, 0.05}}) {
-    const std::vector<double> times = test::steps_until(2.0, 40);
-    const auto read = [&](std::size_t step) { return mesh.at(times[step]); };
-    std::vector<Vec3> seeds;
-    for (const Vec3& x : kCarried) seeds.push_back(mesh.moved(x, 0.12));  // between two steps
-    const UnsteadyResult result = trace_unsteady(
-        times, read, seeds, {.order = TimeOrder::kCubic, .from = 0.12, .trace = {.max_length = 1e3}});
-    EXPECT_TRUE(result.in_time.moving_mesh);
-    EXPECT_FALSE(result.in_time.other_meshes);
-    ASSERT_EQ(result.trace.lines.size(), seeds.size());
-    for (const Line& line : result.trace.lines) {
-      EXPECT_EQ(line.end, End::kEndOfTime) << mesh.shift;
-      for (const LinePoint& point : line.points) {
-        Vec3 there = mesh.moved(kCarried[line.seed], 0.12 + point.time);
-        there.z += mesh.slip * point.time;
-        EXPECT_LT(glm::distance(point.position, there), 2e-4 * (1.0 + mesh.shift)) << mesh.shift;
-      }
-    }
-  }
+       {RigidMesh{0.5, 0.3, 0.1}, RigidMesh{1.0, 0.0, -0.2}, RigidMesh{0.0, 40.0, 0.05}})
+    expect_carried(mesh, mesh, 2e-4 * (1.0 + mesh.shift));
 }
 
 /// Points along axes that move and stretch with x(t) = (1 + 0.3 t) X + s sin(t) along x and 1 + 0.1 t along z, and the
@@ -162,26 +169,8 @@ struct TurningImage {
 TEST(Pathlines, GoWithAnImageThatTurns) {
   // By half a turn in all, so that its axes are, among others, those of the data, and these backwards.
   constexpr double kHalfTurn = std::numbers::pi / 2.0;
-  for (const RigidMesh& motion : {RigidMesh{kHalfTurn, 0.3, 0.1}, RigidMesh{-kHalfTurn, 0.0, -0.2}}) {
-    const TurningImage image{motion};
-    const std::vector<double> times = test::steps_until(2.0, 40);
-    const auto read = [&](std::size_t step) { return image.at(times[step]); };
-    std::vector<Vec3> seeds;
-    for (const Vec3& x : kCarried) seeds.push_back(motion.moved(x, 0.12));  // between two steps
-    const UnsteadyResult result = trace_unsteady(
-        times, read, seeds, {.order = TimeOrder::kCubic, .from = 0.12, .trace = {.max_length = 1e3}});
-    EXPECT_TRUE(result.in_time.moving_mesh);
-    EXPECT_FALSE(result.in_time.other_meshes);
-    ASSERT_EQ(result.trace.lines.size(), seeds.size());
-    for (const Line& line : result.trace.lines) {
-      EXPECT_EQ(line.end, End::kEndOfTime) << name_of(line.end);
-      for (const LinePoint& point : line.points) {
-        const Vec3 there =
-            motion.moved(kCarried[line.seed], 0.12 + point.time) + Vec3{0.0, 0.0, motion.slip * point.time};
-        EXPECT_LT(glm::distance(point.position, there), 1e-3);
-      }
-    }
-  }
+  for (const RigidMesh& motion : {RigidMesh{kHalfTurn, 0.3, 0.1}, RigidMesh{-kHalfTurn, 0.0, -0.2}})
+    expect_carried(TurningImage{motion}, motion, 1e-3);
 }
 
 }  // namespace
