@@ -261,7 +261,7 @@ class CardiacMouse : public ExplorerTest {
   }
 
   static constexpr int kWidth = 1000, kFirst = 30;
-  int height_ = 1800;  // the panel whole
+  int height_ = 900;
 
  private:
   const Explorer explorer_{.name = "cardiac", .kind = FieldKind::kFibre, .verbs = {open_heart_verb({})}};
