@@ -183,5 +183,27 @@ TEST(Words, GivenUpAreInNoIdentifierAndNoHelp) {
   EXPECT_GT(helps, 300U) << "the tables of settings were not found";
 }
 
+// scripts/guards_out.py takes hours: it is to find each guard where the table says.
+TEST(Registers, EveryGuardStandsOnceInItsFile) {
+  std::ifstream table(source_folder() / "lab/extremes/guards.tsv");
+  int found = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream fields(line);
+    std::string name, file, expression;
+    std::getline(fields, name, '\t');
+    std::getline(fields, file, '\t');
+    std::getline(fields, expression, '\t');
+    for (std::size_t at = 0; (at = expression.find("\\n", at)) != std::string::npos;)
+      expression.replace(at, 2, "\n");
+    const std::string text = text_of(source_folder() / file);
+    const std::size_t first = text.find(expression);
+    EXPECT_NE(first, std::string::npos) << name << ": '" << expression << "' is not in " << file;
+    EXPECT_EQ(text.find(expression, first + 1), std::string::npos) << name << ": twice in " << file;
+    ++found;
+  }
+  EXPECT_GT(found, 50);
+}
+
 }  // namespace
 }  // namespace palpate::test
