@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/scene/origin_of.h"
 
 namespace palpate {
 
@@ -14,6 +15,7 @@ SceneInfo describe_open_input(const Input& input) {
   info.files.example = input.spec().example;
   info.files.series = input.spec().series;
   info.fields = input.fields();
+  info.origin = origin_of(input);
   if (const FileInfo* file = input.file()) {
     info.facts.push_back(file->format);
     info.times = file->times;

@@ -20,6 +20,7 @@
 #include "common/field/tensor/tensor_field.h"
 #include "common/field/vector_field.h"
 #include "common/geometry/line.h"
+#include "common/load/write/image_origin.h"
 #include "common/render/lens/lens.h"
 #include "common/render/scene_view.h"
 #include "common/scene/document/document.h"
@@ -60,6 +61,7 @@ struct SceneInfo {
   std::vector<std::vector<Vec3>> outline;  ///< edges of the domain; empty: those of `bounds`
   UnitNames units;
   bool anatomical = false;  ///< coordinates are RAS+
+  ImageOrigin origin;       ///< of images that are made of it
 };
 
 struct BundleSet;  // bundle_view.h

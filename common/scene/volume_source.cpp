@@ -14,19 +14,32 @@
 namespace palpate {
 namespace {
 
-/// The number that `choice` takes of every tuple, as an array of its own.
-DataArray single_component(const DataArray& array, int component) {
+DataArray magnitudes_of(const DataArray& array) {
   std::vector<float> values(array.tuples);
   for (std::size_t t = 0; t < array.tuples; ++t) {
     double value = 0.0;
-    if (component == ScalarChoice::kMagnitude) {
-      for (int c = 0; c < array.components; ++c) value = std::hypot(value, array.at(t, c));
-    } else {
-      value = array.at(t, component);
-    }
+    for (int c = 0; c < array.components; ++c) value = std::hypot(value, array.at(t, c));
     values[t] = static_cast<float>(value);
   }
   return make_array(array.name, array.association, 1, values);
+}
+
+/// The number that `component` counts of every tuple, in its type.
+DataArray component_of(const DataArray& array, int component) {
+  const std::size_t size = byte_size(array.type), stride = size * as_size(array.components);
+  auto bytes = std::make_shared<std::vector<std::byte>>(array.tuples * size);
+  for (std::size_t t = 0; t < array.tuples; ++t)
+    std::memcpy(bytes->data() + t * size, array.bytes.data() + t * stride + as_size(component) * size, size);
+  DataArray taken = array;
+  taken.components = 1;
+  taken.bytes = std::as_const(*bytes);
+  taken.owner = std::move(bytes);
+  return taken;
+}
+
+/// What `component` takes of every tuple, as an array of its own. @pre not sparse: such numbers are single.
+DataArray single_component(const DataArray& array, int component) {
+  return component == ScalarChoice::kMagnitude ? magnitudes_of(array) : component_of(array, component);
 }
 
 /// Of a step of a lattice: what programs leave of digits.

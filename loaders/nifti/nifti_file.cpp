@@ -222,11 +222,24 @@ struct NiftiFile::Image {
       place_.notes.push_back("values are " + short_number(slope_) + " times the stored ones plus " +
                              short_number(intercept_) + ", as the header says");
     }
-    if (steps_ > 1) {
-      const double dt = image.dt > 0.0 && std::isfinite(image.dt) ? image.dt : 1.0;
-      const double start = std::isfinite(image.toffset) ? image.toffset : 0.0;
-      for (std::int64_t t = 0; t < steps_; ++t) times_.push_back(start + dt * static_cast<double>(t));
-    }
+    if (steps_ > 1) describe_times();
+  }
+
+  void describe_times() {
+    const nifti_image& image = *image_;
+    const bool stated = image.dt > 0.0 && std::isfinite(image.dt);
+    const double dt = stated ? image.dt : 1.0;
+    const double start = std::isfinite(image.toffset) ? image.toffset : 0.0;
+    for (std::int64_t t = 0; t < steps_; ++t) times_.push_back(start + dt * static_cast<double>(t));
+    if (!stated)
+      place_.notes.emplace_back("the header states no step of time (pixdim[4]): volumes counted, one apart");
+    const char* const unit = image.time_units == NIFTI_UNITS_MSEC   ? "ms"
+                             : image.time_units == NIFTI_UNITS_USEC ? "us"
+                             : image.time_units == NIFTI_UNITS_HZ   ? "Hz"
+                             : image.time_units == NIFTI_UNITS_PPM  ? "ppm"
+                             : image.time_units == NIFTI_UNITS_RADS ? "rad/s"
+                                                                    : "";
+    if (*unit != '\0') place_.notes.push_back(std::string("times in ") + unit + ", as the header says");
   }
 
   /// The stored numbers of volume `index` (time step + steps * component), in this machine's byte order.

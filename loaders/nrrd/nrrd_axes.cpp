@@ -221,6 +221,7 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
   const bool placed = nrrd.spaceDim >= 2 && !std::isnan(nrrd.spaceOrigin[0]);
   const int known = nrrd.spaceDim == 2 ? 2 : 3;  // coordinates
   Vec3 origin{0.0};
+  std::vector<std::string> unspaced;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto a = static_cast<int>(i);
     if (placed && a < known) origin[a] = nrrd.spaceOrigin[i];
@@ -239,11 +240,15 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
         topology.axes[a][row] = place.signs[row] * axis.spaceDirection[row];
     } else {
       const double spacing = spacing_of(axis);
+      if (std::isnan(spacing)) unspaced.push_back(std::to_string(axes.space[i] + 1));
       topology.axes[a][a] = place.signs[a] * (std::isnan(spacing) ? 1.0 : spacing);
       const double first = first_of(axis, std::isnan(spacing) ? 1.0 : spacing);
       if (!placed && !std::isnan(first)) origin[a] = first;
     }
   }
+  if (!unspaced.empty())
+    place.notes.push_back("WARNING: the header states no spacing along axis " + joined(unspaced, ", ") +
+                          ": steps of 1 taken");
   topology.origin = place.signs * origin;
   const double volume = std::abs(glm::determinant(topology.axes));
   if (!(volume > 0.0) || !std::isfinite(volume) || !is_finite(topology.origin)) {
@@ -263,7 +268,7 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
   return place;
 }
 
-std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes) {
+std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes, std::vector<std::string>& notes) {
   std::vector<double> times;
   if (!axes.time || nrrd.axis[*axes.time].size < 2) return times;
   const NrrdAxisInfo& axis = nrrd.axis[*axes.time];
@@ -272,12 +277,19 @@ std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes) {
   if (!std::isfinite(step) || step == 0.0) step = 1.0;
   if (!std::isfinite(first)) first = 0.0;
   for (std::size_t t = 0; t < axis.size; ++t) times.push_back(first + step * static_cast<double>(t));
+  std::string unit = axis.units != nullptr ? axis.units : "";
+  if (const auto of_states = nrrd_key(nrrd, sequence_key(*axes.time, "unit"))) unit = *of_states;
+  if (!unit.empty() && unit != "s")
+    notes.push_back("times in " + printable(unit.substr(0, 40)) + ", as the header says");
   const auto values = nrrd_key(nrrd, sequence_key(*axes.time, "values"));
   if (!values) return times;
   std::vector<double> stated;
   for (const std::string_view word : words(*values)) stated.push_back(number(word).value_or(std::nan("")));
   const bool good = stated.size() == times.size() &&
                     std::all_of(stated.begin(), stated.end(), [](double t) { return std::isfinite(t); });
+  if (!good)
+    notes.push_back("the header has no time for each state ('" + printable(values->substr(0, 40)) +
+                    "'): states counted, from 0 on");
   return good ? stated : times;
 }
 

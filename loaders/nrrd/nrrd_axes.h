@@ -41,8 +41,9 @@ struct NrrdPlace {
 /// @throws Error (bad input) where the axes span no volume, or have different units of which one is not known.
 [[nodiscard]] NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& file);
 
-/// One a sample along the time axis; none for a single state.
-[[nodiscard]] std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes);
+/// One a sample along the time axis; none for a single state. @param notes of units and what is no time.
+[[nodiscard]] std::vector<double> nrrd_times(const Nrrd& nrrd, const NrrdAxes& axes,
+                                             std::vector<std::string>& notes);
 
 /// The value of a key, or none.
 [[nodiscard]] std::optional<std::string> nrrd_key(const Nrrd& nrrd, const std::string& key);

@@ -175,7 +175,7 @@ class NrrdLoader : public Loader {
     signs_ = place.signs;
     info.anatomical = place.anatomical;
     info.notes.insert(info.notes.end(), place.notes.begin(), place.notes.end());
-    info.times = nrrd_times(*nrrd, axes_);
+    info.times = nrrd_times(*nrrd, axes_, info.notes);
     const bool named = request.diffusion && request.diffusion->names_gradients();
     describe_values(*nrrd, request.diffusion.has_value() && !named, info.notes);
     if (named) take_named_gradients(*nrrd, *request.diffusion, info);

@@ -223,6 +223,28 @@ TEST(Nrrd, ASpacingThatContradictsTheEndsIsSaid) {
   EXPECT_EQ(said(ends + "spacings: 1 2 1\n"), 0);
 }
 
+TEST(Nrrd, WhatIsTakenForSpacingsAndTimesIsSaid) {
+  const TempFolder folder;
+  const auto said = [&folder](const std::string& fields, const char* words) {
+    const std::string text = "NRRD0005\ntype: float\ndimension: 4\nsizes: 2 3 2 2\nendian: little\n" +
+                             fields + "encoding: raw\n\n" + raw(counting(24));
+    const auto notes = Source::open({{folder.write("a.nrrd", text)}, {}}).info().notes;
+    return std::count_if(notes.begin(), notes.end(),
+                         [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  const std::string kinds = "kinds: domain domain domain time\n";
+  constexpr const char* kSpacing = "WARNING: the header states no spacing along axis 2: steps of 1 taken";
+  EXPECT_EQ(said(kinds + "spacings: 1 nan 2 1\nthicknesses: nan 3 nan nan\n", kSpacing), 1);
+  EXPECT_EQ(said(kinds + "spacings: 1 3 2 1\n", "no spacing"), 0);
+  EXPECT_EQ(said(kinds + "spacings: 1 3 2 1\nunits: \"mm\" \"mm\" \"mm\" \"ms\"\n", "times in ms"), 1);
+  const std::string states =
+      "space: right-anterior-superior\nkinds: domain domain domain list\n"
+      "space directions: (1,0,0) (0,1,0) (0,0,1) none\naxis 3 index type:=";
+  EXPECT_EQ(
+      said(states + "text\naxis 3 index values:=rest stress\n", "no time for each state ('rest stress')"), 1);
+  EXPECT_EQ(said(states + "numeric\naxis 3 index values:=5 7\naxis 3 index unit:=min\n", "times in min"), 1);
+}
+
 TEST(Nrrd, OneSliceIsReadAndSaidToBeNoVolume) {
   const TempFolder folder;
   const auto file = folder.write("a.nrrd",

@@ -154,6 +154,12 @@ void take_segment(std::string_view key, std::string_view value,
   }
 }
 
+/// Whether a pair is of the axes as they are, which other images do not have: a cut one, or one state of a sequence.
+bool of_axes(std::string_view key) {
+  return key.starts_with("axis ") || key.starts_with("DWMRI_") || key.ends_with("_Extent") ||
+         key.ends_with("ExtentOffset") || key == "Segmentation_ConversionParameters";
+}
+
 std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
   ImageHeader header;
   std::map<std::string, Label, std::less<>> segments;
@@ -170,6 +176,7 @@ std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
     if (line.empty()) return finish();
     if (const std::size_t equal = line.find(":="); equal != std::string_view::npos) {
       take_segment(line.substr(0, equal), line.substr(equal + 2), segments);
+      if (!of_axes(trimmed(line.substr(0, equal)))) header.pairs.emplace_back(line);
       continue;
     }
     const std::size_t colon = line.find(": ");
@@ -188,6 +195,7 @@ ImageHeader ImageHeader::of_others() const {
   ImageHeader header = *this;
   header.intent = 0, header.intent_parameters = {}, header.intent_name.clear();
   header.shown = {}, header.scaling.reset(), header.labels.reset();
+  header.pairs.clear(), header.value_units.clear();
   return header;
 }
 
@@ -200,8 +208,10 @@ std::optional<ImageHeader> read_image_header(const std::filesystem::path& file) 
     if (const auto other = header_of_pair(file, head.bytes)) head = read_head(*other, kStart);
     const bool packed = is_gzip(head.bytes);
     if (packed) head.bytes = gzip_head(head.bytes, kHeaderBytes);
-    auto header = std::string_view(head.bytes).starts_with("NRRD000") ? said_by_nrrd(head.bytes)
-                                                                      : said_by_nifti(head.bytes);
+    const bool nrrd = std::string_view(head.bytes).starts_with("NRRD000");
+    if (nrrd && head.file_size > head.bytes.size())  // a line may be cut
+      head.bytes.resize(std::min(head.bytes.size(), head.bytes.rfind('\n') + 1));
+    auto header = nrrd ? said_by_nrrd(head.bytes) : said_by_nifti(head.bytes);
     if (header) header->packed = header->packed || packed;
     return header;
   } catch (const Error&) {

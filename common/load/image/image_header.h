@@ -5,13 +5,14 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/field/data_set.h"
 #include "common/field/transfer/label_table.h"
 
 namespace palpate {
 
-/// The words are NIfTI's (nifti1.h); of NRRD there are the description, labels, and whether the voxels are packed.
+/// The words are NIfTI's (nifti1.h); of NRRD there are the description, labels, pairs, and whether the voxels are packed.
 struct ImageHeader {
   /// How stored numbers become values: slope * number + intercept.
   struct Scaling {
@@ -24,6 +25,10 @@ struct ImageHeader {
   /// Where the file says that its numbers are labels, with the names and colours that it has for them: NIfTI's intent
   /// (no names), segments of 3D Slicer's .seg.nrrd.
   std::optional<LabelTable> labels;
+  /// Lines "key:=value" of NRRD, but for what they say of its axes, gradients, and parts of them.
+  std::vector<std::string> pairs;
+  std::string
+      value_units;  ///< of NRRD's `sample units`: "HU"; from what its reader knows of any file (origin_of())
   bool nifti = false;  ///< what follows is stated
   int units = 0;       ///< `xyzt_units`: of lengths in the lowest three bits, of times above them
   int sform_code = 0, qform_code = 0;  ///< 0, too, of forms that cannot be used

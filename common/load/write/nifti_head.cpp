@@ -79,6 +79,8 @@ std::string with_description_of(const ImageHeader& header, std::string text) {
 
 ImageHeader header_of(const ImageOrigin& origin) {
   ImageHeader header = origin.header.value_or(ImageHeader{});
+  constexpr int kLabels = 1002;  // NIFTI_INTENT_LABEL
+  if (header.labels && header.intent == 0) header.intent = kLabels;
   if (header.nifti || origin.space != ImageSpace::kPatient) return header;
   constexpr int kMillimetres = 2;
   header.units = kMillimetres;

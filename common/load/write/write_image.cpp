@@ -144,6 +144,11 @@ std::string nrrd_header(const UniformTopology& topology, const Stored& stored, c
   if (patient) text += "space units: \"mm\" \"mm\" \"mm\"\n";
   const std::string content_words = origin.header ? with_description_of(*origin.header, {}) : std::string();
   if (!content_words.empty()) text += "content: " + on_one_line(content_words) + "\n";
+  if (scalar && origin.header) {
+    if (!origin.header->value_units.empty())
+      text += "sample units: " + on_one_line(origin.header->value_units) + "\n";
+    for (const std::string& pair : origin.header->pairs) text += pair + "\n";
+  }
   return text + "endian: little\nencoding: " + (packs(origin) ? "gzip" : "raw") +
          "\nspace origin: " + vector_text(topology.origin) + "\n\n";
 }
@@ -367,6 +372,11 @@ std::vector<std::string> write_image(const std::filesystem::path& path, const Un
                         : bytes);
   }
   sink.finish();
+  const std::size_t pairs = origin.header && !colors ? origin.header->pairs.size() : 0;
+  if (ending != Ending::kNrrd && pairs > 0)
+    lost.push_back("no place for " + counted(pairs, "line") + " of the header" +
+                   (origin.header->labels ? ", names and colours of labels among them" : "") +
+                   ": .nrrd keeps them");
   return lost;
 }
 

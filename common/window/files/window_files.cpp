@@ -8,7 +8,6 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
-#include "common/load/image/image_header.h"
 #include "common/scene/session_of.h"
 
 namespace palpate {
@@ -154,10 +153,7 @@ void WindowFiles::save_asked(const PanelActions& actions, const SceneView& view,
   if (!actions.touch.save_notes.empty()) attempt([&] { return write_notes(actions.touch.save_notes); });
   if (!actions.region.crop.empty()) {
     attempt([&] {
-      ImageOrigin origin{.space = view.anatomical ? ImageSpace::kPatient : ImageSpace::kUnknown,
-                         .header = {}};
-      if (state_.scene != nullptr && !state_.scene->info->files.files.empty())
-        origin.header = read_image_header(state_.scene->info->files.files.front());
+      const ImageOrigin origin = state_.scene != nullptr ? state_.scene->info->origin : ImageOrigin();
       const SavedFiles::SavedRegion saved =
           saved_.save_region(*view.volume->image, *region, actions.region.crop, origin);
       std::string text =

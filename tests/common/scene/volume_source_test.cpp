@@ -1,7 +1,10 @@
 #include "common/scene/volume_source.h"
 
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,6 +50,24 @@ TEST(VolumeSource, ComponentsAndMagnitudesAreTakenOut) {
   const DataSet norm = volume_source({given}, {"a", Association::kPoint, ScalarChoice::kMagnitude}, "f");
   EXPECT_EQ(norm.arrays[0].components, 1);
   EXPECT_FLOAT_EQ(static_cast<float>(norm.arrays[0].at(1)), std::sqrt(9.0F + 16.0F + 25.0F));
+}
+
+// 2^30 and 1 apart: single precision has them alike.
+TEST(VolumeSource, ComponentsKeepTheirType) {
+  DataSet given = block(Association::kPoint, 1);
+  const auto numbers = std::make_shared<std::vector<std::int32_t>>();
+  for (std::int32_t i = 0; i < 60; ++i) numbers->insert(numbers->end(), {i, (1 << 30) + i});
+  DataArray& array = given.arrays.at(0);
+  array.components = 2;
+  array.type = ScalarType::kInt32;
+  array.bytes = std::as_bytes(std::span(std::as_const(*numbers)));
+  array.owner = numbers;
+  for (const int component : {0, 1}) {
+    const DataSet source = volume_source({given}, {"a", Association::kPoint, component}, "f");
+    EXPECT_EQ(source.arrays[0].type, ScalarType::kInt32);
+    for (std::size_t p = 0; p < 60; ++p)
+      EXPECT_EQ(source.arrays[0].at(p), static_cast<double>(p) + (component == 0 ? 0.0 : 1073741824.0));
+  }
 }
 
 // What lies evenly is an image, whatever the file calls its grid: voxels are where they were.

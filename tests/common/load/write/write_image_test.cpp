@@ -19,6 +19,7 @@
 #include "common/load/write/image_origin.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"
+#include "common/scene/origin_of.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -286,6 +287,41 @@ TEST(WriteImage, SlopesAreKeptWhereTheyLoseNothing) {
       }
     }
   }
+}
+
+// Names of segments, units of values and other pairs of an NRRD header are said again; not what is of its axes. What
+// has no place for them says so, and labels stay labels there.
+TEST(WriteImage, PairsUnitsAndLabelsAreSaidAgain) {
+  const TempFolder folder;
+  const std::string fields =
+      "sample units: HU\nSegment0_Name:=liver\nSegment0_LabelValue:=1\nSegment0_Extent:=0 1 0 1 0 1\n"
+      "Vendor:=ACME: one\naxis 0 index type:=numeric\n";
+  const auto file = folder.write("given.seg.nrrd",
+                                 "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nspace: RAS\n"
+                                 "space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n" +
+                                     fields + "encoding: raw\n\n" + std::string(8, '\1'));
+  Input input = open(file, FieldKind::kScalar);
+  const DataArray values = input.read({input.arrays().front().name}).front().arrays.front();
+  const UniformTopology lattice{.points = {2, 2, 2}};
+  EXPECT_TRUE(write_image(folder.path("a.nrrd"), lattice, values, false, origin_of(input)).empty());
+  const std::string text = read_file(folder.path("a.nrrd"));
+  for (const char* kept : {"\nsample units: HU\n", "\nSegment0_Name:=liver\n", "\nSegment0_LabelValue:=1\n",
+                           "\nVendor:=ACME: one\n"})
+    EXPECT_NE(text.find(kept), std::string::npos) << kept;
+  for (const char* left : {"Extent", "index"}) EXPECT_EQ(text.find(left), std::string::npos) << left;
+  EXPECT_EQ(read_image_header(folder.path("a.nrrd"))->labels, origin_of(input).header->labels);
+  EXPECT_EQ(open(folder.path("a.nrrd"), FieldKind::kScalar).file()->units, "coordinates in mm, values in HU");
+
+  const auto lost = write_image(folder.path("a.nii"), lattice, values, false, origin_of(input));
+  ASSERT_EQ(lost.size(), 1U);
+  EXPECT_EQ(lost.front(),
+            "no place for 3 lines of the header, names and colours of labels among them: .nrrd keeps them");
+  EXPECT_EQ(number_in<std::int16_t>(read_file(folder.path("a.nii")), 68), 1002);  // NIFTI_INTENT_LABEL
+  ImageOrigin others = origin_of(input);
+  others.header = others.header->of_others();
+  EXPECT_TRUE(write_image(folder.path("b.nrrd"), lattice, values, false, others).empty());
+  EXPECT_EQ(read_file(folder.path("b.nrrd")).find(":="), std::string::npos);
+  EXPECT_EQ(read_file(folder.path("b.nrrd")).find("sample units"), std::string::npos);
 }
 
 // NRRD files are packed where the input was, and keep its description.
