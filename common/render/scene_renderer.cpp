@@ -558,6 +558,8 @@ void SceneRenderer::forget(PictureCache cache) noexcept {
 
 double SceneRenderer::finish() { return state_->timer.finish(); }
 
+void SceneRenderer::leave() { state_->timer.leave(); }
+
 double SceneRenderer::gpu_milliseconds() const noexcept { return state_->timer.milliseconds(); }
 
 bool SceneRenderer::timed_by_query() const noexcept { return state_->timer.by_query(); }

@@ -87,6 +87,8 @@ class SceneRenderer {
   [[nodiscard]] std::string tables_by() const;
   /// Waits until the picture is drawn. [ms] since the call of draw(), by the clock.
   double finish();
+  /// In place of finish(): does not wait, and another renderer may draw meanwhile.
+  void leave();
   /// What the last picture that was waited for took, for a frame budget [ms]: by a timer query where those of
   /// the driver hold against the clock (gl/frame_timer.h), else by the clock.
   [[nodiscard]] double gpu_milliseconds() const noexcept;

@@ -30,6 +30,10 @@ void FrameTimer::begin() {
   glBeginQuery(GL_TIME_ELAPSED, query_.name());
 }
 
+void FrameTimer::leave() {
+  if (std::exchange(running_, false)) glEndQuery(GL_TIME_ELAPSED);
+}
+
 double FrameTimer::finish() {
   const bool timed = std::exchange(running_, false);
   if (timed) glEndQuery(GL_TIME_ELAPSED);

@@ -41,6 +41,8 @@ class FrameTimer {
   void begin();
   /// Waits until all is drawn. @return c [ms]
   double finish();
+  /// Leaves a frame to be drawn without waiting for it, and untimed: another one may begin.
+  void leave();
   /// What the last frame that was finished took [ms].
   [[nodiscard]] double milliseconds() const noexcept { return milliseconds_; }
   /// Whether it was told by a timer query.

@@ -198,7 +198,8 @@ std::vector<double> values_at(const VolumeImage& image, const Pixels& pixels, Sl
   return values;
 }
 
-std::uint8_t byte_of_part(double part) { return static_cast<std::uint8_t>(std::lround(255.0 * part)); }
+/// @pre part in [0, 1].
+std::uint8_t byte_of_part(double part) { return static_cast<std::uint8_t>(255.0 * part + 0.5); }
 
 /// Grey becomes as bright a shade of the colour of the point that is nearest to the middle of the slab.
 void color_picture(const VolumeImage& image, const Pixels& pixels, int threads, Image& picture) {
@@ -279,18 +280,20 @@ Image slice_raster(const SliceView& slice, const Camera& camera, int width, int 
   const std::vector<double> values = all_values(image);
   Image picture{width, height, std::vector<std::uint8_t>(4 * values.size())};
   const double black = slice.window.level - 0.5 * slice.window.width;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double value = values[i];
-    if (!std::isfinite(value)) continue;
-    if (image.labels) {
-      std::ranges::copy(label_pixel(*image.labels, value),
-                        picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
-      continue;
+  parallel_for(values.size(), threads, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const double value = values[i];
+      if (!std::isfinite(value)) continue;
+      Pixel pixel{};
+      if (image.labels) {
+        pixel = label_pixel(*image.labels, value);
+      } else {
+        const std::uint8_t grey = byte_of_part(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
+        pixel = {grey, grey, grey, 255};
+      }
+      std::memcpy(picture.rgba.data() + 4 * i, pixel.data(), pixel.size());
     }
-    const std::uint8_t grey = byte_of_part(std::clamp((value - black) / slice.window.width, 0.0, 1.0));
-    const std::array<std::uint8_t, 4> pixel{grey, grey, grey, 255};
-    std::copy(pixel.begin(), pixel.end(), picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
-  }
+  });
   if (slice.colored && image.colors)
     color_picture(image, pixels_of(image, slice, camera, width, height), threads, picture);
   if (slice.blend && slice.blend->opacity > 0.0)

@@ -23,6 +23,7 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
     return std::none_of(parts.begin(), parts.end(),
                         [&](const Pane& pane) { return pane.plane == one.pane.plane; });
   });
+  SceneRenderer* drawing = nullptr;
   for (const Pane& pane : parts) {
     if (!pane.plane || pane.width < 1 || pane.height < 1) continue;
     SceneView view = pane_view(scene, scene.volume->panes, parts, pane);
@@ -40,12 +41,15 @@ void PanePictures::draw(const SceneView& scene, const std::vector<Pane>& parts,
       continue;
     }
     constexpr double kTractTime = 25.0;  // [ms] of a frame
-    at->renderer->draw(view, pane.width, pane.height, 1.0, kTractTime);
-    complete_ = complete_ && at->renderer->complete();
-    (void)at->renderer->finish();  // frames are timed one at a time
+    // While one is drawn the values of the next are taken.
+    if (drawing != nullptr) drawing->leave();
+    drawing = at->renderer.get();
+    drawing->draw(view, pane.width, pane.height, 1.0, kTractTime);
+    complete_ = complete_ && drawing->complete();
     at->pane = pane;
     at->view = std::move(view);
   }
+  if (drawing != nullptr) (void)drawing->finish();  // what comes next is timed alone
 }
 
 std::vector<PaneImage> PanePictures::read() const {

@@ -57,5 +57,18 @@ TEST(FrameTimer, TellsNoMoreThanTheClock) {
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
+TEST(FrameTimer, OneThatIsLeftLetsAnotherBegin) {
+  const OffscreenContext context;
+  FrameTimer first, second;
+  for (int i = 0; i < 2; ++i) {
+    first.begin();
+    first.leave();
+    second.begin();
+    EXPECT_GT(second.finish(), 0.0);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  }
+  EXPECT_EQ(first.milliseconds(), 0.0);
+}
+
 }  // namespace
 }  // namespace palpate
