@@ -227,12 +227,9 @@ struct NiftiFile::Image {
 
   void describe_times() {
     const nifti_image& image = *image_;
-    const bool stated = image.dt > 0.0 && std::isfinite(image.dt);
-    const double dt = stated ? image.dt : 1.0;
+    const double dt = image.dt > 0.0 && std::isfinite(image.dt) ? image.dt : 1.0;
     const double start = std::isfinite(image.toffset) ? image.toffset : 0.0;
     for (std::int64_t t = 0; t < steps_; ++t) times_.push_back(start + dt * static_cast<double>(t));
-    if (!stated)
-      place_.notes.emplace_back("the header states no step of time (pixdim[4]): volumes counted, one apart");
     const char* const unit = image.time_units == NIFTI_UNITS_MSEC   ? "ms"
                              : image.time_units == NIFTI_UNITS_USEC ? "us"
                              : image.time_units == NIFTI_UNITS_HZ   ? "Hz"
