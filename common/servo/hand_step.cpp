@@ -52,7 +52,7 @@ HandStep HandStepper::step(const HandInput& input) noexcept {
   const double dt = input.time - last_time_;
   if (std::isfinite(input.time)) last_time_ = input.time;
 
-  ForceRequest request{.dt = dt, .cut = judge(input, dt)};
+  ForceRequest request{.dt = dt, .cut = judge(input, dt), .position = last_sample_.in_hand()};
   if (request.cut == ForceCut::kNoHand) let_go();
   if (request.cut == ForceCut::kNone) {
     request.age = input.time - input.sample.time;

@@ -77,7 +77,9 @@ Vec3 SafetyStage::apply(const ForceRequest& request) noexcept {
   if (cut_ == ForceCut::kNone) return force_ = follow(request);
 
   if (cut_ != ForceCut::kJump) ramp_time_ = 0.0;  // popping over is part of the feel, not a start
-  return force_ = fades_out(cut_) && timed ? fade(request.dt) : Vec3{0.0};
+  // Nor is there any outside of the reach where it would fade: a latched fault may meet a hand that is there.
+  const bool fades = fades_out(cut_) && timed && within_reach(limits_, request.position);
+  return force_ = fades ? fade(request.dt) : Vec3{0.0};
 }
 
 ForceCut SafetyStage::reason_to_cut(const ForceRequest& request) const noexcept {

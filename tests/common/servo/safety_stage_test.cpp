@@ -119,6 +119,15 @@ TEST(SafetyStage, NothingRevivesAForceThatIsFadingOut) {
   EXPECT_EQ(stage.apply({.force = {1, 0, 0}, .dt = 0.001, .age = 9.0}), Vec3(0.0));
 }
 
+TEST(SafetyStage, NothingFadesOutsideOfTheReach) {
+  SafetyStage stage =
+      settled({.fade_time = 0.050, .reach_upper = Vec3{0.5}, .latch_faults = true}, {1, 0, 0});
+  EXPECT_NEAR(stage.apply({.force = {1, 0, 0}, .dt = 0.001, .age = 9.0}).x, 0.98, 1e-12);
+  EXPECT_EQ(stage.apply({.force = {1, 0, 0}, .dt = 0.001, .position = {0.6, 0, 0}}), Vec3(0.0));
+  EXPECT_EQ(stage.cut(), ForceCut::kStale) << "what was wrong first is told";
+  EXPECT_EQ(stage.apply({.force = {1, 0, 0}, .dt = 0.001}), Vec3(0.0));
+}
+
 TEST(SafetyStage, LatchesFaultsWhereTheDeviceAsksForIt) {
   for (const bool latch : {false, true}) {
     SafetyStage stage = settled({.latch_faults = latch}, {1, 0, 0});
