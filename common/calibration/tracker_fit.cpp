@@ -12,6 +12,8 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/calibration/error_spline_fit.h"
+#include "common/calibration/metal_fit.h"
 #include "common/calibration/tracker_checks.h"
 
 namespace palpate {
@@ -27,23 +29,19 @@ struct Samples {
   MatrixXd errors;  ///< N x 6: position, orientation
 };
 
-PoseError pose_error_of(const VectorXd& six) { return {{six(0), six(1), six(2)}, {six(3), six(4), six(5)}}; }
+Eigen::RowVectorXd six_of(const PoseError& e) {
+  Eigen::RowVectorXd six(6);
+  six << e.position.x, e.position.y, e.position.z, e.orientation.x, e.orientation.y, e.orientation.z;
+  return six;
+}
 
 Samples samples_of(const std::vector<TrackerMeasurement>& rows) {
   Samples out{{}, MatrixXd(static_cast<Index>(rows.size()), 6)};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const PoseError e = pose_error(rows[i].actual, rows[i].reported);
     out.places.push_back(rows[i].reported.position);
-    out.errors.row(static_cast<Index>(i)) << e.position.x, e.position.y, e.position.z, e.orientation.x,
-        e.orientation.y, e.orientation.z;
+    out.errors.row(static_cast<Index>(i)) = six_of(pose_error(rows[i].actual, rows[i].reported));
   }
   return out;
-}
-
-Box box_of(const std::vector<Vec3>& places) {
-  Box box;
-  for (const Vec3& p : places) box.include(p);
-  return box;
 }
 
 /// Refuses places that all lie near a plane, a line or a point.
@@ -156,57 +154,9 @@ PolynomialFit fit_polynomials(const Samples& samples, int degree, Loss loss, con
   return out;
 }
 
-/// The spline through what is left of the errors, smoothed by the weight that predicts a left-out one best.
-ErrorSpline fit_spline(const std::vector<Vec3>& all_places, const MatrixXd& all_errors) {
-  // Solving takes N^3; beyond this, every k-th measurement carries the spline.
-  constexpr std::size_t kMostCenters = 1500;
-  const std::size_t stride = (all_places.size() + kMostCenters - 1) / kMostCenters;
-  std::vector<Vec3> places;
-  for (std::size_t i = 0; i < all_places.size(); i += stride) places.push_back(all_places[i]);
-  const auto n = static_cast<Index>(places.size());
-  MatrixXd b = MatrixXd::Zero(n + 4, 6);
-  for (Index i = 0; i < n; ++i) b.row(i) = all_errors.row(i * static_cast<Index>(stride));
-  const double size = box_of(places).diagonal();
-
-  MatrixXd k = MatrixXd::Zero(n + 4, n + 4);
-  for (Index i = 0; i < n; ++i) {
-    const Vec3& p = places[as_size(i)];
-    for (Index j = 0; j < i; ++j) k(i, j) = k(j, i) = glm::distance(p, places[as_size(j)]);
-    const std::array<double, 4> plane{1.0, p.x, p.y, p.z};
-    for (Index c = 0; c < 4; ++c) k(i, n + c) = k(n + c, i) = plane[as_size(c)];
-  }
-  std::optional<MatrixXd> best;
-  double least = HUGE_VAL;
-  // |p - p'| is negative on the weights that matter, so smoothing enters with a minus sign.
-  for (const double smoothing : {1e-3, 1e-2, 1e-1, 1.0}) {
-    MatrixXd smoothed = k;
-    smoothed.diagonal().head(n).array() -= smoothing * size;
-    const MatrixXd inverse = smoothed.partialPivLu().inverse();
-    MatrixXd w = inverse * b;
-    if (!w.allFinite()) continue;
-    // Leaving measurement i out changes its prediction by w_i / (K^-1)_ii; position and orientation count
-    // alike.
-    double position = 0.0, orientation = 0.0;
-    for (Index i = 0; i < n; ++i) {
-      position += w.row(i).leftCols(3).squaredNorm() / std::pow(inverse(i, i), 2);
-      orientation += w.row(i).rightCols(3).squaredNorm() / std::pow(inverse(i, i), 2);
-    }
-    const double score = position / std::max(b.leftCols(3).squaredNorm(), 1e-300) +
-                         orientation / std::max(b.rightCols(3).squaredNorm(), 1e-300);
-    if (score >= least) continue;
-    least = score;
-    best = std::move(w);
-  }
-  ErrorSpline out;
-  if (!best) return out;
-  out.centers = places;
-  for (Index i = 0; i < n; ++i) out.weights.push_back(pose_error_of(best->row(i)));
-  for (Index c = 0; c < 4; ++c) out.plane[as_size(c)] = pose_error_of(best->row(n + c));
-  return out;
-}
-
-/// `spline` at the nodes of a lattice over `places`.
-ErrorTable sampled(const ErrorSpline& spline, const std::vector<Vec3>& places, int nodes) {
+/// What `error_at(place)` says at the nodes of a lattice over `places`.
+template <class ErrorAt>
+ErrorTable sampled(const ErrorAt& error_at, const std::vector<Vec3>& places, int nodes) {
   const Box box = box_of(places);
   const Vec3 size = box.size();
   const double longest = std::max({size.x, size.y, size.z});
@@ -222,7 +172,7 @@ ErrorTable sampled(const ErrorSpline& spline, const std::vector<Vec3>& places, i
   for (int z = 0; z < out.count.z; ++z) {
     for (int y = 0; y < out.count.y; ++y) {
       for (int x = 0; x < out.count.x; ++x)
-        out.values.push_back(spline.at(out.lower + Vec3(x, y, z) * out.spacing));
+        out.values.push_back(error_at(out.lower + Vec3(x, y, z) * out.spacing));
     }
   }
   return out;
@@ -279,6 +229,55 @@ std::vector<bool> without_gross_errors(const Samples& samples, const TrackerFitO
   return kept;
 }
 
+/// Those measurements that a spline may follow.
+std::vector<bool> trusted(const Samples& samples, const TrackerFitOptions& options,
+                          const std::string& source) {
+  return options.loss == Loss::kSquare ? std::vector<bool>(samples.places.size(), true)
+                                       : without_gross_errors(samples, options, source);
+}
+
+bool has_metal(TrackerMethod method) {
+  return method == TrackerMethod::kDipoles || method == TrackerMethod::kCombinedDipoles;
+}
+
+/// A correction, and the metal that it was made from, where it was.
+struct Fitted {
+  TrackerCorrection correction;
+  MetalModel metal;
+  std::size_t unread = 0;  ///< nodes of the table where the metal lets nothing be read
+};
+
+/// As a table of what a model of the metal says of each place, with what it leaves of the measurements if asked.
+Fitted fitted_by_metal(const std::vector<TrackerMeasurement>& rows, const Samples& samples,
+                       const TrackerFitOptions& options, const std::string& source) {
+  Fitted out{.correction = {}, .metal = fit_metal(rows, options.loss, source)};
+  ErrorSpline rest;
+  if (options.method == TrackerMethod::kCombinedDipoles) {
+    MatrixXd left = samples.errors;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const PoseError e = out.metal.error_of(rows[i].actual.position);
+      left.row(static_cast<Index>(i)) -= six_of(e);
+    }
+    const auto [places, errors] = part_of(samples.places, left, trusted(samples, options, source));
+    rest = fit_spline(places, errors);
+  }
+  out.correction.table = sampled(
+      [&](const Vec3& p) {
+        PoseError e = out.metal.error_at(p);
+        if (!is_finite(e.position) || !is_finite(e.orientation)) {
+          // Nothing is read there, in a corner of the box about what is.
+          ++out.unread;
+          const auto nearest = std::min_element(rows.begin(), rows.end(), [&p](const auto& a, const auto& b) {
+            return glm::distance(a.reported.position, p) < glm::distance(b.reported.position, p);
+          });
+          e = out.metal.error_of(nearest->actual.position);
+        }
+        return rest.centers.empty() ? e : e + rest.at(p);
+      },
+      samples.places, options.table_nodes);
+  return out;
+}
+
 TrackerCorrection fitted(const Samples& samples, const TrackerFitOptions& options,
                          const std::string& source) {
   TrackerCorrection out;
@@ -289,19 +288,13 @@ TrackerCorrection fitted(const Samples& samples, const TrackerFitOptions& option
     out.orientation = std::move(polynomial.orientation);
     if (options.method == TrackerMethod::kPolynomial) return out;
     for (std::size_t i = 0; i < samples.places.size(); ++i) {
-      const PoseError e = out.error_at(samples.places[i]);
-      Eigen::RowVectorXd six(6);
-      six << e.position.x, e.position.y, e.position.z, e.orientation.x, e.orientation.y, e.orientation.z;
-      left.row(static_cast<Index>(i)) -= six;
+      left.row(static_cast<Index>(i)) -= six_of(out.error_at(samples.places[i]));
     }
   }
-  const std::vector<bool> kept = options.loss == Loss::kSquare
-                                     ? std::vector<bool>(samples.places.size(), true)
-                                     : without_gross_errors(samples, options, source);
-  const auto [places, errors] = part_of(samples.places, left, kept);
+  const auto [places, errors] = part_of(samples.places, left, trusted(samples, options, source));
   out.spline = fit_spline(places, errors);
   if (options.method == TrackerMethod::kTable || options.method == TrackerMethod::kCombined) {
-    out.table = sampled(out.spline, places, options.table_nodes);
+    out.table = sampled([&out](const Vec3& p) { return out.spline.at(p); }, places, options.table_nodes);
     out.spline = {};
   }
   return out;
@@ -341,12 +334,18 @@ std::string name_of(TrackerMethod method) {
       return "combined";
     case TrackerMethod::kCombinedSpline:
       return "combined-spline";
+    case TrackerMethod::kDipoles:
+      return "dipoles";
+    case TrackerMethod::kCombinedDipoles:
+      return "combined-dipoles";
   }
   return {};
 }
 
-TrackerCorrection fit_tracker(const std::vector<TrackerMeasurement>& rows, const TrackerFitOptions& options,
-                              const std::string& source) {
+namespace {
+
+Fitted fit_with_metal(const std::vector<TrackerMeasurement>& rows, const TrackerFitOptions& options,
+                      const std::string& source) {
   const Samples samples = samples_of(rows);
   // Ten measurements are the least from which a table says more than their mean.
   constexpr std::size_t kFewest = 10;
@@ -357,7 +356,28 @@ TrackerCorrection fit_tracker(const std::vector<TrackerMeasurement>& rows, const
                        .expected = std::to_string(kFewest) + " at least",
                        .remedy = "measure on a grid through the tracked volume"});
   require_volume(samples.places, source);
-  return fitted(samples, options, source);
+  if (has_metal(options.method)) return fitted_by_metal(rows, samples, options, source);
+  return {.correction = fitted(samples, options, source), .metal = {}};
+}
+
+/// What a report says of the metal.
+void describe_metal(FitReport& report, const MetalModel& metal) {
+  int number = 0;
+  for (const MetalSource& each : metal.sources) {
+    const bool piece = each.kind == MetalSource::Kind::kPiece;
+    const std::string name = (piece ? "piece " : "sheet ") + std::to_string(++number);
+    for (int axis = 0; axis < 3; ++axis)
+      report.parameters.push_back({name + " " + "xyz"[axis], each.place[axis], NAN, "m"});
+    report.parameters.push_back({name + " strength", each.strength, NAN, piece ? "m^3" : "1"});
+  }
+  report.parameters.push_back({"turn factor", metal.turn_factor, NAN, "1"});
+}
+
+}  // namespace
+
+TrackerCorrection fit_tracker(const std::vector<TrackerMeasurement>& rows, const TrackerFitOptions& options,
+                              const std::string& source) {
+  return fit_with_metal(rows, options, source).correction;
 }
 
 TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
@@ -371,7 +391,8 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
   }
   refuse_slips(table.rows, table.source);
   TrackerFit out;
-  out.correction = fit_tracker(fit, options, table.source);
+  Fitted made = fit_with_metal(fit, options, table.source);
+  out.correction = std::move(made.correction);
   FitReport& report = out.report;
   report.kind = "tracker";
   report.source = table.source;
@@ -402,10 +423,13 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
   // Error beside time: every method, and polynomials of every degree that the measurements bear.
   for (const TrackerMethod method :
        {TrackerMethod::kPolynomial, TrackerMethod::kTable, TrackerMethod::kSpline, TrackerMethod::kCombined,
-        TrackerMethod::kCombinedSpline}) {
+        TrackerMethod::kCombinedSpline, TrackerMethod::kDipoles, TrackerMethod::kCombinedDipoles}) {
+    // A model of the metal takes as long as all others: it is compared where one was asked for.
+    if (has_metal(method) && !has_metal(options.method)) continue;
     TrackerFitOptions asked = options;
     asked.method = method;
-    const bool has_degree = method != TrackerMethod::kTable && method != TrackerMethod::kSpline;
+    const bool has_degree =
+        method != TrackerMethod::kTable && method != TrackerMethod::kSpline && !has_metal(method);
     for (int degree = 1; degree <= 6; ++degree) {
       const bool sweep = method == TrackerMethod::kPolynomial;
       if (!sweep && degree != 1) break;
@@ -440,6 +464,14 @@ TrackerFit calibrate_tracker(const MeasurementTable<TrackerMeasurement>& table,
     report.orientation_errors.push_back({distance, before[i].orientation, after[i].orientation});
   }
 
+  if (has_metal(options.method)) {
+    describe_metal(report, made.metal);
+    if (made.unread > 0)
+      report.advice.push_back(
+          counted(made.unread, "node") + " of " + std::to_string(out.correction.table.values.size()) +
+          " of the table lie where nothing is read, and have the error of the measurement next "
+          "to them");
+  }
   if (out.correction.position.degree >= 0) {
     const PolynomialFit polynomial =
         fit_polynomials(samples_of(fit), options.degree, options.loss, table.source);

@@ -4,7 +4,8 @@
 ///   sum_i |e_i - f(p_t,i)|^2
 /// for f a complete polynomial of degree r; a biharmonic spline of the scattered measurements, smoothed as
 /// much as leaving one measurement out asks for; a trilinear table sampled from that spline; or a polynomial
-/// with the table (or the spline) of what it leaves.
+/// with the table (or the spline) of what it leaves. Or f follows from a model of the metal that bends the field
+/// (metal_fit.h), as a table of what that says, alone or with a spline of what it leaves.
 #pragma once
 
 #include <string>
@@ -14,7 +15,15 @@
 
 namespace palpate {
 
-enum class TrackerMethod { kPolynomial, kTable, kSpline, kCombined, kCombinedSpline };
+enum class TrackerMethod {
+  kPolynomial,
+  kTable,
+  kSpline,
+  kCombined,
+  kCombinedSpline,
+  kDipoles,
+  kCombinedDipoles
+};
 
 [[nodiscard]] std::string name_of(TrackerMethod method);
 

@@ -26,8 +26,10 @@ Loss loss_of(const CalibrationOptions& o) {
 }
 
 TrackerMethod method_of(const CalibrationOptions& o) {
-  for (const TrackerMethod method : {TrackerMethod::kPolynomial, TrackerMethod::kTable,
-                                     TrackerMethod::kSpline, TrackerMethod::kCombined}) {
+  constexpr std::array kMethods{TrackerMethod::kPolynomial, TrackerMethod::kTable,
+                                TrackerMethod::kSpline,     TrackerMethod::kCombined,
+                                TrackerMethod::kDipoles,    TrackerMethod::kCombinedDipoles};
+  for (const TrackerMethod method : kMethods) {
     if (name_of(method) == o.method) return method;
   }
   return TrackerMethod::kCombinedSpline;

@@ -49,7 +49,7 @@ std::vector<Setting> device_rows() {
        .help = "tracker: what its error is fitted by",
        .heading = "Fit",
        .groups = {Group::kCalibrate},
-       .words = "polynomial|table|spline|combined|combined-spline"},
+       .words = "polynomial|table|spline|combined|combined-spline|dipoles|combined-dipoles"},
       {.name = "degree",
        .place = kCalibrationAt<&CalibrationOptions::degree>,
        .help = "tracker: of the polynomial",

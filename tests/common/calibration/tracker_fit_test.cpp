@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/calibration/metal_fit.h"
 #include "common/calibration/synthetic.h"
+#include "common/calibration/tracker_checks.h"
 
 namespace palpate::test {
 namespace {
@@ -54,6 +57,54 @@ TEST(TrackerFit, ReachesTheReductionOfTable41AndTheCombinedMethodMore) {
     }
     EXPECT_LT(report.condition_number, kReliableCondition);
     EXPECT_FALSE(report.work_precision.empty());
+  }
+}
+
+// The made bench's metal is found by its principle: its error of the places and strengths is none of a fit's own.
+TEST(TrackerFit, AModelOfTheMetalBeatsThePolynomial) {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    SCOPED_TRACE(seed);
+    const std::vector<TrackerMeasurement> rows =
+        synthetic_tracker_measurements(synthetic_tracker(seed), seed);
+    std::vector<TrackerMeasurement> fit, judged;
+    for (const TrackerMeasurement& row : rows) (row.validation ? judged : fit).push_back(row);
+    const auto mean_left = [&](TrackerMethod method) {
+      const TrackerCorrection correction = fit_tracker(fit, {.method = method});
+      Left sum;
+      for (const TrackerMeasurement& row : judged) {
+        const Left left = left_by(correction, row);
+        sum.position += left.position / static_cast<double>(judged.size());
+        sum.orientation += left.orientation / static_cast<double>(judged.size());
+      }
+      return sum;
+    };
+    const Left polynomial = mean_left(TrackerMethod::kPolynomial),
+               combined = mean_left(TrackerMethod::kCombined);
+    for (const TrackerMethod method : {TrackerMethod::kDipoles, TrackerMethod::kCombinedDipoles}) {
+      const Left left = mean_left(method);
+      std::printf("  %s: %.2f mm, %.3f deg; polynomial %.2f, %.3f; combined %.2f, %.3f\n",
+                  name_of(method).c_str(), 1e3 * left.position, left.orientation / kDegree,
+                  1e3 * polynomial.position, polynomial.orientation / kDegree, 1e3 * combined.position,
+                  combined.orientation / kDegree);
+      EXPECT_LT(left.position, 0.6 * polynomial.position);
+      EXPECT_LT(left.orientation, 0.6 * polynomial.orientation);
+    }
+  }
+}
+
+// The field does not pass a perfect conductor: across it is nothing, whichever coil is on and wherever on it.
+TEST(MetalModel, NoFieldPassesAPerfectSheet) {
+  const Vec3 foot{0.3, -0.2, -0.9}, n = glm::normalize(foot);
+  const MetalModel sheet{{{MetalSource::Kind::kSheet, foot, 1.0}}};
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 any{std::sin(3.0 * i), std::cos(2.0 * i), std::sin(i + 1.0)};
+    const Vec3 on = foot + any - glm::dot(any, n) * n;
+    EXPECT_LT(glm::length(n * sheet.field_at(on)), 1e-12);
+    // What is read where the sensor is leads back to there.
+    const Vec3 above = 0.4 * n + 0.3 * any - 0.8 * n;
+    if (glm::length(above) < 0.2) continue;
+    const PoseError e = sheet.error_of(above);
+    EXPECT_LT(glm::distance(sheet.error_at(above - e.position).position, e.position), 1e-9);
   }
 }
 
