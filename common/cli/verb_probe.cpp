@@ -43,6 +43,9 @@ std::string summary_text(const ProbeSummary& summary) {
   text += "  force      at most " + short_number(summary.max_force) + " N (cap " +
           short_number(summary.limits.force_cap) + " N, slew cap " + short_number(summary.limits.slew_cap) +
           " N/s, stiffness " + short_number(summary.settings.stiffness) + " N/m)\n";
+  if (summary.least_felt > 0.0)
+    text += "  felt       as stiff as " + short_number(summary.least_felt) +
+            " N/m where a force across hides it most\n";
   text += "  residual   at most " + short_number(summary.max_residual) + ", " +
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";
   text += "  workspace  " + short_number(summary.workspace_scale) + " m per data unit; release distance " +
@@ -240,6 +243,8 @@ ExitCode run_probe(const std::vector<HapticMode>& modes, const Document& options
     console.note(tuned_note(summary.settings.stiffness, tuned->stiffness));
     summary.settings.stiffness = tuned->stiffness;
   }
+  if (tuned != nullptr)
+    summary.settings.even_stiffness = std::min(summary.settings.even_stiffness, tuned->stiffness);
   if (mode.name == kIsosurfaceMode && !recording) settle_isosurfaces(haptic, summary, context.console);
   // Of a heart the tensors are its fibres, which no column tells of.
   ProbeLog::Measured logged{

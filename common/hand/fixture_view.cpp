@@ -114,6 +114,7 @@ Mesh mesh_of_fixture(const Fixture& fixture, const Workspace& workspace, const B
   Mesh mesh;
   switch (fixture.kind) {
     case Fixture::Kind::kMode:
+    case Fixture::Kind::kForces:
       break;
     case Fixture::Kind::kCircle:
       add_tube(mesh, ring(fixture.at, fixture.normal, fixture.radius), tube, kSides);

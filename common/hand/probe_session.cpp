@@ -50,6 +50,7 @@ ProbeSession::ProbeSession(ProbeSessionOptions options, std::function<void()> wa
 ChainSettings ProbeSession::chain_settings() const {
   ChainSettings settings = choice_.settings;
   settings.stiffness = std::min(settings.stiffness, options_.most_stiffness);
+  settings.even_stiffness = std::min(settings.even_stiffness, options_.most_stiffness);
   if (!choice_.ticks || !data_.has_flow()) {
     settings.ticks.interval = 0.0;
   } else if (settings.ticks.interval == 0.0) {

@@ -71,6 +71,7 @@ void take_fixtures(const FixtureSpec& spec, ChainSettings& settings) {
                       .sliding = spec.dynamic_friction,
                       .grain = kMetresPerMillimetre * spec.grain};
   settings.viscosity = spec.viscosity;
+  settings.even_stiffness = spec.even_stiffness;
   settings.events = {.force = spec.event_force, .frequency = spec.event_frequency};
   if (!settings.shape.valid())
     throw usage_error(
@@ -91,6 +92,7 @@ void keep_fixtures(const ChainSettings& settings, FixtureSpec& spec) {
   spec.dynamic_friction = settings.contact.sliding;
   spec.grain = kMillimetres * settings.contact.grain;
   spec.viscosity = settings.viscosity;
+  spec.even_stiffness = settings.even_stiffness;
   spec.event_force = settings.events.force;
   spec.event_frequency = settings.events.frequency;
 }

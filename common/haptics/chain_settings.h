@@ -63,9 +63,10 @@ struct ForceFieldSettings {
 };
 
 struct ChainSettings {
-  double stiffness = 200.0;  ///< k of the coupling [N/m]
-  double damping = 0.0;      ///< b of the coupling, where links hold the hand back [N s/m]
-  double viscosity = 0.0;    ///< drag of the hand everywhere, as in a syrup [N s/m]
+  double stiffness = 200.0;     ///< k of the coupling [N/m]
+  double damping = 0.0;         ///< b of the coupling, where links hold the hand back [N s/m]
+  double viscosity = 0.0;       ///< drag of the hand everywhere, as in a syrup [N s/m]
+  double even_stiffness = 0.0;  ///< up to which springs make up for forces across them [N/m]; 0: they do not
   PassivitySettings passivity;
   StreamlineSettings streamline;
   TickSettings ticks;
@@ -88,10 +89,11 @@ struct ChainSettings {
   /// Whether every value can be used: finite, none below its least, kappa at most one.
   [[nodiscard]] bool valid() const noexcept {
     return std::isfinite(stiffness) && stiffness >= 0.0 && std::isfinite(damping) && damping >= 0.0 &&
-           std::isfinite(viscosity) && viscosity >= 0.0 && passivity.valid() && streamline.valid() &&
-           ticks.valid() && drag.valid() && shape.valid() && carry.valid() && contact.valid() &&
-           events.valid() && grid_axis.valid() && plane_widget.valid() && isosurface.valid() &&
-           linear.valid() && texture.valid() && anisotropy.valid() && fibre.valid() && force_field.valid();
+           std::isfinite(viscosity) && viscosity >= 0.0 && std::isfinite(even_stiffness) &&
+           even_stiffness >= 0.0 && passivity.valid() && streamline.valid() && ticks.valid() &&
+           drag.valid() && shape.valid() && carry.valid() && contact.valid() && events.valid() &&
+           grid_axis.valid() && plane_widget.valid() && isosurface.valid() && linear.valid() &&
+           texture.valid() && anisotropy.valid() && fibre.valid() && force_field.valid();
   }
 
   /// Calls visit(name, value) for every value, always in the same order: the one table of names.
@@ -100,6 +102,7 @@ struct ChainSettings {
     visit("stiffness", self.stiffness);
     visit("damping", self.damping);
     visit("viscosity", self.viscosity);
+    visit("even_stiffness", self.even_stiffness);
     PassivitySettings::each(self.passivity, visit);
     StreamlineSettings::each(self.streamline, visit);
     TickSettings::each(self.ticks, visit);

@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/base/index.h"
+#include "common/haptics/perceived_stiffness.h"
 
 namespace palpate {
 namespace {
@@ -13,6 +14,46 @@ namespace {
 /// @param velocity of a link's probe  @param held_back what of it the proxy does not do  @param b [N s/m]
 Vec3 coupling_damper(const Vec3& velocity, const Vec3& held_back, double b) noexcept {
   return b > 0.0 && glm::dot(velocity, held_back) > 0.0 ? -b * held_back : Vec3{0.0};
+}
+
+/// What a link pulls by in one step.
+struct Pull {
+  LinkUpdate link;
+  Vec3 stretched{0.0}, damper{0.0};  ///< [m], [N]
+  double factor = 1.0;               ///< c of the spring
+};
+/// What each link puts on the hand [N].
+using Shares = std::array<Vec3, ChainStep::kMaxLinks>;
+
+ChainForce added_up(std::span<const Pull> pulls, ChainForceForm form, double stiffness,
+                    Shares& shares) noexcept {
+  ChainForce springs(form);
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    const Vec3 before = springs.force();
+    springs.add(pulls[i].link, pulls[i].stretched, pulls[i].factor * stiffness, pulls[i].damper);
+    shares[i] = springs.force() - before;
+  }
+  return springs;
+}
+
+/// The part of the other links' force that is across `share` [N].
+double across(const Vec3& share, const Vec3& all) noexcept {
+  const Vec3 rest = all - share;
+  const double square = glm::dot(share, share);
+  return glm::length(square > 0.0 ? rest - (glm::dot(rest, share) / square) * share : rest);
+}
+
+/// The least of what the springs that pull feel like [N/m]; 0: none does.
+double softest(std::span<const Pull> pulls, const Shares& shares, const Vec3& all) noexcept {
+  double least = 0.0;
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    const double along = glm::length(shares[i]), stretch = glm::length(pulls[i].stretched);
+    constexpr double kPulls = 1e-9;  // [m]
+    if (!(along > 0.0 && stretch > kPulls)) continue;
+    const double felt = perceived_stiffness(along / stretch, along, across(shares[i], all));
+    if (least == 0.0 || felt < least) least = felt;
+  }
+  return least;
 }
 
 }  // namespace
@@ -57,14 +98,16 @@ void ProxyChain::press(std::uint32_t buttons) noexcept {
 
 ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
   ChainStep result;
-  ChainForce springs(form_);
+  std::array<Pull, ChainStep::kMaxLinks> pulls;
   Vec3 damper = -settings_.viscosity * velocity, pulled = probe, pulled_velocity = velocity;
   for (const auto& link : links_) {
     LinkUpdate update;
     link->update(pulled, budget_, update);
     const Vec3 passed_on = update.jacobian * pulled_velocity;
-    springs.add(update, update.proxy - pulled, settings_.stiffness,
-                coupling_damper(pulled_velocity, pulled_velocity - passed_on, settings_.damping));
+    pulls[as_size(result.links)] = {
+        .link = update,
+        .stretched = update.proxy - pulled,
+        .damper = coupling_damper(pulled_velocity, pulled_velocity - passed_on, settings_.damping)};
     pulled_velocity = passed_on;
     if (update.damping != Vec3{0.0}) damper -= update.frame * (update.damping * (velocity * update.frame));
     result.proxies[as_size(result.links++)] = update.proxy;
@@ -77,6 +120,21 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
     result.cells += update.cells;
     pulled = update.proxy;
   }
+  const auto linked = std::span(pulls).first(as_size(result.links));
+  Shares shares;
+  ChainForce springs = added_up(linked, form_, settings_.stiffness, shares);
+  if (settings_.even_stiffness > settings_.stiffness && settings_.stiffness > 0.0 && result.links > 1) {
+    // What one makes up for presses across the others: a few rounds settle it to some per cent.
+    constexpr int kRounds = 4;
+    const double most = settings_.even_stiffness / settings_.stiffness;
+    for (int round = 0; round < kRounds; ++round) {
+      for (std::size_t i = 0; i < linked.size(); ++i)
+        pulls[i].factor = stiffness_compensation(glm::length(shares[i]) / pulls[i].factor,
+                                                 across(shares[i], springs.force()), most);
+      springs = added_up(linked, form_, settings_.stiffness, shares);
+    }
+  }
+  result.felt_stiffness = softest(linked, shares, springs.force());
   result.force = springs.force() + damper;
   result.active = springs.active();
   return result;

@@ -15,6 +15,10 @@
 ///
 /// left out where it would push (u_i . (1 - J_i) u_i < 0: a proxy that outruns its probe). A viscosity drags the
 /// hand everywhere: F -= b_v xdot.
+///
+/// How stiff a link feels beside the others' forces across it is said (perceived_stiffness.h, eq. 6.11), and made up for
+/// where ChainSettings::even_stiffness asks for it: the link's spring is c_i k_i, c_i of (1) there, no stiffer than that.
+/// Such a chain is no potential's: the passivity controller looks after it.
 #pragma once
 
 #include <array>
@@ -38,10 +42,11 @@ struct ChainStep {
   std::array<Vec3, kMaxLinks> proxies{};  ///< [m], in the order of the chain
   int links = 0;
   HoldState state = HoldState::kFree;
-  double residual = 0.0;  ///< [m] of the last proxy from its own feature
-  bool jumped = false;    ///< a feature changed: the force must start from zero
-  bool at_end = false;    ///< a line that holds the hand ends here
-  bool crossed = false;   ///< a surface was met, left or passed
+  double residual = 0.0;        ///< [m] of the last proxy from its own feature
+  bool jumped = false;          ///< a feature changed: the force must start from zero
+  bool at_end = false;          ///< a line that holds the hand ends here
+  bool crossed = false;         ///< a surface was met, left or passed
+  double felt_stiffness = 0.0;  ///< [N/m] of the spring that feels softest beside the others; 0: none pulls
   int iterations = 0;
   int cells = 0;
 

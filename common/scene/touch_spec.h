@@ -45,6 +45,7 @@ struct FixtureSpec {
   double dynamic_friction = 0.0;
   double grain = 0.0;              ///< [mm]
   double viscosity = 0.0;          ///< [N s/m]
+  double even_stiffness = 0.0;     ///< [N/m]
   double event_force = 0.0;        ///< [N]
   double event_frequency = 150.0;  ///< [Hz]
 };

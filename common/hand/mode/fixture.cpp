@@ -30,7 +30,7 @@ using Links = std::vector<std::unique_ptr<Constraint>>;
 
 constexpr std::string_view kFixtureGrammar =
     "a file of lines (.csv .vtp .trk .tck .trx) or of a surface (.stl .ply .obj .vtp), circle:x,y,z,nx,ny,nz,r, "
-    "sphere:x,y,z,r, plane:nx,ny,nz,d, half-space:nx,ny,nz,d, magnet:x,y,z[,MM[,N]], well:x,y,z[,MM[,N]] or mode";
+    "sphere:x,y,z,r, plane:nx,ny,nz,d, half-space:nx,ny,nz,d, magnet:x,y,z[,MM[,N]], well:x,y,z[,MM[,N]], forces:FILE.csv or mode";
 constexpr std::size_t kMostPoints = 10'000'000;  // of the lines of a file
 
 [[noreturn]] void refuse_fixture(const std::string& text, const std::string& why) {
@@ -120,19 +120,50 @@ std::vector<std::vector<Vec3>> table_of_lines(const std::string& file) {
   return lines;
 }
 
-std::uint64_t fingerprint_of(const std::vector<std::vector<Vec3>>& lines) noexcept {
-  std::uint64_t hash = 0x9e37'79b9'7f4a'7c15U;
-  const auto add = [&hash](std::uint64_t word) {
-    hash = (hash ^ word) * 0x100'0000'01b3U;
-    hash ^= hash >> 29U;
-  };
-  for (const auto& line : lines) {
-    add(line.size());
-    for (const Vec3& x : line) {
-      for (int c = 0; c < 3; ++c) add(std::bit_cast<std::uint64_t>(x[c]));
-    }
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) noexcept {
+    hash_ = (hash_ ^ word) * 0x100'0000'01b3U;
+    hash_ ^= hash_ >> 29U;
   }
-  return hash;
+  void add(const Vec3& x) noexcept {
+    for (int c = 0; c < 3; ++c) add(std::bit_cast<std::uint64_t>(x[c]));
+  }
+  [[nodiscard]] std::uint64_t value() const noexcept { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0x9e37'79b9'7f4a'7c15U;
+};
+
+std::uint64_t fingerprint_of(const std::vector<std::vector<Vec3>>& lines) noexcept {
+  Fingerprint print;
+  for (const auto& line : lines) {
+    print.add(line.size());
+    for (const Vec3& x : line) print.add(x);
+  }
+  return print.value();
+}
+
+void take_forces(Fixture& made, const std::string& file) {
+  constexpr std::array<std::string_view, 4> kColumns{"t", "fx", "fy", "fz"};
+  CsvReader table(file, kColumns, {}, "a table of forces over time with the header t,fx,fy,fz");
+  std::vector<TimedForce> rows;
+  Fingerprint print;
+  for (std::array<double, 4> row{}; table.next(row);) {
+    const TimedForce next{row[0], {row[1], row[2], row[3]}};
+    if (!std::isfinite(next.time) || !is_finite(next.force))
+      table.refuse("holds a number that is not finite", "four finite numbers t,fx,fy,fz");
+    if (!rows.empty() && !(next.time > rows.back().time))
+      table.refuse("is no later than the row before it", "rising times t in seconds");
+    if (rows.size() >= kMostPoints) table.refuse("is one row too many", "at most 10 million rows");
+    rows.push_back(next);
+    print.add(std::bit_cast<std::uint64_t>(next.time));
+    print.add(next.force);
+  }
+  if (rows.size() < 2) throw input_error({file, "", counted(rows.size(), "row"), "two rows at least", ""});
+  made.kind = Fixture::Kind::kForces;
+  made.fingerprint = print.value();
+  made.forces = std::make_shared<const std::vector<TimedForce>>(std::move(rows));
 }
 
 void take_surface(Fixture& made, Progress* progress) {
@@ -225,6 +256,9 @@ void append_fixture(const Fixture& fixture, const Workspace& workspace, bool rub
       links.push_back(std::make_unique<LandmarkPull>(std::vector{landmark}));
       break;
     }
+    case Fixture::Kind::kForces:
+      links.push_back(std::make_unique<ForcePlayback>(fixture.forces));
+      break;
     case Fixture::Kind::kLines: {
       std::vector<std::vector<Vec3>> lines = fixture.lines;
       for (auto& line : lines) {
@@ -283,7 +317,12 @@ std::shared_ptr<const Fixture> read_fixture(const std::string& text, Progress* p
   if (text == "mode") return std::make_shared<const Fixture>(Fixture{.text = text});
   if (auto shape = shape_fixture(text)) return std::make_shared<const Fixture>(*std::move(shape));
   Fixture made{.text = text};
-  take_file(made, progress);
+  constexpr std::string_view kForces = "forces:";
+  if (text.starts_with(kForces)) {
+    take_forces(made, text.substr(kForces.size()));
+  } else {
+    take_file(made, progress);
+  }
   return std::make_shared<const Fixture>(std::move(made));
 }
 

@@ -9,6 +9,7 @@
 ///   half-space:nx,ny,nz,d                    a wall: the hand stays where n.x >= d
 ///   magnet:x,y,z[,MM[,N]]                    catches a hand within so many mm (5) with so many N (1.5)
 ///   well:x,y,z[,MM[,N]]                      leads it there from afar (50 mm, 0.5 N)
+///   forces:FILE.csv                          the force of a table t,fx,fy,fz (a log of `probe`), played back over time
 ///   mode                                     where the mode's own constraints stand; last, where it is not said
 ///
 /// Coordinates and radii are the data's own; millimetres and newtons are the hand's.
@@ -23,6 +24,7 @@
 
 #include "common/base/progress.h"
 #include "common/geometry/surface_mesh.h"
+#include "common/haptics/constraint/force_playback.h"
 #include "common/haptics/constraint/landmark_pull.h"
 #include "common/haptics/constraint/link_settings.h"
 #include "common/haptics/proxy_chain.h"
@@ -32,14 +34,25 @@ namespace palpate {
 
 /// One of the list, ready to be felt and drawn.
 struct Fixture {
-  enum class Kind : std::uint8_t { kMode, kCircle, kSphere, kPlane, kHalfSpace, kLandmark, kLines, kSurface };
+  enum class Kind : std::uint8_t {
+    kMode,
+    kCircle,
+    kSphere,
+    kPlane,
+    kHalfSpace,
+    kLandmark,
+    kForces,
+    kLines,
+    kSurface
+  };
 
   std::string text;  ///< as the user wrote it
   Kind kind = Kind::kMode;
-  Vec3 at{0.0};                             ///< centre, landmark, or a point of the plane; data coordinates
-  Vec3 normal{0.0, 0.0, 1.0};               ///< unit
-  double radius = 0.0;                      ///< data units
-  Landmark landmark;                        ///< but for its place
+  Vec3 at{0.0};                ///< centre, landmark, or a point of the plane; data coordinates
+  Vec3 normal{0.0, 0.0, 1.0};  ///< unit
+  double radius = 0.0;         ///< data units
+  Landmark landmark;           ///< but for its place
+  std::shared_ptr<const std::vector<TimedForce>> forces;
   std::vector<std::vector<Vec3>> lines;     ///< data coordinates
   std::shared_ptr<const SurfaceMesh> mesh;  ///< data coordinates
   std::uint64_t fingerprint = 0;            ///< of what a file held; 0: there is none

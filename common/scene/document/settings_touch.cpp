@@ -318,7 +318,7 @@ const Setting kTouchRows[] = {
      .help =
          "a curve, shape, surface or landmark that holds, stops or pulls the hand in every mode, in front of the "
          "mode's own constraints, or behind them after --fixture mode; may be repeated, up to four",
-     .value = "FILE|circle:…|sphere:…|plane:…|half-space:…|magnet:…|well:…|mode",
+     .value = "FILE|circle:…|sphere:…|plane:…|half-space:…|magnet:…|well:…|forces:FILE|mode",
      .heading = "Touch",
      .groups = {Group::kTouch},
      .title = "Fixtures",
@@ -404,6 +404,18 @@ const Setting kTouchRows[] = {
      .unit = "N s/m",
      .range = {.lower = 0.0, .upper = 100.0},
      .slider = {.lower = 0.0, .upper = 20.0},
+     .recorded = true},
+    {.name = "even-stiffness",
+     .place = kFixtureAt<&FixtureSpec::even_stiffness>,
+     .help =
+         "stiffness in N/m up to which springs of a chain make up for forces across them, beside which they feel softer; "
+         "0: they do not",
+     .value = "K",
+     .heading = "Touch",
+     .groups = {Group::kTouch},
+     .unit = "N/m",
+     .range = {.lower = 0.0, .upper = 5000.0},
+     .slider = {.lower = 0.0, .upper = 2000.0},
      .recorded = true},
     {.name = "event-force",
      .place = kFixtureAt<&FixtureSpec::event_force>,

@@ -90,6 +90,7 @@ void edit_fixtures(TouchChoice& choice, const ProbeSession& session, std::string
     contact.sticking = std::max(contact.sliding, contact.sticking);
   edit_setting("grain", contact.grain, kMillimetres);
   edit_setting("viscosity", settings.viscosity);
+  edit_setting("even-stiffness", settings.even_stiffness);
   edit_setting("event-force", settings.events.force);
   if (settings.events.force > 0.0) edit_setting("event-frequency", settings.events.frequency);
 }
@@ -99,7 +100,8 @@ void edit_fixtures(TouchChoice& choice, const ProbeSession& session, std::string
 void draw_fixture_panel(ProbeSession& session, std::string& typed) {
   TouchChoice choice = session.choice();
   if (!section("FIXTURES", !in_use(choice),
-               {"fixture", "static-friction", "dynamic-friction", "grain", "viscosity", "event-force"}))
+               {"fixture", "static-friction", "dynamic-friction", "grain", "viscosity", "even-stiffness",
+                "event-force"}))
     return;
   edit_fixtures(choice, session, typed);
   session.choose(choice);

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/common/haptics/straight_links.h"
+
 namespace palpate {
 namespace {
 
@@ -38,6 +40,32 @@ TEST(PerceivedStiffness, IsMadeUpForNoFurtherThanADeviceBears) {
   EXPECT_EQ(stiffness_compensation(0.0, 1.0, 4.0), 4.0);
   EXPECT_EQ(stiffness_compensation(1e-9, 1.0, 4.0), 4.0);
   EXPECT_EQ(stiffness_compensation(1.0, 0.0, 4.0), 1.0);
+}
+
+/// Two springs across each other, by 3 and 1 mm.
+ChainStep pulled_twice(double even_stiffness) {
+  std::vector<std::unique_ptr<Constraint>> links;
+  links.push_back(std::make_unique<test::FlatPlane>(Vec3{1.0, 0.0, 0.0}));
+  links.push_back(std::make_unique<test::FlatPlane>(Vec3{0.0, 1.0, 0.0}));
+  ProxyChain chain(std::move(links), {.stiffness = kStiffness, .even_stiffness = even_stiffness});
+  return chain.step({3e-3, 1e-3, 0.0});
+}
+
+TEST(PerceivedStiffness, IsSaidOfAChainAndMadeUpFor) {
+  const ChainStep plain = pulled_twice(0.0);
+  EXPECT_NEAR(plain.felt_stiffness, kStiffness / std::sqrt(10.0), 1e-9 * kStiffness);
+  EXPECT_EQ(plain.force, Vec3(-kStiffness * 3e-3, -kStiffness * 1e-3, 0.0));
+  // Slopes of the size of the force are what both springs alone have.
+  const Vec3 even = pulled_twice(1e9).force;
+  for (const int axis : {0, 1}) {
+    const double stretch = axis == 0 ? 3e-3 : 1e-3, spring = std::abs(even[axis]) / stretch;
+    EXPECT_NEAR(spring * std::abs(even[axis]) / glm::length(even), kStiffness, 0.05 * kStiffness) << axis;
+  }
+  EXPECT_NEAR(pulled_twice(1e9).felt_stiffness, kStiffness, 0.05 * kStiffness);
+  // No spring is stiffer than was asked for.
+  const Vec3 held = pulled_twice(1.2 * kStiffness).force;
+  EXPECT_NEAR(held.y, -1.2 * kStiffness * 1e-3, 1e-12);
+  EXPECT_LE(std::abs(held.x), 1.2 * kStiffness * 3e-3);
 }
 
 }  // namespace

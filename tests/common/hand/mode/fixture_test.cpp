@@ -144,6 +144,33 @@ TEST(Fixture, CarriedByARecordingComesBackAndTellsAFileThatHasChanged) {
                Error);
 }
 
+// Felt as it was logged, between the rows too, whatever the hand does; then nothing more, and anew for the next hand.
+TEST(Fixture, PlaysAForceBack) {
+  const TempFolder folder;
+  const std::string file =
+      folder.write("log.csv", "t,x,fx,fy,fz\n5,0,0,0,0\n5.1,0,1,0,-2\n5.2,0,1,2,0\n").string();
+  ProxyChain chain({}, settings_of_fixtures());
+  const FixtureList fixtures = list_of({"forces:" + file});
+  add_fixtures(chain, fixtures, metres());
+  EXPECT_NE(fixtures[0]->fingerprint, 0U) << "a recording tells another file from it";
+  EXPECT_TRUE(show_fixtures(fixtures, metres(), {Vec3{-1.0}, Vec3{1.0}}).empty());
+  for (const double hand : {0.0, 1.0}) {
+    for (const auto& [seconds, force] : {std::pair{0.0, Vec3{0.0}}, std::pair{0.05, Vec3{0.5, 0.0, -1.0}},
+                                         std::pair{0.1, Vec3{1.0, 1.0, -1.0}}, std::pair{0.06, Vec3{0.0}}}) {
+      chain.advance(seconds);
+      const ChainStep step = chain.step({hand, 0.0, hand});
+      EXPECT_LE(glm::distance(step.force, force), 1e-9) << seconds;
+      EXPECT_EQ(step.active, step.force) << "it is meant to drive the hand";
+    }
+    chain.reset();
+  }
+  for (const char* const text : {"t,fx,fy,fz\n0,1,1,1\n", "t,fx,fy,fz\n0,1,1,1\n0,1,1,1\n",
+                                 "t,fx,fy,fz\n0,1,nan,1\n1,1,1,1\n", "t,fx,fy\n0,1,1\n1,1,1\n"}) {
+    folder.write("bad.csv", text);
+    EXPECT_EQ(code_of({"forces:" + folder.path("bad.csv").string()}), ExitCode::kBadInput) << text;
+  }
+}
+
 TEST(Fixture, IsReadOnce) {
   const TempFolder folder;
   const std::string file = folder.write("plate.obj", kPlate).string();
@@ -211,6 +238,7 @@ TEST(FixtureOptions, ComeBackFromASession) {
                       .dynamic_friction = 0.25,
                       .grain = 1.5,
                       .viscosity = 2.0,
+                      .even_stiffness = 900.0,
                       .event_force = 0.25,
                       .event_frequency = 200.0};
   const std::vector<HapticMode> modes = sample_modes();

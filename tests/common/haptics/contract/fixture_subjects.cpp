@@ -4,6 +4,7 @@
 #include <memory>
 #include <numbers>
 
+#include "common/haptics/constraint/force_playback.h"
 #include "common/haptics/constraint/landmark_pull.h"
 #include "common/haptics/constraint/mesh_surface.h"
 #include "common/haptics/constraint/shape.h"
@@ -123,8 +124,20 @@ ContractSubject landmarks() {
   return subject;
 }
 
+ContractSubject played_back() {
+  ContractSubject subject = landmarks();
+  subject.name = "ForcePlayback";
+  subject.make = [](const Placement& at) {
+    auto rows = std::make_shared<const std::vector<TimedForce>>(
+        std::vector<TimedForce>{{0.0, at.direction({0.5, 0.0, 0.0})}, {1e6, at.direction({0.5, 0.0, 0.0})}});
+    return std::make_shared<ForcePlayback>(rows);
+  };
+  return subject;
+}
+
 INSTANTIATE_TEST_SUITE_P(Fixtures, ConstraintContract,
-                         ::testing::Values(plane(), ball_of_triangles(), friction(), landmarks()),
+                         ::testing::Values(plane(), ball_of_triangles(), friction(), landmarks(),
+                                           played_back()),
                          subject_name);
 
 }  // namespace

@@ -107,8 +107,8 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("grid", g1, g2, g3, g4, g5, g6, g7, g8);
     const auto& [p1, p2, p3, p4] = planes;
     expect("planes", p1, p2, p3, p4);
-    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11] = fixtures;
-    expect("fixtures", f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11);
+    const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12] = fixtures;
+    expect("fixtures", f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12);
   }
   {
     const auto& [a, b, c, d, e, f] = document.hand;
