@@ -41,8 +41,9 @@ void ProbeRun::add(const PathRow& row, const HandStep& step, double microseconds
     first_cut_ = step.cut;
   }
   summary_.max_force = std::max(summary_.max_force, glm::length(step.force));
-  if (const double felt = step.chain.felt_stiffness; felt > 0.0)
-    summary_.least_felt = summary_.least_felt > 0.0 ? std::min(summary_.least_felt, felt) : felt;
+  if (const double perceived = step.chain.perceived_stiffness; perceived > 0.0)
+    summary_.least_perceived =
+        summary_.least_perceived > 0.0 ? std::min(summary_.least_perceived, perceived) : perceived;
   summary_.max_residual = std::max(summary_.max_residual, step.chain.residual / workspace_.scale());
   if (++summary_.steps % kStepsBetweenChecks == 0) context_.progress.check();
   context_.progress.advance();

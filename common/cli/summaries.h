@@ -127,7 +127,7 @@ struct ProbeSummary {
   std::string device;  ///< whose hand it was, "Novint Falcon class in a firm hand"; empty: the path itself
   double workspace_scale = 0.0;  ///< [m] per data unit
   double max_force = 0.0;        ///< [N]
-  double least_felt = 0.0;       ///< [N/m] ChainStep::felt_stiffness, the least; 0: nothing pulled
+  double least_perceived = 0.0;  ///< [N/m] ChainStep::perceived_stiffness, the least; 0: nothing pulled
   double max_residual = 0.0;     ///< data units
   double diagonal = 0.0;         ///< data units
   std::array<std::size_t, kHoldStateCount> states{};

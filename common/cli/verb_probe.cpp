@@ -43,8 +43,8 @@ std::string summary_text(const ProbeSummary& summary) {
   text += "  force      at most " + short_number(summary.max_force) + " N (cap " +
           short_number(summary.limits.force_cap) + " N, slew cap " + short_number(summary.limits.slew_cap) +
           " N/s, stiffness " + short_number(summary.settings.stiffness) + " N/m)\n";
-  if (summary.least_felt > 0.0)
-    text += "  felt       as stiff as " + short_number(summary.least_felt) +
+  if (summary.least_perceived > 0.0)
+    text += "  springs    feel as stiff as " + short_number(summary.least_perceived) +
             " N/m where a force across hides it most\n";
   text += "  residual   at most " + short_number(summary.max_residual) + ", " +
           short_number(summary.max_residual / summary.diagonal) + " of the diagonal\n";

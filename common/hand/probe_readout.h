@@ -31,10 +31,10 @@ struct ProbeReadout {
   std::optional<double> noise;
   int popped = 0;  ///< times that the hand has gone over to another line, or through a surface
   double residual = 0.0;
-  double force = 0.0;           ///< [N]
-  double stretch = 0.0;         ///< [mm]
-  double felt_stiffness = 0.0;  ///< [N/m] as ChainStep has it
-  ServoState servo;             ///< rates and lateness
+  double force = 0.0;                ///< [N]
+  double stretch = 0.0;              ///< [mm]
+  double perceived_stiffness = 0.0;  ///< [N/m] as ChainStep has it
+  ServoState servo;                  ///< rates and lateness
   std::string fault;   ///< where the seconds before the last fault were saved, a sentence; empty: none
   std::string device;  ///< what the user should know or do about a real device now; empty: nothing
 };

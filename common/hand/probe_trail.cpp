@@ -102,7 +102,7 @@ void ProbeTrail::read_step(const HandStep& step) {
   readout_.links = link_proxies(step.chain, workspace);
   readout_.residual = step.chain.residual / workspace.scale();
   readout_.force = glm::length(step.force);
-  readout_.felt_stiffness = step.chain.felt_stiffness;
+  readout_.perceived_stiffness = step.chain.perceived_stiffness;
   constexpr double kMillimetres = 1e3;
   readout_.stretch =
       step.chain.links > 0 ? kMillimetres * glm::distance(step.chain.proxies[last], step.probe) : 0.0;

@@ -50,8 +50,8 @@ double softest(std::span<const Pull> pulls, const Shares& shares, const Vec3& al
     const double along = glm::length(shares[i]), stretch = glm::length(pulls[i].stretched);
     constexpr double kPulls = 1e-9;  // [m]
     if (!(along > 0.0 && stretch > kPulls)) continue;
-    const double felt = perceived_stiffness(along / stretch, along, across(shares[i], all));
-    if (least == 0.0 || felt < least) least = felt;
+    const double perceived = perceived_stiffness(along / stretch, along, across(shares[i], all));
+    if (least == 0.0 || perceived < least) least = perceived;
   }
   return least;
 }
@@ -134,7 +134,7 @@ ChainStep ProxyChain::step(const Vec3& probe, const Vec3& velocity) noexcept {
       springs = added_up(linked, form_, settings_.stiffness, shares);
     }
   }
-  result.felt_stiffness = softest(linked, shares, springs.force());
+  result.perceived_stiffness = softest(linked, shares, springs.force());
   result.force = springs.force() + damper;
   result.active = springs.active();
   return result;

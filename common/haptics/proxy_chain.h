@@ -42,11 +42,12 @@ struct ChainStep {
   std::array<Vec3, kMaxLinks> proxies{};  ///< [m], in the order of the chain
   int links = 0;
   HoldState state = HoldState::kFree;
-  double residual = 0.0;        ///< [m] of the last proxy from its own feature
-  bool jumped = false;          ///< a feature changed: the force must start from zero
-  bool at_end = false;          ///< a line that holds the hand ends here
-  bool crossed = false;         ///< a surface was met, left or passed
-  double felt_stiffness = 0.0;  ///< [N/m] of the spring that feels softest beside the others; 0: none pulls
+  double residual = 0.0;  ///< [m] of the last proxy from its own feature
+  bool jumped = false;    ///< a feature changed: the force must start from zero
+  bool at_end = false;    ///< a line that holds the hand ends here
+  bool crossed = false;   ///< a surface was met, left or passed
+  double perceived_stiffness =
+      0.0;  ///< [N/m] of the spring that feels softest beside the others; 0: none pulls
   int iterations = 0;
   int cells = 0;
 

@@ -60,7 +60,7 @@ std::string probe_json(const ProbeSummary& summary) {
             {"slew_cap_n_per_s", summary.limits.slew_cap},
             {"workspace_scale_m_per_unit", summary.workspace_scale},
             {"max_force_n", summary.max_force},
-            {"felt_stiffness_min_n_per_m", summary.least_felt},
+            {"perceived_stiffness_min_n_per_m", summary.least_perceived},
             {"max_residual", summary.max_residual},
             {"max_residual_per_diagonal", summary.max_residual / summary.diagonal},
             {"us_p50", summary.us_p50},

@@ -408,7 +408,7 @@ const Setting kTouchRows[] = {
     {.name = "even-stiffness",
      .place = kFixtureAt<&FixtureSpec::even_stiffness>,
      .help =
-         "stiffness in N/m up to which springs of a chain make up for forces across them, beside which they feel softer; "
+         "stiffness in N/m up to which springs of a chain make up for forces across them, which make them feel softer; "
          "0: they do not",
      .value = "K",
      .heading = "Touch",

@@ -266,7 +266,7 @@ float draw_probe_readout(const ProbeSession& session, const ValueHistogram* hist
   }
   rows.add("force", "%.2f N", readout.force);
   rows.add("stretch", "%.2f mm", readout.stretch);
-  if (readout.felt_stiffness > 0.0) rows.add("feels like", "%.0f N/m", readout.felt_stiffness);
+  if (readout.perceived_stiffness > 0.0) rows.add("feels like", "%.0f N/m", readout.perceived_stiffness);
   rows.add("residual", "%.1e", readout.residual);
   rows.finish();
   const float height = ImGui::GetWindowHeight();

@@ -53,7 +53,7 @@ ChainStep pulled_twice(double even_stiffness) {
 
 TEST(PerceivedStiffness, IsSaidOfAChainAndMadeUpFor) {
   const ChainStep plain = pulled_twice(0.0);
-  EXPECT_NEAR(plain.felt_stiffness, kStiffness / std::sqrt(10.0), 1e-9 * kStiffness);
+  EXPECT_NEAR(plain.perceived_stiffness, kStiffness / std::sqrt(10.0), 1e-9 * kStiffness);
   EXPECT_EQ(plain.force, Vec3(-kStiffness * 3e-3, -kStiffness * 1e-3, 0.0));
   // Slopes of the size of the force are what both springs alone have.
   const Vec3 even = pulled_twice(1e9).force;
@@ -61,7 +61,7 @@ TEST(PerceivedStiffness, IsSaidOfAChainAndMadeUpFor) {
     const double stretch = axis == 0 ? 3e-3 : 1e-3, spring = std::abs(even[axis]) / stretch;
     EXPECT_NEAR(spring * std::abs(even[axis]) / glm::length(even), kStiffness, 0.05 * kStiffness) << axis;
   }
-  EXPECT_NEAR(pulled_twice(1e9).felt_stiffness, kStiffness, 0.05 * kStiffness);
+  EXPECT_NEAR(pulled_twice(1e9).perceived_stiffness, kStiffness, 0.05 * kStiffness);
   // No spring is stiffer than was asked for.
   const Vec3 held = pulled_twice(1.2 * kStiffness).force;
   EXPECT_NEAR(held.y, -1.2 * kStiffness * 1e-3, 1e-12);
