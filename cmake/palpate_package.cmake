@@ -73,6 +73,8 @@ set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Where the library lies that the Python module is linked with: no package has it yet.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 set(CPACK_COMPONENTS_ALL)
 
 # palpate_debian(palpate-flow SUMMARY … DEPENDS … RECOMMENDS … LICENCE … [DATA]): a package; DATA: the same on every
@@ -84,7 +86,7 @@ function(palpate_debian name)
   list(APPEND CPACK_COMPONENTS_ALL ${name})
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} PARENT_SCOPE)
   set(${of}_PACKAGE_NAME ${name} PARENT_SCOPE)
-  set(${of}_DESCRIPTION "${arg_SUMMARY}\nPart of Palpate, a suite that explores volumetric data with the eyes and the hand at once."
+  set(${of}_DESCRIPTION "${arg_SUMMARY}\nPart of Palpate, a suite that explores volumetric data\nwith the eyes and the hand at once."
     PARENT_SCOPE)
   set(${of}_PACKAGE_DEPENDS "${arg_DEPENDS}" PARENT_SCOPE)
   set(${of}_PACKAGE_RECOMMENDS "${arg_RECOMMENDS}" PARENT_SCOPE)
@@ -130,6 +132,14 @@ foreach(app ${PALPATE_APPS})
   list(APPEND all_apps "palpate-${app} ${same}")
 endforeach()
 palpate_debian(palpate-common SUMMARY "readers of files, and what the programs of Palpate share")
+if(TARGET palpate-load-xdmf)
+  file(CONFIGURE OUTPUT ${made}/palpate-common/palpate-common CONTENT "\
+# Debian has its serial libxdmf in a folder of its own; the one in the library folder is that on MPI.
+palpate-common: custom-library-search-path RUNPATH *xdmf/serial*
+")
+  install(FILES ${made}/palpate-common/palpate-common DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides
+          COMPONENT palpate-common)
+endif()
 palpate_debian(palpate-drivers SUMMARY "drivers of haptic devices, and who may open them")
 if(TARGET palpate-mesh)
   palpate_debian(palpate-mesh SUMMARY "fills the walls of hearts with tetrahedra, for palpate-cardiac"
@@ -137,11 +147,15 @@ if(TARGET palpate-mesh)
     LICENCE "
 The program lib/palpate/palpate-mesh is linked with TetGen (AGPL-3) and CGAL (GPL-3): as a whole it is under the terms
 of the GNU Affero General Public License, version 3, <https://www.gnu.org/licenses/agpl-3.0.txt>, which
-/usr/share/doc/libtet1.5/copyright has, too. Its own source is under these:
+/usr/share/doc/libtet1.5/copyright has, too. CGAL's are in /usr/share/common-licenses/GPL-3. Its own source is under these:
 ")
 endif()
 if(TARGET palpate)
   palpate_debian(libpalpate SUMMARY "fields and lines of Palpate, as a library" SECTION libs DEPENDS "palpate-common ${same}")
+  file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n")
+  file(CONFIGURE OUTPUT ${made}/shlibs CONTENT
+    "libpalpate ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} libpalpate (>= ${PROJECT_VERSION})\n")
+  set(CPACK_DEBIAN_LIBPALPATE_PACKAGE_CONTROL_EXTRA ${made}/triggers ${made}/shlibs)
   if(TARGET palpate-mpi)
     palpate_debian(palpate-mpi SUMMARY "traces lines of flow fields on many machines" DEPENDS "palpate-common ${same}")
   endif()
@@ -149,11 +163,17 @@ if(TARGET palpate)
     DEPENDS "libpalpate ${same}")
 endif()
 if(TARGET palpate_python)
+  # A module in C++ is that of one Python: 3.11, and no 3.12.
+  get_property(python GLOBAL PROPERTY PALPATE_PYTHON)
+  list(GET python 0 major)
+  list(GET python 1 minor)
+  math(EXPR next "${minor} + 1")
+  set(of_python "python3 (>= ${major}.${minor}~), python3 (<< ${major}.${next}~)")
   palpate_debian(python3-palpate SUMMARY "fields and lines of Palpate, in Python" SECTION python
-    DEPENDS "libpalpate ${same}, python3-numpy")
+    DEPENDS "libpalpate ${same}, ${of_python}, python3-numpy")
 endif()
 palpate_debian(palpate-doc SUMMARY "guides and reference pages of Palpate" SECTION doc DATA)
 list(JOIN all_apps ", " all_apps)
-palpate_debian(palpate SUMMARY "explore volumetric data with the eyes and the hand at once"
+palpate_debian(palpate SUMMARY "explore volumetric data with the eyes and the hand (metapackage)"
   DEPENDS "${all_apps}" RECOMMENDS "palpate-drivers ${same}, palpate-doc" SUGGESTS "palpate-mesh" DATA)
 include(CPack)
