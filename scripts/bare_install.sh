@@ -46,9 +46,14 @@ mkdir -p "$root/tmp/needs/DEBIAN"
 printf '%s\n' "Package: needs-of-palpate" "Version: 1" "Architecture: all" "Maintainer: nobody <nobody@palpate.example>" \
   "Description: what the packages of Palpate need" "Depends: $needs" >"$root/tmp/needs/DEBIAN/control"
 dpkg-deb --root-owner-group -b "$root/tmp/needs" "$root/tmp/needs.deb" >/dev/null
-apt install --no-install-recommends /tmp/needs.deb xvfb xauth xdotool libglib2.0-bin shared-mime-info desktop-file-utils \
+apt install --no-install-recommends /tmp/needs.deb xvfb xauth xdotool xterm libglib2.0-bin shared-mime-info desktop-file-utils \
   hicolor-icon-theme man-db bash-completion
-grep -q '^visitor:' "$root/etc/passwd" || within useradd --create-home visitor
+names=$(for deb in "$packages"/*.deb; do dpkg-deb -f "$deb" Package; done)
+within dpkg-query -W -f='${Package}\n' | grep -E '^(lib|python3-)?palpate' >"$root/tmp/there" || true
+# shellcheck disable=SC2046 # what a run that failed has left
+[ ! -s "$root/tmp/there" ] || apt purge $(cat "$root/tmp/there")
+within userdel --remove visitor 2>/dev/null || true
+within useradd --create-home visitor
 everything >"$root/tmp/before"
 
 say "Installing"
@@ -59,7 +64,7 @@ within sh -c 'apt-get -qq -o Dpkg::Use-Pty=0 -y install --no-install-recommends 
 visit() { within su -s /bin/sh - visitor -c "$1"; }
 visited() { visit "$1" >"$root/tmp/said" 2>&1 || { cat "$root/tmp/said" >&2; fail "$1"; }; }
 for app in $apps; do
-  visited "palpate-$app --help && palpate $app --version && palpate-$app --example list"
+  visited "palpate-$app --help && palpate $app --version"
   visited "MANWIDTH=80 man palpate-$app"
   grep -q "^NAME" "$root/tmp/said" || fail "man palpate-$app has no NAME"
   visited "bash -c '. /usr/share/bash-completion/bash_completion && . /usr/share/bash-completion/completions/palpate-$app'"
@@ -70,7 +75,7 @@ visited "palpate-grid info --example shells && palpate-grid render --example she
 visited "palpate-cardiac info --example ventricle && palpate-cardiac render --example ventricle --size 320x240 --out cardiac.png"
 visited "palpate-dtmri info --example helix && palpate-dtmri render --example helix --size 320x240 --out dtmri.png"
 visited "palpate-workbench example tracker --out poses.csv && palpate-workbench calibrate tracker poses.csv --out workbench.toml"
-visited "palpate-grid clip --example shells --size 16 --out shells.nrrd || palpate-grid clip --example shells --out shells.nrrd"
+visited "palpate-grid clip --example shells --box 0,0,0,15,15,15 --out shells.nrrd"
 visited "palpate-grid info shells.nrrd && gio info -a standard::content-type shells.nrrd"
 grep -q x-nrrd "$root/tmp/said" || fail "the desktop does not know shells.nrrd: $(cat "$root/tmp/said")"
 visited "python3 -c 'import palpate; print(palpate.__file__)'"
@@ -92,7 +97,12 @@ done
 sleep 5
 xdotool getwindowname "\$id"
 cp "\$FRAMES/Xvfb_screen0" /tmp/frames/$name.xwd
-xdotool windowfocus "\$id" key ctrl+q
+# A program that runs in a terminal goes with it.
+if grep -q '^Terminal=true' /usr/share/applications/$name.desktop; then
+  xdotool windowkill "\$id"
+else
+  xdotool windowfocus "\$id" key ctrl+q
+fi
 for second in \$(seq 60); do
   sleep 1
   pgrep -u visitor -f "bin/$name" >/dev/null || { echo closed; exit 0; }
@@ -108,7 +118,6 @@ START
 done
 
 say "Purging"
-names=$(for deb in "$packages"/*.deb; do dpkg-deb -f "$deb" Package; done)
 # shellcheck disable=SC2086 # the list is meant to be split
 within dpkg -L $names | LC_ALL=C sort -u >"$root/tmp/listed"
 # shellcheck disable=SC2086

@@ -5,7 +5,10 @@
 #include <chrono>
 #include <system_error>
 
+#include <unistd.h>
+
 #include "common/base/error.h"
+#include "common/base/files/output_file.h"
 
 namespace palpate {
 namespace {
@@ -21,6 +24,12 @@ constexpr int kLongestEnd = 100;     // [ms]
 Recorder::Recorder(std::filesystem::path path, const RecordingHeader& header, bool overwrite,
                    std::size_t capacity)
     : path_(std::move(path)), ring_(capacity) {
+  std::error_code ignored;
+  if (overwrite && std::filesystem::is_regular_file(path_, ignored)) {
+    check_output(path_, overwrite);
+    earlier_ = path_.string() + "~";
+    if (std::rename(path_.c_str(), earlier_.c_str()) != 0) refuse(errno);
+  }
   file_.reset(std::fopen(path_.c_str(), overwrite ? "we" : "wxe"));
   if (!file_ && errno == EEXIST) throw usage_error(path_.string() + " exists; --force overwrites it");
   if (!file_) refuse(errno);
@@ -63,6 +72,7 @@ void Recorder::end() {
   drain();
   text_.end();
   flush();
+  if (!failed() && !earlier_.empty()) ::unlink(earlier_.c_str());
   ended_ = true;
 }
 

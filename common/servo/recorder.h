@@ -23,13 +23,13 @@ namespace palpate {
 /// The servo pushes into a ring, a thread of the recorder's own formats and writes; what is written is handed
 /// to the system each second, so that a crash costs a second. Not written under a temporary name: it must
 /// survive one. Where the program is ended in the middle of its work (LastAct), the recording ends there in
-/// order.
+/// order. A file that it overwrites waits as "NAME~" until the recording is whole.
 class Recorder {
  public:
   static constexpr std::size_t kCapacity = 1U << 14U;  ///< entries: 16 s at 1 kHz
 
   /// Makes the file and writes its header.
-  /// @throws Error (usage) where `path` exists and `overwrite` is not set; (work failed) where it cannot be
+  /// @throws Error (usage) where `path` exists and `overwrite` is not set, or is an input; (work failed) where it cannot be
   /// written.
   Recorder(std::filesystem::path path, const RecordingHeader& header, bool overwrite,
            std::size_t capacity = kCapacity);
@@ -87,6 +87,7 @@ class Recorder {
   [[noreturn]] void refuse(int error) const;
 
   std::filesystem::path path_;
+  std::filesystem::path earlier_;  ///< what `path_` was; empty: there was nothing
   std::unique_ptr<std::FILE, CloseFile> file_;
   RecordingText text_;  ///< not written yet
   Ring<Entry> ring_;

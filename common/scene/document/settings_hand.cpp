@@ -118,7 +118,8 @@ const Setting kHandRows[] = {
      .log_slider = true},
     {.name = "record",
      .place = kHandAt<&HandOptions::record>,
-     .help = "write all input and every servo step to this file",
+     .help =
+         "write all input and every servo step to this file; one that --force overwrites is kept as FILE~ until the new one is whole",
      .value = "FILE",
      .heading = "Touch",
      .groups = {Group::kRecord},

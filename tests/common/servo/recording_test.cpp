@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/files/kept_files.h"
 #include "common/servo/recorder.h"
 #include "common/servo/replay_source.h"
 #include "tests/common/servo/sphere_drag.h"
@@ -320,7 +321,16 @@ TEST_F(RecordingTest, RefusesToOverwriteAndSaysWhenTheDiskIsFull) {
   };
   EXPECT_EQ(code(file_, false), ExitCode::kUsage);
   EXPECT_EQ(read_file(file_), "mine");
-  EXPECT_EQ(code(file_, true), ExitCode::kDone);
+  {
+    const Recorder recorder(file_, header(), true);
+    EXPECT_EQ(read_file(file_ + "~"), "mine") << "a kill now would leave it";
+  }
+  EXPECT_TRUE(read_recording(file_).ended);
+  EXPECT_FALSE(std::filesystem::exists(file_ + "~"));
+  const std::string input = folder_.write("input.vtk", "mine").string();
+  keep_from_outputs(std::vector<std::filesystem::path>{input});
+  EXPECT_EQ(code(input, true), ExitCode::kUsage);
+  EXPECT_EQ(read_file(input), "mine");
   EXPECT_EQ(code(folder_.path("missing/run.txt").string(), false), ExitCode::kWorkFailed);
   EXPECT_EQ(code("/dev/full", true), ExitCode::kWorkFailed);
 }
