@@ -7,6 +7,10 @@ namespace palpate {
 namespace {
 
 class SolverLoader : public ChosenLoader {
+ public:
+  // Collated cases of OpenFOAM.
+  [[nodiscard]] bool writes_temporary_files() const override { return true; }
+
  protected:
   std::unique_ptr<Loader> choose(const LoadRequest& request, Format format) override {
     switch (format) {

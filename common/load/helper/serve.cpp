@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <filesystem>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -16,6 +17,7 @@
 #include "common/base/error.h"
 #include "common/load/helper/channel.h"
 #include "common/load/helper/protocol.h"
+#include "common/load/helper/sandbox.h"
 
 namespace palpate {
 namespace {
@@ -105,6 +107,11 @@ ProgressReporter::ProgressReporter(const Progress& progress)
 ProgressReporter::~ProgressReporter() = default;
 
 int serve_loader(Loader& loader) {
+  std::vector<std::filesystem::path> writable;
+  std::error_code ignored;
+  if (loader.writes_temporary_files()) writable.push_back(std::filesystem::temp_directory_path(ignored));
+  (void)enter_sandbox(writable);
+
   // At most some twenty reports a second: a reader may call for every cell.
   auto last = std::chrono::steady_clock::now();
   loader.on_progress = [&last](double fraction) {

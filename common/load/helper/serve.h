@@ -32,6 +32,9 @@ class Loader {
   /// Topology of every block and the named arrays at a time step (< times, or 0). @throws Error.
   virtual std::vector<DataSet> read(const std::vector<std::string>& array_names, std::size_t time_step) = 0;
 
+  /// Whether it lays files apart in the folder of temporary files; others may write nothing.
+  [[nodiscard]] virtual bool writes_temporary_files() const { return false; }
+
   /// Called with the part done, 0 to 1, now and then; may be empty.
   std::function<void(double)> on_progress;
   /// Memory for numbers that read() gives, zeros: that of the answer, so that they need not be copied. Empty: there is none.
@@ -66,7 +69,7 @@ class ProgressReporter {
 };
 
 /// Answers requests on kHelperSocket until the explorer goes away; the exit status of the helper program.
-/// The helper ends as soon as its explorer does, in the middle of a reading too.
+/// The helper ends as soon as its explorer does, in the middle of a reading too. It works in a sandbox (sandbox.h).
 int serve_loader(Loader& loader);
 
 }  // namespace palpate

@@ -70,8 +70,10 @@ int remove_at_end(const std::string& folder) {
     char none = 0;
     while (::read(0, &none, 1) < 0 && errno == EINTR) {
     }
-    ::execl("/bin/rm", "rm", "-rf", "--", folder.c_str(), static_cast<char*>(nullptr));
-    ::_exit(1);
+    // No program is started from within the sandbox; glibc lets a forked process allocate.
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+    ::_exit(0);
   }
   ::close(ends[0]);
   if (process > 0) return ends[1];

@@ -9,10 +9,14 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "common/load/helper/channel.h"
 #include "common/load/helper/protocol.h"
+#include "common/load/helper/sandbox.h"
 
 using namespace palpate;
 
@@ -34,6 +38,39 @@ void answer(const std::string& json) {
 
 [[noreturn]] void wait_for_ever() {
   while (true) ::pause();
+}
+
+/// What this process can still do beyond its memory, each tried.
+std::string ways_out() {
+  std::string ways;
+  const auto note = [&](bool done, const char* what) { ways += done ? std::string(" ") + what : ""; };
+  char made[] = "/tmp/palpate-way-out-XXXXXX";
+  note(::mkdtemp(made) != nullptr, "folder");
+  const std::string file = "/tmp/palpate-way-out-" + std::to_string(::getpid());
+  note(::open(file.c_str(), O_WRONLY | O_CREAT, 0600) >= 0, "new-file");
+  const char* const own = std::getenv("PALPATE_FAKE_TARGET");
+  note(::open(own, O_RDWR) >= 0, "writing");
+  note(::truncate(own, 0) == 0, "truncating");
+  note(::rename(own, file.c_str()) == 0, "renaming");
+  note(::chmod(own, 0777) == 0, "chmod");
+  note(::unlink(own) == 0, "removing");
+  for (const int family : {AF_INET, AF_INET6, AF_UNIX, AF_NETLINK})
+    note(::socket(family, SOCK_DGRAM, 0) >= 0, "socket");
+  note(::kill(::getppid(), 0) == 0, "signals");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::execl("/bin/true", "true", static_cast<char*>(nullptr));
+    ::_exit(1);
+  }
+  int status = 1;
+  ::waitpid(child, &status, 0);
+  note(status == 0, "program");
+  // What has to go on.
+  note(::open(own, O_RDONLY) < 0, "(no-reading)");
+  MemoryFile memory;
+  const std::vector<std::byte> block(4096);
+  note(memory.append(block) != 0, "(no-memory)");
+  return ways + ".";
 }
 
 void misbehave(const std::string& how) {
@@ -104,6 +141,12 @@ void misbehave(const std::string& how) {
     frame.fraction = 0.5;
     while (send_frame(kHelperSocket, frame, -1)) {
     }
+  }
+  if (how == "sandbox") {
+    const Sandbox sandbox = enter_sandbox();
+    answer(encode_failure(ExitCode::kBadInput, std::string(sandbox.files ? "files " : "") +
+                                                   (sandbox.network ? "network " : "") + "kept; got out by" +
+                                                   ways_out()));
   }
   if (how == "environment") {
     char limits[4096] = {};

@@ -103,6 +103,17 @@ TEST_F(FakeHelper, ItGetsNoInputAndNoOtherDescriptors) {
   ::close(leaked);
 }
 
+// Whoever takes a reader over by a damaged file gets no further than its memory.
+TEST_F(FakeHelper, TheSandboxLeavesItNoWayOut) {
+  const std::string target = folder_.write("target", "mine").string();
+  ::setenv("PALPATE_FAKE_TARGET", target.c_str(), 1);
+  const std::string line = refusal("sandbox");
+  ::unsetenv("PALPATE_FAKE_TARGET");
+  if (!contains(line, "files network kept"))
+    GTEST_SKIP() << "the kernel has no Landlock or no seccomp: " << line;
+  EXPECT_TRUE(contains(line, "got out by.")) << line;
+}
+
 TEST_F(FakeHelper, FailingLaterInATimeSeriesIsAnErrorToo) {
   for (const char* how : {"crash", "hang", "garbage"}) {
     Source source = Source::open({{file(std::string("later-") + how)}, {}}, kLittleTime);
