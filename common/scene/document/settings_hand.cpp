@@ -119,7 +119,7 @@ const Setting kHandRows[] = {
     {.name = "record",
      .place = kHandAt<&HandOptions::record>,
      .help =
-         "write all input and every servo step to this file; one that --force overwrites is kept as FILE~ until the new one is whole",
+         "write all input and every servo step to this file; one that --force overwrites stays as FILE~ until the new one is whole",
      .value = "FILE",
      .heading = "Touch",
      .groups = {Group::kRecord},
