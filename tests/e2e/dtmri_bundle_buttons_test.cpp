@@ -151,6 +151,8 @@ TEST_F(BundleButtons, OfATractogramAloneDoWhatTheyDoWithAnImage) {
   const WindowResult again = open({"open", "--session", folder_.path("a.palpate.toml")});
   EXPECT_EQ(bundles(again), bundles(parted));
   EXPECT_EQ(shown(again), 3U) << "all is back";
+  EXPECT_EQ(again.view.tensors->slices, parted.view.tensors->slices) << "slices that were shown";
+  EXPECT_EQ(again.view.tensors->position, parted.view.tensors->position);
 
   // And without a window.
   const auto edited = json({"tracts", "two.trk", "--bundle", "file=two.trk|part=1,0,0,-20|length=15,30",

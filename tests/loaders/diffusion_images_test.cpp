@@ -41,6 +41,33 @@ TEST(TensorNifti, TellsFslsOrderFromMrtrixsAndHonoursTheAxesOfEach) {
   EXPECT_NEAR(along(first_tensor(lower), {1.0, 2.0, 3.0}), 1.0, 1e-6);
 }
 
+/// Uniform fibres: nothing in the image tells their axes from others.
+TEST(TensorNifti, WarnsWhereOtherAxesWouldTurnDirectionsFarAndTheImageDoesNotDecide) {
+  const TempFolder folder;
+  const auto notes = [&](const Mat3& axes, const Vec3& along, const char* vectors) {
+    const Vec3 v = glm::normalize(along);
+    const Mat3 d = Mat3{0.3e-3} + 1.4e-3 * glm::outerProduct(v, v);
+    const auto file =
+        folder.write("rows.nii", image(6, axes, {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]}));
+    TensorSpec words;
+    words.vectors = vectors;
+    std::string all;
+    for (const std::string& note : open(file, words).load_tensor_image(1).notes) all += note + "\n";
+    return all;
+  };
+  // FSL's axes are those of the image, turned by 28.6 degrees about z.
+  const std::string open_frame = notes(oblique(), {0.0, 1.0, 0.0}, "auto");
+  EXPECT_NE(open_frame.find("WARNING: tensors taken along FSL's image axes"), std::string::npos)
+      << open_frame;
+  EXPECT_NE(open_frame.find("29 degrees"), std::string::npos) << open_frame;
+  EXPECT_NE(open_frame.find("--vectors "), std::string::npos) << open_frame;
+  EXPECT_EQ(notes(oblique(), {0.0, 1.0, 0.0}, "image").find("WARNING: tensors taken"), std::string::npos)
+      << "as asked for";
+  EXPECT_EQ(notes(oblique(), {0.0, 0.0, 1.0}, "auto").find("WARNING: tensors taken"), std::string::npos)
+      << "the same in all axes";
+  EXPECT_EQ(notes(kRightHanded, {1.0, 0.0, 0.0}, "auto").find("WARNING: tensors taken"), std::string::npos);
+}
+
 TEST(EigenSet, PutsTensorsTogetherFromFslsImages) {
   const TempFolder folder;
   const Vec3 v1 = glm::normalize(Vec3{1.0, 1.0, 0.0}), v2{0.0, 0.0, 1.0}, v3 = glm::cross(v1, v2);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
@@ -85,6 +86,41 @@ DirectionMap::DirectionMap(std::span<const float> tensors, const UniformTopology
   });
   count_ = as_size(
       std::count_if(directions_.begin(), directions_.end(), [](const auto& d) { return d[3] > 0.0F; }));
+}
+
+double DirectionMap::median_turn(const Mat3& turn, const Mat3& others) const {
+  constexpr int kEdge = 5;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  struct Block {
+    Mat3 sum{0.0};
+    std::size_t voxels = 0;
+  };
+  const Index3 blocks = (points_ + (kEdge - 1)) / kEdge;
+  std::vector<Block> means(count_of(blocks));
+  std::size_t v = 0;
+  for (int k = 0; k < points_.z; ++k) {
+    for (int j = 0; j < points_.y; ++j) {
+      for (int i = 0; i < points_.x; ++i) {
+        const auto& d = directions_[v++];
+        if (!(d[3] > 0.0F)) continue;
+        const Vec3 e{d[0], d[1], d[2]};
+        Block& block = means[index_in(blocks, Index3{i, j, k} / kEdge)];
+        block.sum += static_cast<double>(d[3]) * glm::outerProduct(e, e);
+        ++block.voxels;
+      }
+    }
+  }
+  const std::size_t fullest = std::ranges::max(means, {}, &Block::voxels).voxels;
+  std::vector<double> turns;
+  for (const Block& block : means) {
+    if (block.voxels == 0 || 2 * block.voxels < fullest) continue;
+    const Vec3 e = symmetric_eigen(block.sum).vectors[0];
+    turns.push_back(kDegrees * axis_angle(turn * e, others * e));
+  }
+  if (turns.empty()) return 0.0;
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::ranges::nth_element(turns, middle);
+  return *middle;
 }
 
 namespace {

@@ -64,6 +64,9 @@ class DirectionMap {
 
   /// s(T) for each of `turns`, in the data's axes; the same for any number of threads.
   [[nodiscard]] std::vector<Coherence> coherence(std::span<const Mat3> turns, int threads) const;
+  /// By how much main directions turn where `others` takes the place of `turn`: the median [degrees] over blocks of
+  /// 5 x 5 x 5 voxels, whose mean leaves noise out; 0 where no voxel counts.
+  [[nodiscard]] double median_turn(const Mat3& turn, const Mat3& others) const;
   /// Voxels that count.
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -79,6 +78,7 @@ struct FrameChoice {
   VectorFrame frame = VectorFrame::kScanner;
   Coherence coherence;
   std::string why;
+  bool warns = false;  ///< a wrong guess would be far off
 };
 
 /// What `wanted` and the file leave open.
@@ -86,25 +86,6 @@ struct OpenFrame {
   std::optional<VectorFrame> asked;
   std::optional<VectorFrame> stated;
 };
-
-/// By how much the main directions turn where their axes are others: the median [degrees], of a sample of the voxels.
-double median_turn(const std::vector<float>& stored, const Mat3& axes, const Mat3& others) {
-  constexpr std::size_t kMostAsked = 1000;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  const std::size_t voxels = stored.size() / 6, stride = std::max<std::size_t>(1, voxels / kMostAsked);
-  std::vector<double> turns;
-  for (std::size_t p = 0; p < voxels; p += stride) {
-    Six six{};
-    std::copy_n(stored.begin() + static_cast<std::ptrdiff_t>(6 * p), 6, six.begin());
-    if (!std::ranges::all_of(six, [](double d) { return std::isfinite(d); })) continue;
-    const Vec3 e = symmetric_eigen(symmetric_matrix(six)).vectors[0];
-    turns.push_back(kDegrees * axis_angle(axes * e, others * e));
-  }
-  if (turns.empty()) return 0.0;
-  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
-  std::ranges::nth_element(turns, middle);
-  return *middle;
-}
 
 /// The one that is asked for, else that the file states, else of `likely`, the likeliest first, the one in which
 /// directions line up best.
@@ -118,35 +99,41 @@ FrameChoice choose_frame(const std::vector<float>& stored, const UniformTopology
   const std::vector<Coherence> scores = map.coherence(matrices, threads);
   FrameChoice choice{.frame = frames.front(),
                      .coherence = scores.front(),
-                     .why = open.asked ? ", as asked for"
-                            : open.stated
-                                ? ", as the file states"
-                                : ": the file does not say, and nothing in the image speaks against it"};
+                     .why = open.asked ? ", as asked for" : ", as the file states"};
   if (frames.size() == 1) return choice;
-  std::size_t farthest = 0;
+  const bool enough = map.size() >= kLeastCoherent;
+  std::size_t best = 0;
+  for (std::size_t f = 1; enough && f < frames.size(); ++f) {
+    if (clearly_better(scores[f], scores[best])) best = f;
+  }
+  choice.frame = frames[best];
+  choice.coherence = scores[best];
+  // Of those that the image does not speak against, the one in which most is at stake.
   double most = 0.0;
-  for (std::size_t f = 1; f < frames.size(); ++f) {
-    const double turn = median_turn(stored, matrices[0], matrices[f]);
+  std::size_t farthest = best;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (f == best || (enough && clearly_better(scores[best], scores[f]))) continue;
+    const double turn = map.median_turn(matrices[best], matrices[f]);
     if (turn > most) farthest = f;
     most = std::max(most, turn);
   }
-  // What is at stake, where the image does not decide.
-  std::string otherwise;
-  if (most >= 1.0)
-    otherwise = "; along " + std::string(words_of(frames[farthest])) + " main directions would be " +
-                short_number(std::round(most)) + " degrees from these, in the median";
-  if (map.size() < kLeastCoherent) {
-    choice.why = ": the file does not say, and the image has too few fibres to tell" + otherwise;
-    return choice;
-  }
-  for (std::size_t f = 1; f < frames.size(); ++f) {
-    if (!clearly_better(scores[f], choice.coherence)) continue;
-    choice = {.frame = frames[f],
-              .coherence = scores[f],
-              .why = ": the file does not say, and neighbouring directions line up best so"};
-  }
-  if (choice.frame == frames.front()) choice.why += otherwise;
+  choice.why = std::string(": the file does not say, and ") +
+               (!enough       ? "the image has too few fibres to tell"
+                : most >= 1.0 ? "the image does not decide"
+                              : "neighbouring directions line up best so");
+  if (most < 1.0) return choice;
+  constexpr double kMuch = 5.0;
+  choice.warns = most > kMuch;
+  choice.why += "; along " + std::string(words_of(frames[farthest])) + " main directions would be " +
+                short_number(std::round(most)) + " degrees from these, in the median: name theirs, as in " +
+                "--vectors " + std::string(name_of(frames[farthest])) + ", where you know it";
   return choice;
+}
+
+/// "tensors taken along LPS axes ...", a WARNING where a wrong guess would be far off.
+std::string frame_note(const std::string& what, const FrameChoice& choice) {
+  return (choice.warns ? "WARNING: " : "") + what + " along " + std::string(words_of(choice.frame)) +
+         choice.why + (choice.warns ? "" : " (--vectors)");
 }
 
 void turn_stored(const Mat3& axes, std::vector<float>& tensors) {
@@ -193,7 +180,7 @@ std::vector<float> read_unstated(const DataArray& array, const UniformTopology& 
   }
   notes.push_back("tensors taken in " + name + (wanted == StoredOrder::kAuto ? "" : ", as asked for") +
                   "; without an eigenvalue below zero: " + parts + " (--tensor-order)");
-  notes.push_back("tensors taken along " + std::string(words_of(frame)) + chosen.why + " (--vectors)");
+  notes.push_back(frame_note("tensors taken", chosen));
   return best;
 }
 
@@ -255,10 +242,11 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
         tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, open, threads);
     frame = choice.frame;
     turn_stored(matrix_of(frame, topology.axes), tensors);
-    notes.push_back((set ? "tensors put together from eigenvectors and eigenvalues"
-                         : "V1 and FA alone do not determine tensors: taken as alike across V1, with a mean "
-                           "diffusivity of 0.0007 mm^2/s") +
-                    std::string(", along ") + std::string(words_of(frame)) + choice.why + " (--vectors)");
+    notes.push_back(
+        frame_note(set ? "tensors put together from eigenvectors and eigenvalues,"
+                       : "V1 and FA alone do not determine tensors: taken as alike across V1, with a "
+                         "mean diffusivity of 0.0007 mm^2/s,",
+                   choice));
     return tensors;
   }
   const DataArray& array = *image.find(source.arrays.front(), Association::kPoint);
