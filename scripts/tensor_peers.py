@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """tensor_peers.py DTMRI [DWI.nii.gz ...]: FA, MD, V1 and tract files of dtmri beside MRtrix, DIPY and nibabel, as a table.
+tensor_peers.py --tracts IMAGE.nii.gz STEM ...: STEM.trx, .trk and .tck, the same lines, as those open them over the image.
 
 DTMRI is the built program. Each series has its .bval and .bvec beside it; without one, oblique series are made by
 formula, in three storage orders. A program that is not installed is named below the table. The exit status is 1 where a
@@ -165,6 +166,11 @@ def compare_tracts(dtmri, path, folder):
     run(dtmri, "trace", path, "--seeds", "fa:0.5", "--min-length", "10", "--out", files["tck"], "--force", "--quiet")
     for e in ("trk", "trx"):
         run(dtmri, "tracts", path, "--tracts", files["tck"], "--out", files[e], "--force", "--quiet")
+    compare_files(name, path, files, folder)
+
+
+def compare_files(name, path, files, folder):
+    """The same lines in three formats, over the image at `path`."""
     lines = points_of_tck(files["tck"])
     note = f"{len(lines)} lines"
     trk = nib.streamlines.load(files["trk"])
@@ -174,7 +180,9 @@ def compare_tracts(dtmri, path, folder):
     points, affine = points_of_trx(files["trx"])
     add(name, ".trx", "the specification, by numpy", worst(lines, points), 0.0, "mm", note)
     add(name, "affine of .trx", "nibabel", np.abs(affine - nib.load(path).affine).max(), 1e-3, "mm")
-    if TensorModel is not None:
+    if TensorModel is None:
+        ABSENT.add("DIPY (python3-dipy)")
+    else:
         try:
             loaded = load_tractogram(files["trk"], path, bbox_valid_check=True)
             add(name, ".trk on its image", "DIPY", worst(lines, [np.asarray(s) for s in loaded.streamlines]), MOST_MM,
@@ -184,8 +192,11 @@ def compare_tracts(dtmri, path, folder):
                 "mm", "with the image as reference")
         except Exception as error:  # what DIPY refuses is a row
             add(name, "tracts on their image", "DIPY", float("inf"), MOST_MM, "mm", str(error)[:80])
-    if shutil.which("tckinfo"):
+    if not shutil.which("tckinfo"):
+        ABSENT.add("MRtrix (mrtrix3)")
+    else:
         back = os.path.join(folder, "mrtrix.tck")
+        run("tckinfo", files["tck"])
         run("tckedit", files["tck"], back, "-force", "-quiet")
         add(name, ".tck", "MRtrix", worst(lines, points_of_tck(back)), 0.0, "mm", "through tckedit")
 
@@ -195,17 +206,25 @@ def main():
         sys.exit(__doc__)
     dtmri = sys.argv[1]
     with tempfile.TemporaryDirectory() as folder:
+        for stem in sys.argv[3:] if dtmri == "--tracts" else []:
+            compare_files(os.path.basename(stem), sys.argv[2], {e: stem + "." + e for e in ("tck", "trk", "trx")}, folder)
+        if dtmri == "--tracts":
+            return report()
         series = sys.argv[2:] or [made_series(folder, order) for order in ("RAS", "LPS", "PIR")]
         for path in series:
             compare_images(dtmri, path, folder)
             compare_tracts(dtmri, path, folder)
+    return report()
+
+
+def report():
     print("| series | what | beside | largest difference | may be | is | |")
     print("|---|---|---|---|---|---|---|")
     for row in ROWS:
         print("| " + " | ".join(row) + " |")
     for program in sorted(ABSENT):
         print(f"\nNot installed: {program}.")
-    sys.exit(0 if all(row[5] == "yes" for row in ROWS) else 1)
+    return 0 if all(row[5] == "yes" for row in ROWS) else 1
 
 
-main()
+sys.exit(main())

@@ -12,6 +12,7 @@
 
 #include "common/geometry/tractogram.h"
 #include "common/load/read_tractogram.h"
+#include "tests/e2e/program.h"
 #include "tests/support/project_folders.h"
 #include "tests/support/shared_data.h"
 
@@ -142,9 +143,8 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   const std::string session = folder_.path("a.palpate.toml");
   height_ = 4400;  // three bundles and two regions
   const auto show = [&](const std::string& step, int notches) {
+    if (std::getenv("PALPATE_WRITE_PAGES") == nullptr) return;
     const int width = std::exchange(width_, 1200), height = std::exchange(height_, 800);
-    const bool pages = std::getenv("PALPATE_WRITE_PAGES") != nullptr;
-    const fs::path folder = pages ? source_folder() / "docs" / "guide" : fs::path(folder_.path());
     // Bundles alone in the scene, and their part of the panel.
     for (int slice = 0; slice < 3; ++slice) press("##shown", 0.5, slice);
     for (const char* part : {"TENSORS", "UNDERLAY", "TRACTS", "SLICES", "ANISOTROPY AS A VOLUME"})
@@ -153,10 +153,11 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
       at({.kind = InputKind::kMove, .x = 100.0, .y = 500.0});
       at({.kind = InputKind::kWheel, .x = 0.0, .y = -1.0});
     }
-    const WindowResult result = open({"open", "--session", session}, folder / ("dtmri_" + step + ".png"));
+    at({.kind = InputKind::kMove, .x = 900.0, .y = 790.0});  // no hint over the picture
+    (void)open({"open", "--session", session},
+               source_folder() / "docs" / "guide" / ("dtmri_" + step + ".png"));
     width_ = width;
     height_ = height;
-    return result;
   };
   // Places on the sliders: from the first to the last voxel.
   const auto cross = [&](double x, double y, double z) {
@@ -171,7 +172,15 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   key(kKeyS);
   key(kKeyS);
   // The corpus callosum where it bends, in its middle and in front, as one; then a tract on either side.
-  for (const Vec3& place : {Vec3(0.0, -8.0, 27.0), Vec3(0.0, 20.0, 40.0), Vec3(0.0, 57.0, 31.0)}) {
+  cross(0.0, -8.0, 27.0);
+  press("Trace");
+  key(kKeyS, kModifierControl);
+  const WindowResult traced = open({"open", head.string()});
+  EXPECT_GT(shown(traced), 50U);
+  EXPECT_EQ(traced.document.panes.layout, "4");
+  show("traced", 0);
+  press("Keep as bundle");
+  for (const Vec3& place : {Vec3(0.0, 20.0, 40.0), Vec3(0.0, 57.0, 31.0)}) {
     cross(place.x, place.y, place.z);
     trace_and_keep();
   }
@@ -184,45 +193,76 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   cross(22.7, 18.0, 23.0);
   trace_and_keep();
   key(kKeyS, kModifierControl);
-  const WindowResult drawn = open({"open", head.string()});
+  const WindowResult drawn = open({"open", "--session", session});
   ASSERT_EQ(bundles(drawn).size(), 3U);
   const std::size_t all = shown(drawn);
   EXPECT_GT(all, 100U);
-  (void)show("bundles", 2);
+  show("bundles", 2);
 
   // The left one goes through a ball high up, and does not cross the middle.
-  choose("edit", "2 bundle 2");
   cross(-19.5, 16.0, 46.0);
   press("Ball");
   cross(-3.0, 16.0, 46.0);
   choose("new region", "exclude");
   press("Beyond plane");
+  key(kKeyS, kModifierControl);
+  const WindowResult regions = open({"open", "--session", session});
+  EXPECT_EQ(regions.document.tracts.include.size(), 1U);
+  EXPECT_EQ(regions.document.tracts.exclude.size(), 1U);
+  show("regions", 2);
+
+  choose("edit", "2 bundle 2");
   press("Clean by regions");
   choose("profile of", "fa");
-  press("Save bundle");
-  choose("format", ".trk");
-  press("Save bundle");
   press("Save profile");
+  // Each bundle under a name of its own: bundle, bundle-2, bundle-3.
+  for (const char* one : {"1 bundle 1", "2 bundle 2", "3 bundle 3"}) {
+    choose("edit", one);
+    for (const char* format : {".trk", ".tck", ".trx"}) {
+      choose("format", format);
+      press("Save bundle");
+    }
+  }
   key(kKeyS, kModifierControl);
   const WindowResult cleaned = open({"open", "--session", session});
   ASSERT_EQ(bundles(cleaned).size(), 3U);
   EXPECT_NE(bundles(cleaned)[1].find("|keep=sphere:"), std::string::npos) << bundles(cleaned)[1];
   EXPECT_NE(bundles(cleaned)[1].find("|drop=beyond:"), std::string::npos) << bundles(cleaned)[1];
   EXPECT_LT(shown(cleaned), all);
-  const Tractogram trx = read_tractogram(folder_.path("bundle.trx")).lines,
-                   trk = read_tractogram(folder_.path("bundle.trk")).lines;
-  EXPECT_GT(trx.line_count(), 5U);
-  ASSERT_EQ(trk.line_count(), trx.line_count());
-  for (std::size_t p = 0; p < trx.points.size(); ++p) {
-    ASSERT_LT(trx.points[p].x, 0.0F) << "left of the middle";
-    ASSERT_LT(glm::distance(trx.points[p], trk.points[p]), 1e-3F);
+  EXPECT_TRUE(fs::exists(folder_.path("bundle_fa.csv")));
+  std::size_t saved = 0;
+  for (const char* stem : {"bundle", "bundle-2", "bundle-3"}) {
+    const Tractogram trx = read_tractogram(folder_.path(std::string(stem) + ".trx")).lines,
+                     trk = read_tractogram(folder_.path(std::string(stem) + ".trk")).lines;
+    saved += trx.line_count();
+    ASSERT_EQ(trk.line_count(), trx.line_count());
+    ASSERT_EQ(trk.points.size(), trx.points.size());
+    for (std::size_t p = 0; p < trx.points.size(); ++p)
+      ASSERT_LT(glm::distance(trx.points[p], trk.points[p]), 1e-3F);
+    if (std::string(stem) != "bundle-2") continue;
+    EXPECT_GT(trx.line_count(), 5U);
+    for (const Vec3f& x : trx.points) ASSERT_LT(x.x, 0.0F) << "left of the middle";
   }
-  const WindowResult again = show("cleaned", 14);
+  EXPECT_EQ(saved, shown(cleaned)) << "all that is seen";
+  const WindowResult again = open({"open", "--session", session});
   EXPECT_EQ(bundles(again), bundles(cleaned)) << "all is back";
   EXPECT_EQ(again.document.tracts.include, cleaned.document.tracts.include);
-  EXPECT_EQ(shown(again), shown(cleaned));
+  EXPECT_EQ(again.document.tracts.exclude, cleaned.document.tracts.exclude);
+  EXPECT_EQ(again.document.tract_appearance.bundle_profile, "fa");
+  EXPECT_EQ(again.view.tensors->slices, cleaned.view.tensors->slices);
+  EXPECT_EQ(again.view.tensors->position, cleaned.view.tensors->position);
+  EXPECT_EQ(again.view.tracts->bundle->lines->points, cleaned.view.tracts->bundle->lines->points);
+  show("cleaned", 14);
+  // In the programs of others, with the image as reference.
+  std::vector<std::string> peers{"/usr/bin/python3",
+                                 (source_folder() / "scripts" / "tensor_peers.py").string(), "--tracts",
+                                 head.string()};
+  for (const char* stem : {"bundle", "bundle-2", "bundle-3"}) peers.push_back(folder_.path(stem));
+  const ProgramResult opened = Program(peers).finish();
+  EXPECT_EQ(opened.exit_code, 0) << opened.out << opened.err;
+  RecordProperty("peers", opened.out);
   if (const char* folder = std::getenv("PALPATE_PICTURES")) {
-    for (const char* name : {"bundle.trx", "bundle.trk", "bundle_fa.csv", "a.palpate.toml"})
+    for (const char* name : {"bundle-2.trx", "bundle-2.trk", "bundle_fa.csv", "a.palpate.toml"})
       fs::copy(folder_.path(name), fs::path(folder) / name, fs::copy_options::overwrite_existing);
   }
 }
