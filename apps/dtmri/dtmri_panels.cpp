@@ -266,6 +266,28 @@ void draw_tract_slab(TractView& look, const TensorVoxels& voxels) {
   explain("tract-slab", false);
 }
 
+/// Which lengths are drawn, of all tracts.
+struct ShownLengths {
+  LengthFilter filter;
+  double least = 0.0;
+  std::optional<double> most;  ///< none: the longest
+};
+
+void draw_lengths(ShownLengths& lengths, const TractView& all, TractView& shown) {
+  (void)lengths.filter.of(all.bundle, 0.0, HUGE_VAL);
+  const double longest = std::max(lengths.filter.longest(), 1e-6);
+  double most = std::min(lengths.most.value_or(longest), longest);
+  slider("shown from", lengths.least, 0.0, longest, "%.4g");
+  hint(
+      "shorter tracts are hidden, in the scene and over slices; nothing is deleted, and a session shows all of them");
+  if (slider("shown to", most, 0.0, longest, "%.4g")) lengths.most = most;
+  hint(
+      "longer tracts are hidden, in the scene and over slices; nothing is deleted, and a session shows all of them");
+  shown.bundle = lengths.filter.of(all.bundle, lengths.least, lengths.most.value_or(HUGE_VAL));
+  if (shown.bundle != all.bundle)
+    ImGui::TextDisabled("%zu of %zu tracts are shown", shown.bundle->order.size(), all.bundle->order.size());
+}
+
 /// How sure the fit is of the direction at the hand.
 void draw_cone(const PanelState& state, const SceneView& view) {
   if (state.touch == nullptr || !state.touch->readout().held || !view.volume) return;
@@ -329,12 +351,13 @@ void draw_anisotropy(PanelState& state, const SceneState& scene, VolumeView& vol
 
 std::vector<PanelPart> dtmri_panels() {
   return {[choice = TractSeedChoice(), regions = RegionsPanel(), bundles = BundlePanel(),
-           texts = ReadingTexts()](PanelContext& on) mutable {
+           texts = ReadingTexts(), lengths = ShownLengths()](PanelContext& on) mutable {
     if (on.scene.tensors && on.view.tensors) {
       draw_tensors(on.state, on.scene, choice, on.view);
       if (on.view.tensors->image->field) draw_reading(texts, on.state.document.input.tensor);
       if (on.view.volume) edit_panes(*on.view.volume, nullptr, on.view.anatomical);
       if (on.view.tracts) draw_tract_slab(*on.view.tracts, *on.view.tensors->image);
+      if (on.view.tracts && on.scene.tracts) draw_lengths(lengths, *on.scene.tracts, *on.view.tracts);
       if (on.view.volume) draw_anisotropy(on.state, on.scene, *on.view.volume, on.actions);
       const bool lines = on.view.tracts || !on.state.document.tract_appearance.bundles.empty();
       if (on.view.tensors->image->field || lines) {

@@ -85,6 +85,52 @@ std::vector<TractPoint> piece_points(const TractBundle& bundle, std::size_t piec
   return points;
 }
 
+namespace {
+
+/// Parts of what is in order.
+void part(TractBundle& bundle) {
+  bundle.pieces.clear();
+  std::size_t first = 0, points = 0;
+  for (std::size_t i = 0; i < bundle.order.size(); ++i) {
+    points += bundle.lines->line(bundle.order[i]).size();
+    if (points < TractBundle::kPiecePoints && i + 1 < bundle.order.size()) continue;
+    bundle.pieces.emplace_back(first, i + 1);
+    first = i + 1;
+    points = 0;
+  }
+}
+
+}  // namespace
+
+const std::shared_ptr<const TractBundle>& LengthFilter::of(const std::shared_ptr<const TractBundle>& whole,
+                                                           double least, double most) {
+  if (whole_ != whole) {
+    whole_ = whole;
+    part_.reset();
+    lengths_.clear();
+    longest_ = 0.0;
+    for (const std::uint32_t number : whole->order) {
+      const auto line = whole->lines->line(number);
+      double length = 0.0;
+      for (std::size_t p = 1; p < line.size(); ++p) length += glm::distance(Vec3(line[p - 1]), Vec3(line[p]));
+      lengths_.push_back(length);
+      if (std::isfinite(length)) longest_ = std::max(longest_, length);
+    }
+  }
+  if (least <= 0.0 && most >= longest_) return whole_;
+  if (part_ && least_ == least && most_ == most) return part_;
+  least_ = least;
+  most_ = most;
+  auto shown = std::make_shared<TractBundle>(TractBundle{
+      .lines = whole->lines, .order = {}, .pieces = {}, .bounds = whole->bounds, .colors = whole->colors});
+  for (std::size_t i = 0; i < lengths_.size(); ++i) {
+    if (lengths_[i] >= least && lengths_[i] <= most) shown->order.push_back(whole->order[i]);
+  }
+  part(*shown);
+  part_ = shown;
+  return part_;
+}
+
 std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tractogram> lines,
                                                      std::vector<std::uint32_t> colors) {
   auto bundle = std::make_shared<TractBundle>();
@@ -92,19 +138,12 @@ std::shared_ptr<const TractBundle> make_tract_bundle(std::shared_ptr<const Tract
     if (lines->line(i).size() > 1) bundle->order.push_back(static_cast<std::uint32_t>(i));
   }
   shuffle(bundle->order);
-  std::size_t first = 0, points = 0;
-  for (std::size_t i = 0; i < bundle->order.size(); ++i) {
-    points += lines->line(bundle->order[i]).size();
-    if (points < TractBundle::kPiecePoints && i + 1 < bundle->order.size()) continue;
-    bundle->pieces.emplace_back(first, i + 1);
-    first = i + 1;
-    points = 0;
-  }
   for (const Vec3f& point : lines->points) {
     if (is_finite(Vec3(point))) bundle->bounds.include(Vec3(point));
   }
   bundle->lines = std::move(lines);
   bundle->colors = std::move(colors);
+  part(*bundle);
   return bundle;
 }
 

@@ -48,6 +48,22 @@ inline constexpr std::size_t kTractPiecesOfRoom = (std::size_t{1} << 26U) / Trac
 /// "1200 of 3000 tracts are drawn, …", or empty where there is room for all of them.
 [[nodiscard]] std::string tracts_left_out(const TractBundle& bundle, std::size_t room = kTractPiecesOfRoom);
 
+/// The tracts of some lengths, to be drawn in place of all; what has been found is kept for the next picture.
+class LengthFilter {
+ public:
+  /// Those of `whole` from `least` to `most` [data units]; `whole` itself where none is left out.
+  /// @param whole not null.
+  [[nodiscard]] const std::shared_ptr<const TractBundle>& of(const std::shared_ptr<const TractBundle>& whole,
+                                                             double least, double most);
+  /// Of those that were given last; 0: none.
+  [[nodiscard]] double longest() const noexcept { return longest_; }
+
+ private:
+  std::shared_ptr<const TractBundle> whole_, part_;
+  std::vector<double> lengths_;  ///< in the order of `whole_`
+  double longest_ = 0.0, least_ = 0.0, most_ = 0.0;
+};
+
 /// The part of tracts that is seen over a slice: |normal . (x - place)| < half. With their distance from its middle
 /// they take on the background.
 struct TractSlab {

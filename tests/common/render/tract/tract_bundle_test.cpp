@@ -49,6 +49,28 @@ TEST(TractBundle, HasEveryLineOnceInPiecesOfALimitedSize) {
   EXPECT_EQ(bundle->bounds.upper, Vec3(kPoints - 1, kLines - 1, 0.0));
 }
 
+// Lines of 1, 2, ... 9 at y = 0, 1, ...
+TEST(LengthFilter, KeepsTractsOfLengthsAndTheirOrder) {
+  auto lines = std::make_shared<Tractogram>();
+  for (int l = 1; l < 10; ++l) {
+    const auto y = static_cast<float>(l), length = static_cast<float>(l);
+    add_line(*lines, {{0.0F, y, 0.0F}, {0.5F * length, y, 0.0F}, {length, y, 0.0F}});
+  }
+  const auto whole = make_tract_bundle(lines);
+  LengthFilter filter;
+  EXPECT_EQ(filter.of(whole, 0.0, 9.0), whole) << "nothing is left out";
+  EXPECT_EQ(filter.longest(), 9.0);
+  const auto some = filter.of(whole, 2.5, 6.5);
+  EXPECT_EQ(std::set<std::uint32_t>(some->order.begin(), some->order.end()),
+            (std::set<std::uint32_t>{2, 3, 4, 5}));
+  EXPECT_EQ(some->pieces.back().second, 4U);
+  EXPECT_EQ(some->lines, whole->lines);
+  EXPECT_EQ(filter.of(whole, 2.5, 6.5), some) << "made once";
+  EXPECT_TRUE(filter.of(whole, 9.5, 9.6)->order.empty());
+  EXPECT_EQ(filter.of(some, 0.0, 100.0), some);
+  EXPECT_EQ(filter.longest(), 6.0) << "of another bundle";
+}
+
 // Of n numbers drawn without order from [0, 1] the mean is 1/2 +- 1 / sqrt(12 n): five times that.
 TEST(TractBundle, EveryFirstPartIsAnEvenSample) {
   constexpr std::size_t kLines = 40'000;
