@@ -4,7 +4,7 @@ tensor_peers.py --tracts IMAGE.nii.gz STEM ...: STEM.trx, .trk and .tck, the sam
 
 DTMRI is the built program. Each series has its .bval and .bvec beside it; without one, oblique series are made by
 formula, in three storage orders. A program that is not installed is named below the table. The exit status is 1 where a
-row differs by more than it may.
+row differs by more than it may, 77 where nibabel is not installed.
 """
 import os
 import shutil
@@ -17,7 +17,8 @@ import numpy as np
 try:
     import nibabel as nib
 except ImportError:
-    sys.exit("tensor_peers: nibabel is needed (python3-nibabel), by Debian's /usr/bin/python3")
+    print("tensor_peers: nibabel is needed (python3-nibabel), by Debian's /usr/bin/python3", file=sys.stderr)
+    sys.exit(77)
 try:
     from dipy.core.gradients import gradient_table
     from dipy.io.streamline import load_tractogram

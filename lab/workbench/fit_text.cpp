@@ -37,8 +37,8 @@ std::string fit_text(const FitReport& report) {
            three_digits(100.0 * report.chi_square_probability) + " %\n";
   if (report.parameters.size() <= kMostParametersShown) {
     for (const FittedParameter& p : report.parameters)
-      out += "  " + padded(p.name, 12) + padded(short_number(p.value), 14) + "+- " +
-             three_digits(p.deviation) + " " + p.unit + "\n";
+      out += "  " + padded(p.name, 18) + padded(short_number(p.value), 14) +
+             (std::isfinite(p.deviation) ? "+- " + three_digits(p.deviation) + " " : "") + p.unit + "\n";
   }
   for (const std::string& weak : report.weak) out += "  hardly distinguished: " + weak + "\n";
   for (const std::string& advice : report.advice) out += "  next: " + advice + "\n";

@@ -70,6 +70,20 @@ TEST_F(BundleButtons, PartLengthsCropAndDensityByTheMouse) {
   EXPECT_NEAR(lengths(cropped).front(), 6.0 * edge, 0.8) << "the chord through the ball's centre";
 }
 
+TEST_F(BundleButtons, TractsAreHiddenByTheirLengthAndNothingIsDeleted) {
+  if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
+  const std::string both = "name=two|color=#ff8000|line=-38,0,0,-20,0,0,-2,0,0|line=2,0,0,12,0,0";
+  press("shown from", 0.5);
+  const WindowResult longer = open({"open", "--example", "helix", "--bundle", both});
+  EXPECT_EQ(shown(longer), 1U) << "36 mm, and not 10";
+  EXPECT_EQ(longer.view.tracts->bundle->order.front(), 0U);
+  EXPECT_EQ(bundles(longer).front(), both);
+  press("shown to", 0.5);
+  const WindowResult shorter = open({"open", "--example", "helix", "--bundle", both});
+  ASSERT_EQ(shown(shorter), 1U);
+  EXPECT_EQ(shorter.view.tracts->bundle->order.front(), 1U);
+}
+
 TEST_F(BundleButtons, TractsAreCutAndJoinedWhereTheyArePicked) {
   if (!window_available()) GTEST_SKIP() << "no display: run under xvfb-run";
   const std::vector<std::string> arguments{"open", "--example", "helix", "--bundle", kTwo};
