@@ -142,7 +142,6 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
     fs::create_symlink(shared.parent_path() / (table.string() + ending),
                        folder_.path(table.string() + ending));
   const std::string session = folder_.path("a.palpate.toml");
-  height_ = 4400;  // three bundles and two regions
   const auto show = [&](const std::string& step, int notches) {
     if (std::getenv("PALPATE_WRITE_PAGES") == nullptr) return;
     const int width = std::exchange(width_, 1200), height = std::exchange(height_, 800);

@@ -90,7 +90,7 @@ class DtmriWindow : public ExplorerTest {
   }
 
   static constexpr int kFirst = 90;
-  int width_ = 1000, height_ = 3000;  // the panel whole
+  int width_ = 1000, height_ = 900;
   const Explorer explorer_{.name = "dtmri", .kind = FieldKind::kTensor, .verbs = {open_tensors_verb({})}};
   std::vector<ScriptedEvent> script_;
   int next_ = kFirst;
