@@ -32,6 +32,7 @@ void Console::fail(const std::string& line, int exit_code) {
   std::fprintf(stderr, "%s: %s\n", program_.c_str(), printable(line, "\n").c_str());
   settings_.clear();  // an error says what was wrong with them
   print_json(error_json(line, exit_code));
+  if (explain_) print(ledger_text(Ledger::entries()));
   std::fflush(stdout);
 }
 
