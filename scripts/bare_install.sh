@@ -16,7 +16,7 @@ command -v debootstrap >/dev/null 2>&1 || fail "bare_install: debootstrap is mis
 if [ ! -x "$root/usr/bin/dpkg" ]; then
   say "A bare $suite in $root"
   mkdir -p "$root"
-  debootstrap --variant=minbase "$suite" "$root" http://deb.debian.org/debian >"$root.log" 2>&1 || fail "debootstrap: see $root.log"
+  debootstrap --variant=minbase "$suite" "$root" >"$root.log" 2>&1 || fail "debootstrap: see $root.log"
 fi
 root=$(cd "$root" && pwd)
 mount -t proc proc "$root/proc"
@@ -36,8 +36,9 @@ everything() {
 }
 
 say "What the packages need, and a desktop's tools to start them"
-grep -q security "$root/etc/apt/sources.list" || within sh -c "echo 'deb http://deb.debian.org/debian-security $suite-security main
-deb http://deb.debian.org/debian $suite-updates main' >>/etc/apt/sources.list"
+# Updates lie beside what debootstrap took.
+sources="$root/etc/apt/sources.list"
+grep -q security "$sources" || sed -i -n -E "p; h; s#/debian/? $suite #/debian-security $suite-security #p; g; s# $suite # $suite-updates #p" "$sources"
 apt update
 # A package with the same needs: what others leave behind when they go is not laid on these.
 needs=$(for deb in "$packages"/*.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/^ *//' |

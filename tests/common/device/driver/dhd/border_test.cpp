@@ -18,6 +18,7 @@
 #include "common/servo/linked_device.h"
 #include "common/servo/placed_device.h"
 #include "common/servo/servo_loop.h"
+#include "tests/common/device/driver/dhd/tether.h"
 #include "tests/common/device/driver/fake_dhd.h"
 #include "tests/support/project_folders.h"
 
@@ -39,17 +40,6 @@ class HeardClock final : public LinkClock {
   SystemLinkClock clock_;
   const double start_ = clock_.now();
   mutable std::atomic<double> last_{0.0};
-};
-
-/// Holds the hand to one place, whatever it does: tens of newtons at the border.
-class Anchor final : public Constraint {
- public:
-  void apply(const ChainSettings& /*settings*/) noexcept override {}
-  void reset() noexcept override {}
-  void update(const Vec3& /*probe*/, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
-    link.proxy = Vec3{0.005, -0.01, 0.002};
-    link.state = HoldState::kHeld;
-  }
 };
 
 TEST(BorderOfTheReach, NoCommandOfARealLinkBreaksCapOrSlew) {
@@ -78,7 +68,7 @@ TEST(BorderOfTheReach, NoCommandOfARealLinkBreaksCapOrSlew) {
     Placement placement{.axes = Mat3{Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 0, 0}}, .scale = 1.5};
     PlacedDevice placed(linked, limits, placement, {});
     std::vector<std::unique_ptr<Constraint>> links;
-    links.push_back(std::make_unique<Anchor>());
+    links.push_back(std::make_unique<Tether>());
     ServoLoop servo(placed,
                     std::make_unique<ProxyChain>(std::move(links), ChainSettings{.stiffness = 2000.0}),
                     "anchor", {.real_time = false});

@@ -16,6 +16,7 @@
 #include "common/haptics/proxy_chain.h"
 #include "common/servo/hand_step.h"
 #include "common/servo/linked_device.h"
+#include "tests/common/device/driver/dhd/tether.h"
 #include "tests/common/device/driver/fake_dhd.h"
 #include "tests/common/device/driver/moved_clock.h"
 #include "tests/common/device/driver/soak.h"
@@ -26,17 +27,6 @@ namespace {
 
 constexpr double kCap = 3.0, kSlew = 50.0;  // [N], [N/s]
 constexpr double kReach = 0.02;             // [m]
-
-/// Holds the hand to one place, whatever it does: tens of newtons at the border.
-class Tether final : public Constraint {
- public:
-  void apply(const ChainSettings& /*settings*/) noexcept override {}
-  void reset() noexcept override {}
-  void update(const Vec3& /*probe*/, const UpdateBudget& /*budget*/, LinkUpdate& link) noexcept override {
-    link.proxy = Vec3{0.005, -0.01, 0.002};
-    link.state = HoldState::kHeld;
-  }
-};
 
 /// A servo that is stepped whenever its link asks for a force: not when it stalls, and late when it jitters. What it said
 /// before holds for as long as to LinkedDevice.
