@@ -11,7 +11,6 @@
 
 #include "common/base/check.h"
 #include "common/base/clock.h"
-#include "common/geometry/box_edges.h"
 #include "common/math/power_of_two.h"
 #include "common/render/color/palette.h"
 #include "common/render/frame_block.h"
@@ -21,11 +20,10 @@
 #include "common/render/gl/target.h"
 #include "common/render/glyph/probe_pass.h"
 #include "common/render/label/label_pass.h"
-#include "common/render/lens/shape_wire.h"
-#include "common/render/line/line_geometry.h"
 #include "common/render/line/line_layers.h"
 #include "common/render/line/line_pass.h"
 #include "common/render/overlay/overlay.h"
+#include "common/render/scene_geometry.h"
 #include "common/render/scene_parts.h"
 #include "common/render/scene_view.h"
 #include "common/render/slice/slice_pass.h"
@@ -57,9 +55,8 @@ struct SceneRenderer::State {
   LineProgram line_program, layer_program{LineProgram::Into::kLayers};
   LineLayers layers;
   std::optional<LayeredLines> layered;  // what `layers` held in the last picture
-  ColoredLines lines;
-  LineSet outline;
-  std::vector<LineSet> regions;      // of each
+  SceneGeometry geometry;
+  ColoredLines& lines = geometry.lines();
   std::unique_ptr<ProbePass> probe;  // made when a picture first shows one
   std::unique_ptr<VolumePass> volume;
   bool draws_volume = false;  // in the last picture
@@ -77,17 +74,7 @@ struct SceneRenderer::State {
   std::unique_ptr<StereoPass> stereo;  // of the last picture; none where it has one eye
   FrameTimer timer;
   int compiled_before = 0;  // programs, the last picture
-
-  // What the uploaded buffers were made from.
-  bool filled = false;
-  std::shared_ptr<const std::vector<Line>> shown_lines;
-  Box shown_bounds, reach;
-  std::shared_ptr<const TensorVoxels> shown_tensors;
-  std::shared_ptr<const TractBundle> shown_tracts;
-  std::vector<std::vector<Vec3>> shown_outline;
-  std::vector<RegionView> shown_regions;
-  SceneFrame frame;
-  FrameBlock block;  // of this picture
+  FrameBlock block;         // of this picture
 
   // What the second framebuffer shows; none where it is out of date.
   std::optional<SceneView> still;
@@ -97,42 +84,13 @@ struct SceneRenderer::State {
   std::function<bool()> stop_tracts, stop;       // of the call of draw()
   double volume_ms = 0.0;                        // over tracts, the last time
 
-  void update_geometry(const SceneView& view) {
-    if (filled && shown_lines == view.lines && same_box(shown_bounds, view.bounds) &&
-        shown_outline == view.outline && shown_regions == view.regions &&
-        shown_tensors == (view.tensors ? view.tensors->image : nullptr) &&
-        shown_tracts == (view.tracts ? view.tracts->bundle : nullptr)) {
-      return;
-    }
-    reach = reach_of(view);
-    frame = scene_frame(view.bounds.empty() ? reach : view.bounds);
-    lines.set_geometry(view.lines.get(), frame);
-    outline.set_geometry(
-        make_line_geometry(view.outline.empty() ? box_edges(view.bounds) : view.outline, frame));
-    regions.clear();
-    for (const RegionView& region : view.regions) {
-      std::vector<std::vector<Vec3>> wires;
-      for (const ConvexShape& shape : region.shapes)
-        std::ranges::move(shape_wire(shape, view.bounds), std::back_inserter(wires));
-      regions.emplace_back().set_geometry(make_line_geometry(wires, frame));
-    }
-    shown_regions = view.regions;
-    shown_lines = view.lines;
-    shown_bounds = view.bounds;
-    shown_tensors = view.tensors ? view.tensors->image : nullptr;
-    shown_tracts = view.tracts ? view.tracts->bundle : nullptr;
-    shown_outline = view.outline;
-    still.reset();
-    filled = true;
-  }
-
   // @return whether the path is another one.
   bool update_probe(const SceneView& view) {
     if (!probe) probe = std::make_unique<ProbePass>();
     // Without lines in the scene, those of the probe alone say how far the colours spread.
     const bool alone = !view.lines || view.lines->empty();
     if (alone) lines.legend().range = range_alone(*view.probe, view.style);
-    const bool other_path = probe->update(view, frame, lines.legend().range);
+    const bool other_path = probe->update(view, geometry.frame(), lines.legend().range);
     lines.legend().forces_above = probe->forces_above();
     return other_path;
   }
@@ -164,25 +122,25 @@ struct SceneRenderer::State {
       how.coloring = LineDraw::Coloring::kUnlit;
       how.color = palette_of(view.background).outline;
       how.min_width = how.width = std::max(1.0F, 1.3F * unit);
-      outline.draw(how);
+      geometry.outline().draw(how);
     }
-    for (std::size_t i = 0; i < regions.size(); ++i) {
+    for (std::size_t i = 0; i < geometry.regions().size(); ++i) {
       line_program.use(color_map_of(view.style));
       LineDraw how = base;
       how.coloring = LineDraw::Coloring::kUnlit;
       how.color = view.regions[i].color;
       how.min_width = how.width = std::max(1.0F, 1.8F * unit);
-      regions[i].draw(how);
+      geometry.regions()[i].draw(how);
     }
     if (view.tensors) {
       if (!tensors) tensors = std::make_unique<TensorPass>();
-      tensors->draw(view, frame, transform, unit);
+      tensors->draw(view, geometry.frame(), transform, unit);
     }
     if (!is_transparent(view)) {
       LineDraw how = base;
       how.detail = line_detail;
       if (stop) how.stop = &stop;
-      lines.draw(line_program, view, frame, how, unit);
+      lines.draw(line_program, view, geometry.frame(), how, unit);
     }
     if (view.volume && shows_planes(*view.volume)) {
       update_volume(view);
@@ -190,12 +148,13 @@ struct SceneRenderer::State {
     }
     if (view.surfaces.empty() && !surfaces) return;
     if (!surfaces) surfaces = std::make_unique<SurfacePass>();
-    surfaces->update(view.surfaces, frame);
+    surfaces->update(view.surfaces, geometry.frame());
     SurfaceColors colors{
         .style = view.style, .range = lines.legend().range, .contour_width = std::max(1.0F, 1.6F * unit)};
     if (view.color_lens) {
-      colors.lens_center = Vec3f(frame.scene_from_data(view.color_lens->center));
-      colors.lens_radius = static_cast<float>(view.color_lens->radius * power_of_two(-frame.exponent));
+      colors.lens_center = Vec3f(geometry.frame().scene_from_data(view.color_lens->center));
+      colors.lens_radius =
+          static_cast<float>(view.color_lens->radius * power_of_two(-geometry.frame().exponent));
       colors.lens_style = view.color_lens->style;
       colors.lens_range = lines.legend().lens_range;
     }
@@ -204,13 +163,13 @@ struct SceneRenderer::State {
 
   void update_volume(const SceneView& view) {
     if (!volume) volume = std::make_unique<VolumePass>();
-    volume->update(*view.volume, frame, block);
+    volume->update(*view.volume, geometry.frame(), block);
   }
 
   // Has the volume show transparent lines in it: those that what is opaque by now does not hide.
   void show_layers(const SceneView& view, const LineDraw& base, float unit) {
     std::optional<LayeredLines> wanted = LayeredLines::of(view);
-    const auto draw = [&] { lines.draw(layer_program, view, frame, base, unit); };
+    const auto draw = [&] { lines.draw(layer_program, view, geometry.frame(), base, unit); };
     if (wanted && !layers.collect(target.scene_width(), target.scene_height(), draw)) wanted.reset();
     if (!wanted) layers = {};
     if (!volume) volume = std::make_unique<VolumePass>();
@@ -234,7 +193,7 @@ struct SceneRenderer::State {
     kept.block.size.x = static_cast<float>(kept.shown.width);
     kept.block.size.y = static_cast<float>(kept.shown.height);
     kept.block.size.z = static_cast<float>(block.size.z * kept.resolution);
-    estimates.keep(std::move(kept), frame);
+    estimates.keep(std::move(kept), geometry.frame());
     estimated = view;
     estimated->volume.reset();
   }
@@ -296,7 +255,8 @@ struct SceneRenderer::State {
     const bool lacks = volume && draws_volume && !volume->bricks().complete();
     const bool other =
         other_path || lacks || !still || !same_still_part(*still, view) || still_detail != line_detail;
-    const bool has_tracts = other ? tracts.begin(view, frame, tract_milliseconds) : view.tracts.has_value();
+    const bool has_tracts =
+        other ? tracts.begin(view, geometry.frame(), tract_milliseconds) : view.tracts.has_value();
     // What shines lies over the tracts, and transparent ones are shown when there are enough of them: these
     // grow unseen.
     const bool unseen = has_tracts && (shows_volume(view) || view.tracts->opacity < 1.0);
@@ -365,9 +325,9 @@ struct SceneRenderer::State {
   // For a picture into the target as it is. @pre its geometry is up to date.
   Start begin_eye(const SceneView& view, int width, int height) {
     const double aspect = static_cast<double>(width) / height;
-    Box drawn = reach;
+    Box drawn = geometry.reach();
     include_labels(view.labels, view.camera.axes, drawn);
-    Start start{.transform = view_transform(view.camera, frame, drawn, aspect)};
+    Start start{.transform = view_transform(view.camera, geometry.frame(), drawn, aspect)};
     const bool perspective = view.camera.projection == Projection::kPerspective;
     // Lines are drawn in pixels of the scene's framebuffer, which may be coarser than the picture's.
     const int scene_height = target.scene_height();
@@ -392,7 +352,7 @@ struct SceneRenderer::State {
   // The picture of one eye, into the target's plain framebuffer.
   void draw_eye(const SceneView& view, int width, int height, double resolution, double tract_milliseconds) {
     if (target.resize(width, height, resolution)) still.reset();
-    update_geometry(view);
+    if (geometry.update(view)) still.reset();
     if (lines.update_colors(view)) still.reset();
     draws_volume = shows_volume(view);
 
@@ -405,7 +365,7 @@ struct SceneRenderer::State {
       made_still = false;
       target.bind_scene();
       draw_still_part(view, base, unit, transform);
-      if (tracts.begin(view, frame, tract_milliseconds))
+      if (tracts.begin(view, geometry.frame(), tract_milliseconds))
         tracts.draw(view, base, unit, tract_milliseconds, stop_tracts);
       if (shows_volume(view)) draw_volume(view, base, unit);
     }
@@ -414,10 +374,10 @@ struct SceneRenderer::State {
       layers = {};
     }
     // Where more of them lie in a volume than there is room for, they are drawn over it.
-    if (is_transparent(view) && !layered) lines.draw(line_program, view, frame, base, unit);
+    if (is_transparent(view) && !layered) lines.draw(line_program, view, geometry.frame(), base, unit);
     if (!view.labels.empty()) {
       if (!labels) labels = std::make_unique<LabelPass>();
-      labels->draw(view.labels, frame, view.camera.axes);
+      labels->draw(view.labels, geometry.frame(), view.camera.axes);
     }
 
     glDisable(GL_DEPTH_TEST);
