@@ -128,9 +128,10 @@ class Hands {
 
   void operator()(const ParticipantSight& sight) {
     constexpr std::size_t kSlowTrials = 2;
+    constexpr double kPause = 0.03;  // [s] more pictures than that cost time and show nothing
     if (!left_at_first_) left_at_first_ = sight.left;
-    if (*left_at_first_ - sight.left < kSlowTrials)
-      std::this_thread::sleep_for(std::chrono::duration<double>(slow_));
+    const bool slow = *left_at_first_ - sight.left < kSlowTrials;
+    std::this_thread::sleep_for(std::chrono::duration<double>(slow ? std::max(slow_, kPause) : kPause));
     if (!x_) {
       x_ = std::make_shared<MouseAndKeys>();
       act({{0.0, "mousemove 200 200"},
