@@ -298,9 +298,13 @@ void note_curved(const CurvedSplit& curved, FieldNotes& notes) {
                         " parts each, with the values of their polynomials: linear interpolation within " +
                         "them is off by up to " + number_text(100.0 * curved.made.error) +
                         " % of the largest value (counted into the errors of lines)");
-  if (curved.rational > 0) {
-    notes.lines.push_back(count_text(curved.rational, "Bezier cell", "Bezier cells") +
-                          ": weights of rational ones are not read, taken as 1");
+  if (curved.unweighted > 0) {
+    notes.lines.push_back(count_text(curved.unweighted, "Bezier cell", "Bezier cells") +
+                          " without RationalWeights of points: weights are 1");
+  }
+  if (curved.odd_weights > 0) {
+    notes.lines.push_back(count_text(curved.odd_weights, "Bezier cell has", "Bezier cells have") +
+                          " rational weights that are not above 0: all of theirs are taken as 1");
   }
 }
 

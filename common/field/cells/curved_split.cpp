@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 
 #include "common/base/index.h"
@@ -160,20 +160,48 @@ class CurvedSplitter {
  private:
   struct Cell {
     std::span<const std::int64_t> nodes;
-    Template* shape = nullptr;  ///< null: stays as it is
+    Template* shape = nullptr;            ///< null: stays as it is
+    const DataArray* rational = nullptr;  ///< weights of the points; null: all are 1
   };
+  using Sum = std::vector<std::pair<std::uint32_t, double>>;
 
-  Cell cell_of(const UnstructuredTopology& cells, std::size_t c) {
+  /// What makes the sum of polynomials the rational one.
+  static Sum rational(const Cell& cell, Sum sum) {
+    if (cell.rational == nullptr) return sum;
+    double all = 0.0;
+    for (auto& [node, weight] : sum) {
+      weight *= cell.rational->at(as_size(cell.nodes[node]));
+      all += weight;
+    }
+    for (auto& term : sum) term.second /= all;
+    return sum;
+  }
+
+  Cell cell_of(const DataSet& block, const UnstructuredTopology& cells, std::size_t c) {
     const auto begin = as_size(cells.offsets[c]), end = as_size(cells.offsets[c + 1]);
-    Cell out{.nodes = {cells.connectivity.data() + begin, end - begin}, .shape = nullptr};
+    Cell out{.nodes = {cells.connectivity.data() + begin, end - begin}};
     const std::uint8_t type = cells.types[c];
     if (!is_volume(type) || linear_type_of(type) == type) return out;
-    auto [found, fresh] = shapes_.try_emplace({type, out.nodes.size()});
-    if (fresh) found->second.cell = CurvedCell::make(type, out.nodes.size());
+    CurvedCell::Orders orders{};
+    const DataArray* const degrees = block.find(kHigherOrderDegrees, Association::kCell);
+    for (std::size_t i = 0; degrees != nullptr && degrees->components == 3 && i < 3; ++i) {
+      constexpr double kMost = 1000.0;  // that CurvedCell knows none of
+      orders[i] = static_cast<int>(std::clamp(degrees->at(c, static_cast<int>(i)), 0.0, kMost));
+    }
+    auto [found, fresh] = shapes_.try_emplace({type, out.nodes.size(), orders});
+    if (fresh) found->second.cell = CurvedCell::make(type, out.nodes.size(), orders);
     const bool there = std::ranges::all_of(out.nodes, [&](std::int64_t p) {
       return p >= 0 && as_size(p) < cells.positions.tuples;  // refused when the cell is split
     });
-    if (found->second.cell && there) out.shape = &found->second;
+    if (!found->second.cell || !there) return out;
+    out.shape = &found->second;
+    const DataArray* const weights =
+        is_bezier(type) ? block.find(kRationalWeights, Association::kPoint) : nullptr;
+    const bool positive = weights != nullptr && std::ranges::all_of(out.nodes, [weights](std::int64_t p) {
+                            const double weight = weights->at(as_size(p));
+                            return weight > 0.0 && std::isfinite(weight);
+                          });
+    if (positive) out.rational = weights;
     return out;
   }
 
@@ -181,10 +209,13 @@ class CurvedSplitter {
     for (const DataSet& block : blocks_) {
       const auto* cells = std::get_if<UnstructuredTopology>(&block.topology);
       for (std::size_t c = 0; cells != nullptr && c < cells->types.size(); ++c) {
-        const Cell cell = cell_of(*cells, c);
+        const Cell cell = cell_of(block, *cells, c);
         if (cell.shape == nullptr) continue;
         ++out_.cells;
-        if (cells->types[c] >= 78) ++out_.rational;
+        if (is_bezier(cells->types[c]) && cell.rational == nullptr) {
+          const bool none = block.find(kRationalWeights, Association::kPoint) == nullptr;
+          ++(none ? out_.unweighted : out_.odd_weights);
+        }
         order_ = std::max(order_, cell.shape->cell->order());
       }
     }
@@ -197,7 +228,7 @@ class CurvedSplitter {
     for (const Vec3& xi : cell.shape->cell->nodes()) {
       cell.shape->cell->weights(xi, weights);
       Vec3 sum{0.0};
-      for (const auto& [node, weight] : sum_of(weights))
+      for (const auto& [node, weight] : rational(cell, sum_of(weights)))
         sum += weight * value_(block, as_size(cell.nodes[node]));
       const double size = glm::length(sum);
       if (size > largest && std::isfinite(size)) largest = size;
@@ -205,17 +236,41 @@ class CurvedSplitter {
     return largest;
   }
 
+  struct Place {
+    Vec3 at{0.0}, value{0.0};
+  };
+  /// At lattice coordinates of n intervals.
+  Place place_at(const DataSet& block, const Cell& cell, const Vec3& p, int n) {
+    const auto& positions = std::get<UnstructuredTopology>(block.topology).positions;
+    cell.shape->cell->weights(parameters(cell.shape->cell->linear_type(), p, n), weights_);
+    Place out;
+    for (const auto& [node, weight] : rational(cell, sum_of(weights_))) {
+      const std::size_t point = as_size(cell.nodes[node]);
+      out.at += weight * Vec3(positions.at(point, 0), positions.at(point, 1), positions.at(point, 2));
+      out.value += weight * value_(block, point);
+    }
+    return out;
+  }
+
+  /// By how much the value at lattice coordinates p changes over `step` in space, to first order.
+  Vec3 change_over(const DataSet& block, const Cell& cell, const Vec3& p, int n, const Vec3& step) {
+    constexpr double kNear = 0.25;
+    Mat3 at{0.0}, value{0.0};
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 h{0.0};
+      h[axis] = kNear;
+      const Place before = place_at(block, cell, p - h, n), behind = place_at(block, cell, p + h, n);
+      at[axis] = behind.at - before.at;
+      value[axis] = behind.value - before.value;
+    }
+    const Vec3 along = glm::inverse(at) * step;
+    const Vec3 out = value * along;
+    return is_finite(out) && glm::length(along) < 2.0 ? out : Vec3{0.0};  // at a pyramid's apex
+  }
+
   /// 3/2 of the most that linear interpolation along edges of the lattice is off in their middles.
   double bound(const DataSet& block, const Cell& cell, int n) {
-    const CurvedCell& polynomial = *cell.shape->cell;
-    std::vector<double> weights;
-    const auto at = [&](const Vec3& p) {
-      polynomial.weights(parameters(polynomial.linear_type(), p, n), weights);
-      Vec3 sum{0.0};
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        sum += weights[i] * value_(block, as_size(cell.nodes[i]));
-      return sum;
-    };
+    const std::uint8_t linear = cell.shape->cell->linear_type();
     double most = 0.0;
     // Of a fine lattice a few points will do.
     const int stride = std::max(1, n / 3);
@@ -223,16 +278,22 @@ class CurvedSplitter {
       for (int j = 0; j <= n; j += stride) {
         for (int i = 0; i <= n; i += stride) {
           const Lattice a{i, j, k};
-          if (!in_reference(polynomial.linear_type(), a, n)) continue;
-          const Vec3 f = at(Vec3(i, j, k));
+          if (!in_reference(linear, a, n)) continue;
+          const Place from = place_at(block, cell, Vec3(i, j, k), n);
           for (int d = 14; d < 27; ++d) {  // one of each pair of opposite neighbours
             const Lattice step{d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1};
-            if (!is_edge(polynomial.linear_type(), step)) continue;
+            if (!is_edge(linear, step)) continue;
             const Lattice b{i + step[0], j + step[1], k + step[2]};
-            if (!in_reference(polynomial.linear_type(), b, n)) continue;
+            if (!in_reference(linear, b, n)) continue;
             const Vec3 middle = 0.5 * Vec3(i + b[0], j + b[1], k + b[2]);
-            const double off = glm::distance(at(middle), 0.5 * (f + at(Vec3(b[0], b[1], b[2]))));
-            if (off > most) most = off;
+            const Place to = place_at(block, cell, Vec3(b[0], b[1], b[2]), n);
+            const Place true_one = place_at(block, cell, middle, n);
+            const Vec3 bend = 0.5 * (from.at + to.at) - true_one.at;
+            Vec3 off = 0.5 * (from.value + to.value) - true_one.value;
+            constexpr double kStraight = 1e-12;
+            if (glm::length(bend) > kStraight * glm::distance(from.at, to.at))
+              off -= change_over(block, cell, middle, n, bend);
+            most = std::max(most, glm::length(off));
           }
         }
       }
@@ -252,7 +313,7 @@ class CurvedSplitter {
     for (const DataSet& block : blocks_) {
       const auto* cells = std::get_if<UnstructuredTopology>(&block.topology);
       for (std::size_t c = 0; cells != nullptr && c < cells->types.size(); ++c) {
-        const Cell cell = cell_of(*cells, c);
+        const Cell cell = cell_of(block, *cells, c);
         if (cell.shape == nullptr || next++ % stride != 0) continue;
         sampled.push_back({&block, cell});
         largest = std::max(largest, largest_in(block, cell));
@@ -307,7 +368,7 @@ class CurvedSplitter {
     made_.clear();
     std::vector<std::int64_t> place;
     for (std::size_t c = 0; c < cells->types.size(); ++c) {
-      const Cell cell = cell_of(*cells, c);
+      const Cell cell = cell_of(block, *cells, c);
       const auto add = [&](std::uint8_t type) {
         linear.types.push_back(type);
         linear.offsets.push_back(static_cast<std::int64_t>(linear.connectivity.size()));
@@ -321,7 +382,7 @@ class CurvedSplitter {
       const Template& shape = *cell.shape;
       place.clear();
       for (std::size_t p = 0; p < shape.points.size(); ++p)
-        place.push_back(point_of(cell.nodes, shape.sums[p], shape.shared[p] != 0, position));
+        place.push_back(point_of(cell, shape.sums[p], shape.shared[p] != 0, position));
       for (std::size_t part = 0; part < shape.parts.size(); ++part) {
         for (const std::uint32_t corner : shape.corners[part]) linear.connectivity.push_back(place[corner]);
         add(shape.parts[part].type);
@@ -342,9 +403,8 @@ class CurvedSplitter {
   }
 
   /// The number in the block of the point that is this sum of nodes. Cells that share the nodes share the point.
-  std::int64_t point_of(std::span<const std::int64_t> nodes,
-                        const std::vector<std::pair<std::uint32_t, double>>& sum, bool shared,
-                        std::vector<double>& position) {
+  std::int64_t point_of(const Cell& cell, const Sum& sum, bool shared, std::vector<double>& position) {
+    const std::span<const std::int64_t> nodes = cell.nodes;
     if (sum.size() == 1) return nodes[sum.front().first];
     const auto number = static_cast<std::int64_t>(position.size() / 3);
     if (shared) {
@@ -361,7 +421,7 @@ class CurvedSplitter {
     }
     Vec3 x{0.0};
     bool seen = true;
-    for (const auto& [node, weight] : sum) {
+    for (const auto& [node, weight] : rational(cell, sum)) {
       const auto p = as_size(nodes[node]);
       x += weight * Vec3(position[3 * p], position[3 * p + 1], position[3 * p + 2]);
       out_.made.input.push_back(static_cast<std::uint32_t>(first_input_ + p));
@@ -379,7 +439,8 @@ class CurvedSplitter {
   const PointValue& value_;
   CurvedSplit out_;
   int order_ = 1;
-  std::map<std::pair<std::uint8_t, std::size_t>, Template> shapes_;
+  std::map<std::tuple<std::uint8_t, std::size_t, CurvedCell::Orders>, Template> shapes_;
+  std::vector<double> weights_;  ///< of the place that is looked at
   std::map<std::vector<std::pair<std::int64_t, std::int64_t>>, std::int64_t> made_;  ///< of the block
   std::vector<std::uint8_t> visible_;
   std::size_t first_input_ = 0, first_cell_ = 0;  ///< of the block

@@ -27,7 +27,8 @@ struct MadePoints {
   std::vector<std::uint32_t> input;
   std::vector<double> weight;
   /// By which linear interpolation between them is off, as a part of the largest value: 3/2 of the most that it is
-  /// off in the middle of an edge, which bounds it for polynomials of order two; of up to 64 cells.
+  /// off in the middle of an edge, which bounds it for polynomials of order two; of up to 64 cells. Where the cell bends
+  /// the middle of the part's edge is another place than the middle of the cell's, by a step along which its value changes.
   double error = 0.0;
 };
 
@@ -38,7 +39,8 @@ struct CurvedSplit {
   MadePoints made;                      ///< in the order in which input_of has none; no `point` yet
   std::size_t cells = 0;                ///< that were curved
   int parts = 1;                        ///< n
-  std::size_t rational = 0;             ///< Bezier cells
+  std::size_t unweighted = 0;           ///< Bezier cells without RationalWeights: those are 1
+  std::size_t odd_weights = 0;          ///< Bezier cells of which one is not above 0: all are taken as 1
 };
 
 /// Nothing where no cell is curved. Cells of which no polynomial is known stay as they are.

@@ -80,18 +80,30 @@ std::vector<Point> tetrahedron_nodes(int n) {
   return out;
 }
 
-std::vector<Point> hexahedron_nodes(int n) {
-  const std::array<Point, 8> corner{
-      {{0, 0, 0}, {n, 0, 0}, {n, n, 0}, {0, n, 0}, {0, 0, n}, {n, 0, n}, {n, n, n}, {0, n, n}}};
-  static constexpr std::array<std::array<std::size_t, 2>, 12> kEdges{
-      {{0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
-  std::vector<Point> out(corner.begin(), corner.end());
-  for (const auto& e : kEdges) add_edge(corner[e[0]], corner[e[1]], n, out);
+std::vector<Point> hexahedron_nodes(const Point& n) {
+  const auto corner = [&n](int i, int j, int k) { return Point{i * n[0], j * n[1], k * n[2]}; };
+  const std::array<Point, 8> corners{corner(0, 0, 0), corner(1, 0, 0), corner(1, 1, 0), corner(0, 1, 0),
+                                     corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1)};
+  static constexpr std::array<std::array<std::size_t, 3>, 12> kEdges{// two corners and the axis
+                                                                     {{0, 1, 0},
+                                                                      {1, 2, 1},
+                                                                      {3, 2, 0},
+                                                                      {0, 3, 1},
+                                                                      {4, 5, 0},
+                                                                      {5, 6, 1},
+                                                                      {7, 6, 0},
+                                                                      {4, 7, 1},
+                                                                      {0, 4, 2},
+                                                                      {1, 5, 2},
+                                                                      {2, 6, 2},
+                                                                      {3, 7, 2}}};
+  std::vector<Point> out(corners.begin(), corners.end());
+  for (const auto& e : kEdges) add_edge(corners[e[0]], corners[e[1]], n[e[2]], out);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t fast = axis == 0 ? 1 : 0, slow = axis == 2 ? 1 : 2;
-    for (const int side : {0, n}) {
-      for (int b = 1; b < n; ++b) {
-        for (int a = 1; a < n; ++a) {
+    for (const int side : {0, n[axis]}) {
+      for (int b = 1; b < n[slow]; ++b) {
+        for (int a = 1; a < n[fast]; ++a) {
           Point p{};
           p[axis] = side;
           p[fast] = a;
@@ -101,36 +113,37 @@ std::vector<Point> hexahedron_nodes(int n) {
       }
     }
   }
-  for (int k = 1; k < n; ++k) {
-    for (int j = 1; j < n; ++j) {
-      for (int i = 1; i < n; ++i) out.push_back({i, j, k});
+  for (int k = 1; k < n[2]; ++k) {
+    for (int j = 1; j < n[1]; ++j) {
+      for (int i = 1; i < n[0]; ++i) out.push_back({i, j, k});
     }
   }
   return out;
 }
 
-std::vector<Point> wedge_nodes(int n) {
+/// @param n of the triangles. @param axial along the axis.
+std::vector<Point> wedge_nodes(int n, int axial) {
   const std::array<Point, 3> corner{{{0, 0, 0}, {n, 0, 0}, {0, n, 0}}};
   const auto raised = [](const Point& p, int k) { return Point{p[0], p[1], k}; };
   std::vector<Point> out;
-  for (const int k : {0, n}) {
+  for (const int k : {0, axial}) {
     for (const Point& p : corner) out.push_back(raised(p, k));
   }
-  for (const int k : {0, n}) {
+  for (const int k : {0, axial}) {
     for (std::size_t i = 0; i < 3; ++i)
       add_edge(raised(corner[i], k), raised(corner[(i + 1) % 3], k), n, out);
   }
-  for (const Point& p : corner) add_edge(p, raised(p, n), n, out);
+  for (const Point& p : corner) add_edge(p, raised(p, axial), axial, out);
   const auto add_inner = [&](int k) {
     for (int j = 1; j < n; ++j) {
       for (int i = 1; i < n - j; ++i) out.push_back({i, j, k});
     }
   };
-  for (const int k : {0, n}) add_inner(k);
+  for (const int k : {0, axial}) add_inner(k);
   for (std::size_t i = 0; i < 3; ++i) {
-    for (int k = 1; k < n; ++k) add_edge(raised(corner[i], k), raised(corner[(i + 1) % 3], k), n, out);
+    for (int k = 1; k < axial; ++k) add_edge(raised(corner[i], k), raised(corner[(i + 1) % 3], k), n, out);
   }
-  for (int k = 1; k < n; ++k) add_inner(k);
+  for (int k = 1; k < axial; ++k) add_inner(k);
   return out;
 }
 
@@ -179,19 +192,35 @@ constexpr double kApex = 1e-12;
 
 }  // namespace
 
-std::unique_ptr<CurvedCell> CurvedCell::make(std::uint8_t type, std::size_t nodes) {
-  // Quadratic ones have one number of nodes each; those of Lagrange and Bezier say their order by it.
+std::unique_ptr<CurvedCell> CurvedCell::make(std::uint8_t type, std::size_t nodes, const Orders& orders) {
+  // Quadratic ones have one number of nodes each; those of Lagrange and Bezier say their order by it, or along each axis.
   if ((type == kQuadraticTetrahedron && nodes != 10) || (type == kTriquadraticHexahedron && nodes != 27) ||
       (type == 32 && nodes != 18))
     return nullptr;
   auto out = std::make_unique<CurvedCell>();
   out->linear_ = linear_type_of(type);
   std::vector<Point> lattice;
-  int n = 2;
-  const auto monomials = [&out](int most, const auto& wanted) {
-    for (int k = 0; k <= most; ++k) {
-      for (int j = 0; j <= most; ++j) {
-        for (int i = 0; i <= most; ++i) {
+  Orders n{2, 2, 2};
+  const bool of_any_order = type >= 71 && type <= 80;
+  if (of_any_order && orders != Orders{}) {
+    n = orders;
+    for (const int order : n) {
+      if (order < 1 || order > kMostOrder) return nullptr;
+    }
+    // Triangles have one order.
+    if (out->linear_ != kHexahedron && n[0] != n[1]) return nullptr;
+    if (out->linear_ == kTetrahedron && n[0] != n[2]) return nullptr;
+  } else if (of_any_order || type == kQuadraticTetrahedron || type == kTriquadraticHexahedron || type == 32) {
+    const int order = out->linear_ == kTetrahedron ? tetrahedron_order(nodes)
+                      : out->linear_ == kWedge     ? wedge_order(nodes)
+                                                   : hexahedron_order(nodes);
+    if (order == 0) return nullptr;
+    n = {order, order, order};
+  }
+  const auto monomials = [&out, &n](const auto& wanted) {
+    for (int k = 0; k <= n[2]; ++k) {
+      for (int j = 0; j <= n[1]; ++j) {
+        for (int i = 0; i <= n[0]; ++i) {
           if (wanted(i, j, k)) out->exponents_.push_back({i, j, k});
         }
       }
@@ -201,46 +230,40 @@ std::unique_ptr<CurvedCell> CurvedCell::make(std::uint8_t type, std::size_t node
     case kQuadraticTetrahedron:
     case 71:
     case 78:
-      n = tetrahedron_order(nodes);
-      if (n == 0) return nullptr;
-      lattice = tetrahedron_nodes(n);
-      monomials(n, [n](int i, int j, int k) { return i + j + k <= n; });
+      lattice = tetrahedron_nodes(n[0]);
+      monomials([&n](int i, int j, int k) { return i + j + k <= n[0]; });
       break;
     case kTriquadraticHexahedron:
     case 72:
     case 79:
-      n = hexahedron_order(nodes);
-      if (n == 0) return nullptr;
       lattice = hexahedron_nodes(n);
-      monomials(n, [](int, int, int) { return true; });
+      monomials([](int, int, int) { return true; });
       break;
     case 25:
-      lattice = hexahedron_nodes(2);
+      lattice = hexahedron_nodes(n);
       lattice.resize(20);
-      monomials(2, [](int i, int j, int k) { return (i == 2) + (j == 2) + (k == 2) <= 1; });
+      monomials([](int i, int j, int k) { return (i == 2) + (j == 2) + (k == 2) <= 1; });
       break;
     case 33:  // the sides are biquadratic, bottom and top serendipity
-      lattice = hexahedron_nodes(2);
+      lattice = hexahedron_nodes(n);
       lattice.resize(24);
-      monomials(2, [](int i, int j, int) { return i + j < 4; });
+      monomials([](int i, int j, int) { return i + j < 4; });
       break;
     case 32:
     case 73:
     case 80:
-      n = wedge_order(nodes);
-      if (n == 0) return nullptr;
-      lattice = wedge_nodes(n);
-      monomials(n, [n](int i, int j, int) { return i + j <= n; });
+      lattice = wedge_nodes(n[0], n[2]);
+      monomials([&n](int i, int j, int) { return i + j <= n[0]; });
       break;
     case 26:
-      lattice = wedge_nodes(2);
+      lattice = wedge_nodes(2, 2);
       lattice.resize(15);
-      monomials(2, [](int i, int j, int k) { return i + j + (k == 2) <= 2 && (k < 2 || i + j <= 1); });
+      monomials([](int i, int j, int k) { return i + j + (k == 2) <= 2 && (k < 2 || i + j <= 1); });
       break;
     case 31:
-      lattice = wedge_nodes(2);
+      lattice = wedge_nodes(2, 2);
       lattice.resize(12);
-      monomials(2, [](int i, int j, int k) { return i + j <= 2 && k < 2; });
+      monomials([](int i, int j, int k) { return i + j <= 2 && k < 2; });
       break;
     case 27:
       out->space_ = Space::kPyramid;
@@ -251,10 +274,11 @@ std::unique_ptr<CurvedCell> CurvedCell::make(std::uint8_t type, std::size_t node
     default:
       return nullptr;
   }
-  out->order_ = n;
-  for (const Point& p : lattice) out->nodes_.push_back(Vec3(p[0], p[1], p[2]) / static_cast<double>(n));
+  out->orders_ = n;
+  const Vec3 intervals(n[0], n[1], n[2]);
+  for (const Point& p : lattice) out->nodes_.push_back(Vec3(p[0], p[1], p[2]) / intervals);
   if (out->nodes_.size() != nodes) return nullptr;
-  if (type >= 78 && type <= 80) out->space_ = Space::kBernstein;
+  if (is_bezier(type)) out->space_ = Space::kBernstein;
   if (out->space_ != Space::kBernstein && !out->invert()) return nullptr;
   return out;
 }
@@ -273,17 +297,21 @@ void CurvedCell::basis(const Vec3& xi, std::vector<double>& out) const {
 }
 
 void CurvedCell::bernstein(const Vec3& xi, std::vector<double>& out) const {
-  const int n = order_;
-  const auto line = [n](double x, int i) { return binomial(n, i) * power(x, i) * power(1.0 - x, n - i); };
+  const auto line = [](int n, double x, int i) {
+    return binomial(n, i) * power(x, i) * power(1.0 - x, n - i);
+  };
   out.clear();
+  const int n = orders_[0];
   for (const Vec3& node : nodes_) {
-    const auto at = [&](int axis) { return static_cast<int>(std::lround(node[axis] * n)); };
+    const auto at = [&](std::size_t axis) {
+      return static_cast<int>(std::lround(node[static_cast<int>(axis)] * orders_[axis]));
+    };
     const int i = at(0), j = at(1), k = at(2);
     if (linear_ == kHexahedron) {
-      out.push_back(line(xi.x, i) * line(xi.y, j) * line(xi.z, k));
+      out.push_back(line(n, xi.x, i) * line(orders_[1], xi.y, j) * line(orders_[2], xi.z, k));
     } else if (linear_ == kWedge) {
       out.push_back(binomial(n, i) * binomial(n - i, j) * power(xi.x, i) * power(xi.y, j) *
-                    power(1.0 - xi.x - xi.y, n - i - j) * line(xi.z, k));
+                    power(1.0 - xi.x - xi.y, n - i - j) * line(orders_[2], xi.z, k));
     } else {
       out.push_back(binomial(n, i) * binomial(n - i, j) * binomial(n - i - j, k) * power(xi.x, i) *
                     power(xi.y, j) * power(xi.z, k) * power(1.0 - xi.x - xi.y - xi.z, n - i - j - k));
