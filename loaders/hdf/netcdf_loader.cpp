@@ -58,7 +58,7 @@ class Attributes {
     }
     return false;
   }
-  /// What VTK's reader fails at, with what to do, or nothing: an axis without places that has a variable, one longer than the file can
+  /// What VTK's reader fails at, with what to do, or nothing: several numbers where it has room for one, an axis without places that has a variable, one longer than the file can
   /// fill, for which it makes places, and variables along a fourth axis that is not told to be time.
   [[nodiscard]] std::optional<std::array<std::string, 2>> problem(std::uint64_t file_size) const {
     constexpr std::uint64_t kMostPacked = 1100;  // deflate makes no more of a byte
@@ -79,6 +79,13 @@ class Attributes {
                "the file may be damaged"}};
     }
     for (int id = 0; id < variables; ++id) {
+      for (const char* one : {"scale_factor", "add_offset"}) {  // VTK's reader has room for one number
+        std::size_t count = 0;
+        if (nc_inq_attlen(file_, id, one, &count) == NC_NOERR && count > 1)
+          return {{"has " + std::to_string(count) + " numbers in the attribute " + one + " of '" +
+                       name_of_variable(id) + "', where one is due",
+                   "the file may be damaged"}};
+      }
       int rank = 0;
       if (nc_inq_varndims(file_, id, &rank) != NC_NOERR || rank < 4) continue;
       std::vector<int> along(static_cast<std::size_t>(rank));
@@ -88,10 +95,8 @@ class Attributes {
       if (nc_inq_varid(file_, first.c_str(), &of_axis) == NC_NOERR &&
           !(text_of(of_axis, "units") + text_of(of_axis, "standard_name") + text_of(of_axis, "axis")).empty())
         continue;
-      std::array<char, NC_MAX_NAME + 1> name{};
-      if (nc_inq_varname(file_, id, name.data()) != NC_NOERR) continue;
       return {
-          {"does not say that '" + printable(first) + "', the first axis of '" + printable(name.data()) +
+          {"does not say that '" + printable(first) + "', the first axis of '" + name_of_variable(id) +
                "', is time",
            "give its variable units, for example 'ncatted -a units," + printable(first) + ",c,c,s THIS'"}};
     }
@@ -102,6 +107,11 @@ class Attributes {
   [[nodiscard]] std::string name_of_axis(int axis) const {
     std::array<char, NC_MAX_NAME + 1> name{};
     return nc_inq_dimname(file_, axis, name.data()) == NC_NOERR ? name.data() : "";
+  }
+
+  [[nodiscard]] std::string name_of_variable(int variable) const {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    return nc_inq_varname(file_, variable, name.data()) == NC_NOERR ? printable(name.data()) : "";
   }
 
   [[nodiscard]] std::string text_of(int variable, const char* name) const {

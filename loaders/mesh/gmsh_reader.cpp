@@ -7,13 +7,13 @@
 #include <map>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "loaders/mesh/gmsh_values.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
 
@@ -90,8 +90,10 @@ class GmshReader {
       if (section == "$MeshFormat") read_format();
       if (section == "$Nodes") version_ < 4.0 ? read_nodes_2() : read_nodes_4();
       if (section == "$Elements") version_ < 4.0 ? read_elements_2() : read_elements_4();
-      if (section == "$NodeData" || section == "$ElementData") read_values(section == "$NodeData");
-      if (section == "$ElementNodeData" || section == "$InterpolationScheme") ++skipped_[section];
+      if (section == "$NodeData") read_values(GmshValues::On::kNodes);
+      if (section == "$ElementData") read_values(GmshValues::On::kElements);
+      if (section == "$ElementNodeData") read_values(GmshValues::On::kElementNodes);
+      if (section == "$InterpolationScheme") ++skipped_[section];
       // Others may be binary: physical names, entities, periodic nodes.
       words_.skip_behind("$End" + section.substr(1));
     }
@@ -99,16 +101,6 @@ class GmshReader {
   }
 
  private:
-  struct Values {
-    std::string name;
-    bool of_nodes = true;
-    double time = 0.0;
-    std::int64_t step = 0;
-    int components = 1;
-    std::vector<std::pair<std::int64_t, std::size_t>> tags;  ///< and where their numbers begin
-    std::vector<double> numbers;
-  };
-
   void read_format() {
     version_ = words_.number("a version");
     const std::int64_t binary = words_.integer("0 for text, 1 for binary", 0, 1);
@@ -143,9 +135,9 @@ class GmshReader {
   }
 
   void add_node(std::int64_t tag, const Vec3& x) {
-    if (!index_.try_emplace(tag, positions_.size() / 3).second)
+    if (!mesh_.point_of.try_emplace(tag, mesh_.positions.size() / 3).second)
       words_.refuse("a second node " + std::to_string(tag), "one");
-    for (int i = 0; i < 3; ++i) positions_.push_back(x[i]);
+    for (int i = 0; i < 3; ++i) mesh_.positions.push_back(x[i]);
   }
 
   void read_nodes_2() {
@@ -209,13 +201,14 @@ class GmshReader {
     const bool own_order = std::ranges::all_of(type.of, [](std::int8_t n) { return n == 0; });
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const std::int64_t node = nodes[own_order ? i : as_size(type.of[i])];
-      const auto found = index_.find(node);
-      if (found == index_.end())
+      const auto found = mesh_.point_of.find(node);
+      if (found == mesh_.point_of.end())
         words_.refuse("element " + std::to_string(tag) + " of node " + std::to_string(node),
                       "a node that there is");
       points[i] = static_cast<std::int64_t>(found->second);
     }
-    cell_of_.try_emplace(tag, cells_.size());
+    mesh_.cell_of.try_emplace(tag, cells_.size());
+    mesh_.order_of.emplace_back(own_order ? nullptr : type.of.data());
     cells_.add(type.vtk, points.data(), nodes.size());
   }
   const ElementType& known_type(std::int64_t type) {
@@ -284,12 +277,14 @@ class GmshReader {
     expect_end("$EndElements");
   }
 
-  void read_values(bool of_nodes) {
-    Values values;
-    values.of_nodes = of_nodes;
+  void read_values(GmshValues::On on) {
+    GmshValues values;
+    values.on = on;
     for (std::int64_t i = 0, n = words_.integer("a count of names", 0, 1000); i < n; ++i) {
       const std::string_view name = words_.word();
       if (i == 0) values.name = name;
+      // The numbers are coefficients of functions that $InterpolationScheme names.
+      values.coefficients = values.coefficients || (i == 1 && !name.empty());
     }
     for (std::int64_t i = 0, n = words_.integer("a count of numbers", 0, 1000); i < n; ++i) {
       const double real_tag = words_.number("a time");
@@ -307,15 +302,20 @@ class GmshReader {
       words_.refuse(std::to_string(whole[1]) + " components", "1, 3 or 9");
     values.components = static_cast<int>(whole[1]);
     const std::size_t count = believed(whole[2], 4);
-    if (values.name.empty()) values.name = of_nodes ? "node data" : "element data";
+    if (values.name.empty()) values.name = on == GmshValues::On::kNodes ? "node data" : "element data";
     if (binary_) words_.end_line();
     for (std::size_t n = 0; n < count; ++n) {
       const std::int64_t tag = binary_ ? int32() : words_.integer("a number", 0, kMostTag);
-      values.tags.emplace_back(tag, values.numbers.size());
-      for (int c = 0; c < values.components; ++c)
+      std::int64_t nodes = 1;
+      if (on == GmshValues::On::kElementNodes)
+        nodes = binary_ ? int32() : words_.integer("a count of nodes", 0, kMostTag);
+      values.tuples.push_back({tag, values.numbers.size(), believed(nodes, 2)});
+      for (std::int64_t c = 0; c < values.components * nodes; ++c)
         values.numbers.push_back(binary_ ? real() : words_.number("a value"));
     }
-    expect_end(of_nodes ? "$EndNodeData" : "$EndElementData");
+    expect_end(on == GmshValues::On::kNodes      ? "$EndNodeData"
+               : on == GmshValues::On::kElements ? "$EndElementData"
+                                                 : "$EndElementNodeData");
     values_.push_back(std::move(values));
   }
 
@@ -329,7 +329,7 @@ class GmshReader {
   }
 
   MeshFile made() {
-    if (positions_.empty()) words_.refuse("no $Nodes", "a mesh");
+    if (mesh_.positions.empty()) words_.refuse("no $Nodes", "a mesh");
     MeshFile out;
     if (cells_.size() == 0) {
       throw input_error({words_.file(), "",
@@ -348,147 +348,19 @@ class GmshReader {
     for (const auto& [section, count] : skipped_)
       out.notes.push_back(counted(count, "section") + " " + section + " left out");
 
-    DataSet block;
-    UnstructuredTopology mesh;
-    mesh.positions = mesh_array("positions", Association::kPoint, 3, positions_);
-    cells_.take(mesh);
-    const std::size_t cell_count = mesh.types.size();
-    block.topology = std::move(mesh);
-    add_steps(block, cell_count, out);
-    keep_common(out);
+    cells_.take(mesh_.cells);
+    add_gmsh_values(std::move(mesh_), std::move(values_), words_.file(), out);
     return out;
-  }
-
-  using Name = std::pair<std::string, bool>;       ///< and whether it is of nodes
-  using Sections = std::vector<const Values*>;     ///< one for each partition
-  using Moment = std::pair<double, std::int64_t>;  ///< time and step
-  static Name name_of(const Values& values) { return {values.name, values.of_nodes}; }
-
-  /// A view has a section for each step and partition. Steps are told apart by their times, or, where a view has
-  /// several at one time, by their numbers, too.
-  void add_steps(const DataSet& block, std::size_t cell_count, MeshFile& out) {
-    std::map<Name, std::map<Moment, Sections>> views;
-    for (const Values& values : values_)
-      views[name_of(values)][{values.time, values.step}].push_back(&values);
-    bool numbered = false;
-    for (const auto& [name, moments] : views) {
-      for (auto at = moments.begin(); at != moments.end(); ++at)
-        numbered = numbered || (at != moments.begin() && std::prev(at)->first.first == at->first.first);
-    }
-    // What stands once holds at all times.
-    std::map<Moment, std::map<Name, Sections>> steps;
-    for (const auto& [name, moments] : views) {
-      if (moments.size() == 1) continue;
-      for (const auto& [moment, sections] : moments)
-        steps[{moment.first, numbered ? moment.second : 0}][name] = sections;
-    }
-    for (const auto& [name, moments] : views) {
-      if (moments.size() > 1) continue;
-      const auto& [moment, sections] = *moments.begin();
-      if (steps.empty()) continue;
-      add_note("'" + name.first + "' is given at time " + short_number(moment.first) +
-                   " alone: it is held constant",
-               out.notes);
-      for (auto& [when, arrays] : steps) arrays[name] = sections;
-    }
-    if (steps.empty()) {
-      auto& all = steps[{0.0, 0}];
-      for (const auto& [name, moments] : views) all[name] = moments.begin()->second;
-    }
-    for (const auto& [moment, arrays] : steps) {
-      DataSet step = block;
-      for (const auto& [name, sections] : arrays) add_array(sections, cell_count, step, out.notes);
-      out.times.push_back(moment.first);
-      out.steps.push_back({std::move(step)});
-    }
-    if (numbered) {
-      bool rising = true;
-      std::vector<double> numbers;
-      for (const auto& [moment, arrays] : steps) {
-        rising = rising && (numbers.empty() || numbers.back() < static_cast<double>(moment.second));
-        numbers.push_back(static_cast<double>(moment.second));
-      }
-      for (std::size_t i = 0; !rising && i < numbers.size(); ++i) numbers[i] = static_cast<double>(i);
-      out.times = std::move(numbers);
-      add_note(std::string("several steps have one time: ") +
-                   (rising ? "the numbers of the steps" : "the numbers 0, 1, 2, ...") +
-                   " are taken for times",
-               out.notes);
-    }
-  }
-
-  static void add_note(const std::string& text, std::vector<std::string>& notes) {
-    if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
-  }
-
-  /// @param sections of one view, which its partitions may have in part each.
-  void add_array(const Sections& sections, std::size_t cell_count, DataSet& block,
-                 std::vector<std::string>& notes) {
-    const Values& first = *sections.front();
-    const auto n = as_size(first.components);
-    const std::size_t tuples = first.of_nodes ? positions_.size() / 3 : cell_count;
-    std::vector<double> all(n * tuples, std::numeric_limits<double>::quiet_NaN());
-    std::vector<std::uint8_t> known(tuples, 0);
-    std::size_t unknown = 0, given = 0, other = 0;
-    const auto& index = first.of_nodes ? index_ : cell_of_;
-    for (const Values* const section : sections) {
-      if (section->components != first.components) {
-        throw input_error({words_.file(), "'" + first.name + "'",
-                           "has " + std::to_string(first.components) + " and " +
-                               std::to_string(section->components) + " components at one time",
-                           "as many in each section", ""});
-      }
-      for (const auto& [tag, at] : section->tags) {
-        const auto found = index.find(tag);
-        if (found == index.end()) {
-          ++unknown;
-          continue;
-        }
-        const auto from = section->numbers.begin() + static_cast<std::ptrdiff_t>(at);
-        const auto to = all.begin() + static_cast<std::ptrdiff_t>(n * found->second);
-        if (known[found->second] != 0 && !std::equal(to, to + static_cast<std::ptrdiff_t>(n), from)) ++other;
-        if (known[found->second] == 0) ++given;
-        known[found->second] = 1;
-        std::copy_n(from, n, to);
-      }
-    }
-    const auto note = [&](const std::string& text) { add_note("'" + first.name + "': " + text, notes); };
-    if (first.of_nodes && unknown > 0) note(counted(unknown, "value") + " of nodes that there are not");
-    if (other > 0) note(counted(other, "value") + " given again, and otherwise: the last are taken");
-    if (given < tuples)
-      note(counted(tuples - given, first.of_nodes ? "node" : "cell") + " without a value: no data there");
-    if (given == 0 && !first.of_nodes) return;  // of surfaces alone
-    block.arrays.push_back(mesh_array(first.name, first.of_nodes ? Association::kPoint : Association::kCell,
-                                      first.components, all));
-  }
-
-  /// Arrays that all steps have: others would be missing at some time.
-  static void keep_common(MeshFile& file) {
-    std::vector<std::string> lost;
-    for (const auto& step : file.steps) {
-      for (const DataArray& array : step.front().arrays) {
-        const bool everywhere = std::ranges::all_of(file.steps, [&](const auto& other) {
-          return other.front().find(array.name, array.association) != nullptr;
-        });
-        if (!everywhere && std::ranges::find(lost, array.name) == lost.end()) lost.push_back(array.name);
-      }
-    }
-    for (const std::string& name : lost) {
-      file.notes.push_back("'" + name + "' left out: it is not there at all times");
-      for (auto& step : file.steps)
-        std::erase_if(step.front().arrays, [&](const DataArray& array) { return array.name == name; });
-    }
   }
 
   MeshWords words_;
   double version_ = 0.0;
   bool binary_ = false, swapped_ = false;
-  std::vector<double> positions_;
-  std::unordered_map<std::int64_t, std::size_t> index_, cell_of_;  ///< by tag
+  GmshMesh mesh_;
   CellList cells_;
   std::size_t flat_ = 0, unread_ = 0;
   std::map<std::string, std::size_t> skipped_;
-  std::vector<Values> values_;
+  std::vector<GmshValues> values_;
 };
 
 }  // namespace

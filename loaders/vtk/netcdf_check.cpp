@@ -46,6 +46,10 @@ class Header {
   }
   std::string name() {
     const std::uint64_t length = count();
+    // NC_MAX_NAME: netCDF's library copies longer ones past the end of what its callers, VTK among them, keep for one.
+    constexpr std::uint64_t kLongestName = 256;
+    if (length > kLongestName)
+      throw BrokenNetcdf{"its header has a name of " + std::to_string(length) + " bytes"};
     if (length > head_.size() - at_) throw EndOfHead{};
     std::string text(head_.substr(at_, length));
     skip(padded(length));

@@ -26,6 +26,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/grid/curved_cell.h"
 #include "common/load/volume_block.h"
 #include "loaders/vtk/ghost_cells.h"
 
@@ -207,6 +208,34 @@ UnstructuredTopology unstructured(vtkUnstructuredGrid* grid, const std::string& 
     t.offsets.push_back(static_cast<std::int64_t>(t.connectivity.size()));
   }
   return t;
+}
+
+/// What the polynomials of high-order cells need, whether it was asked for or not: weights of Bezier cells' points, and orders
+/// of cells. They are marked as such, or go by VTK's names for them.
+void add_shapes_of_cells(vtkUnstructuredGrid* grid, DataSet& block, const std::string& file) {
+  const auto& cells = std::get<UnstructuredTopology>(block.topology);
+  constexpr std::uint8_t kFirst = 71, kLast = 81;  // Lagrange and Bezier volumes
+  if (std::ranges::none_of(cells.types, [](std::uint8_t type) { return type >= kFirst && type <= kLast; }))
+    return;
+  const auto add = [&](vtkDataArray* marked, vtkDataSetAttributes* among, Association association,
+                       const char* name, int components, std::size_t tuples) {
+    vtkDataArray* const array = marked != nullptr ? marked : among->GetArray(name);
+    ScalarType type{};
+    if (array == nullptr || !scalar_type_of(array->GetDataType(), type)) return;
+    if (array->GetNumberOfComponents() != components || as_size(array->GetNumberOfTuples()) != tuples) {
+      throw input_error({file, std::string("array '") + name + "'",
+                         "has " + std::to_string(array->GetNumberOfTuples()) + " tuples of " +
+                             std::to_string(array->GetNumberOfComponents()),
+                         std::to_string(tuples) + " of " + std::to_string(components)});
+    }
+    std::erase_if(block.arrays,
+                  [&](const DataArray& old) { return old.name == name && old.association == association; });
+    block.arrays.push_back(share(array, association, name));
+  };
+  add(grid->GetPointData()->GetRationalWeights(), grid->GetPointData(), Association::kPoint, kRationalWeights,
+      1, as_size(grid->GetNumberOfPoints()));
+  add(grid->GetCellData()->GetHigherOrderDegrees(), grid->GetCellData(), Association::kCell,
+      kHigherOrderDegrees, 3, as_size(grid->GetNumberOfCells()));
 }
 
 /// Vertices, lines, polygons and strips as cells, in VTK's order of them.
@@ -405,7 +434,10 @@ DataSet convert_block(vtkDataSet* data, const std::string& name, const std::set<
     }
     block.arrays.push_back(std::move(shared));
   });
-  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) leave_out_ghost_cells(grid, block);
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data)) {
+    add_shapes_of_cells(grid, block, file);
+    leave_out_ghost_cells(grid, block);
+  }
   return block;
 }
 

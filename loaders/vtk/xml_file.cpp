@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <vtkCellData.h>
 #include <vtkDataArraySelection.h>
 #include <vtkDataSet.h>
 #include <vtkInformation.h>
+#include <vtkPointData.h>
 #include <vtkSmartPointer.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 #include <vtkXMLImageDataReader.h>
@@ -22,6 +24,7 @@
 #include "common/base/files/mapped_file.h"
 #include "common/base/files/memory_text.h"
 #include "common/base/text.h"
+#include "common/field/grid/curved_cell.h"
 #include "common/load/find_format.h"
 #include "loaders/vtk/parallel_index.h"
 
@@ -56,10 +59,26 @@ vtkSmartPointer<vtkXMLReader> make_reader(const std::string& type) {
 void select(vtkDataArraySelection* selection, const std::set<std::string>& arrays) {
   for (int i = 0; i < selection->GetNumberOfArrays(); ++i) {
     const std::string name = selection->GetArrayName(i);
-    // Ghost marks are part of the topology.
-    const bool wanted = arrays.count(name) > 0 || name == "vtkGhostType";
-    selection->SetArraySetting(name.c_str(), wanted ? 1 : 0);
+    selection->SetArraySetting(name.c_str(), arrays.count(name) > 0 ? 1 : 0);
   }
+}
+
+/// The names of the arrays that polynomials of cells need, as the first piece marks them, else VTK's own.
+struct ArraysOfCells {
+  std::string weights = kRationalWeights, degrees = kHigherOrderDegrees;
+};
+ArraysOfCells arrays_of_cells(const std::string& file) {
+  ArraysOfCells out;
+  const MappedFile mapped(file);
+  XmlTags tags(mapped.text());
+  XmlTag tag;
+  while (tags.next(tag) && (tag.name != "Piece" || tag.opens)) {
+    if (tag.name == "AppendedData") break;
+    if (tag.name == "PointData" && !tag.at(kRationalWeights).empty()) out.weights = tag.at(kRationalWeights);
+    if (tag.name == "CellData" && !tag.at(kHigherOrderDegrees).empty())
+      out.degrees = tag.at(kHigherOrderDegrees);
+  }
+  return out;
 }
 
 /// The file's text with a blank in the place of what VTK's reader stumbles over.
@@ -126,7 +145,10 @@ XmlFile::XmlFile(const std::string& file, VtkErrors& errors)
 
 XmlFile::~XmlFile() = default;
 
-vtkDataSet* XmlFile::read(const std::set<std::string>& arrays) {
+vtkDataSet* XmlFile::read(const std::set<std::string>& wanted) {
+  const ArraysOfCells of_cells = arrays_of_cells(file_);
+  std::set<std::string> arrays = wanted;
+  arrays.insert({"vtkGhostType", of_cells.weights, of_cells.degrees});  // parts of the topology
   select(reader_->vtk->GetPointDataArraySelection(), arrays);
   select(reader_->vtk->GetCellDataArraySelection(), arrays);
   reader_->vtk->Update();
@@ -134,6 +156,9 @@ vtkDataSet* XmlFile::read(const std::set<std::string>& arrays) {
   vtkDataSet* data = reader_->vtk->GetOutputAsDataSet();
   if (data == nullptr)
     throw input_error({file_, "", "VTK's reader returned nothing", "", "the file may be damaged"});
+  // VTK's reader keeps the first mark and not the second.
+  data->GetPointData()->SetActiveAttribute(of_cells.weights.c_str(), vtkDataSetAttributes::RATIONALWEIGHTS);
+  data->GetCellData()->SetActiveAttribute(of_cells.degrees.c_str(), vtkDataSetAttributes::HIGHERORDERDEGREES);
   return data;
 }
 

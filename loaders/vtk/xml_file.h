@@ -24,7 +24,7 @@ class XmlFile {
 
   /// Reads the arrays of these names. The result lives as long as this object, until the next call.
   /// @throws Error (bad input).
-  vtkDataSet* read(const std::set<std::string>& arrays);
+  vtkDataSet* read(const std::set<std::string>& wanted);
 
   /// The time that its field data TimeValue states.
   [[nodiscard]] std::optional<double> time() const;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,65 @@ TEST_F(Meshes, GmshHasTimesAndValuesOfElements) {
   const DataArray* const p = blocks.at(0).find("p", Association::kCell);
   ASSERT_NE(p, nullptr);  // stands once: holds at all times
   EXPECT_EQ(p->at(0), 42.5);
+}
+
+/// The first section of values as $ElementNodeData of element 7: those of its nodes, in Gmsh's order. Text alone.
+std::string of_element(const std::string& file, std::size_t nodes, double more) {
+  const std::size_t begin = file.find("$NodeData"), end = file.find("$EndNodeData");
+  std::string head = replaced(file.substr(begin, end - begin), "$NodeData", "$ElementNodeData"), values;
+  const std::string list = "\n" + std::to_string(nodes) + "\n";
+  const std::size_t from = head.rfind(list) + list.size();
+  std::istringstream lines(head.substr(from));
+  for (std::size_t i = 0; i < nodes; ++i) {
+    double tag = 0.0, u = 0.0, v = 0.0, w = 0.0;
+    lines >> tag >> u >> v >> w;
+    values += " " + exact_number(u + more) + " " + exact_number(v) + " " + exact_number(w);
+  }
+  return head.substr(0, head.rfind(list)) + "\n1\n7 " + std::to_string(nodes) + values +
+         "\n$EndElementNodeData\n";
+}
+
+TEST_F(Meshes, GmshValuesOfTheNodesOfElementsAreOfEachElementAlone) {
+  for (const CellKind& kind : cell_kinds()) {
+    SCOPED_TRACE(kind.name);
+    const std::string file = gmsh_file(kind, false, false, false);
+    const std::size_t nodes = places(kind, kind.gmsh_nodes).size();
+    const std::string alone = file.substr(0, file.find("$NodeData")) + of_element(file, nodes, 0.0);
+    Source source = Source::open({{folder_.write("a.msh", alone)}, {}});
+    const auto blocks = source.read({"U"});
+    const auto& mesh = std::get<UnstructuredTopology>(blocks.at(0).topology);
+    const DataArray* const u = blocks[0].find("U", Association::kPoint);
+    ASSERT_NE(u, nullptr);
+    const std::vector<Vec3> due = places(kind, kind.vtk_nodes);
+    ASSERT_EQ(mesh.connectivity.size(), due.size());
+    for (std::size_t i = 0; i < due.size(); ++i) {
+      const auto p = static_cast<std::size_t>(mesh.connectivity[i]);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(mesh.positions.at(p, c), due[i][c]) << i;
+        EXPECT_EQ(u->at(p, c), flow_at(due[i])[c]) << i;
+      }
+    }
+    // Beside values of nodes of the same name: each under its own.
+    Source both = Source::open({{folder_.write("b.msh", file + of_element(file, nodes, 5.0))}, {}});
+    const auto two = both.read({"U", "U of elements"});
+    const DataArray* const more = two.at(0).find("U of elements", Association::kPoint);
+    ASSERT_NE(more, nullptr);
+    EXPECT_EQ(more->at(1, 0), two[0].find("U", Association::kPoint)->at(1, 0) + 5.0);
+  }
+}
+
+TEST_F(Meshes, GmshValuesOfElementsAreCountedByNodes) {
+  const std::string file = gmsh_file(cell_kinds().at(1), false, false, false);
+  const std::string section = of_element(file, 8, 0.0);
+  refused("a.msh", file + replaced(section, "7 8 ", "7 7 "), "$EndElementNodeData");
+  const std::string fewer =
+      "$ElementNodeData\n1\n\"p\"\n1\n0\n3\n0\n1\n1\n7 4 1 2 3 4\n$EndElementNodeData\n";
+  Source source = Source::open({{folder_.write("b.msh", file + fewer)}, {}});
+  EXPECT_TRUE(
+      says(source.info().notes, "1 element with other counts of values than of nodes: no data there"));
+  const std::string scheme = replaced(section, "1\n\"U\"\n", "2\n\"U\"\n\"P3\"\n");
+  Source other = Source::open({{folder_.write("c.msh", file + scheme)}, {}});
+  EXPECT_TRUE(says(other.info().notes, "1 section of coefficients of an interpolation scheme left out"));
 }
 
 TEST_F(Meshes, GmshStepsOfOneTimeAreStepsAndPartitionsAreOne) {

@@ -37,6 +37,7 @@ class ClassicFile {
     bool is_short = false;     ///< 16 bits, else double
     bool real_limits = false;  ///< attributes of shorts are doubles
     bool is_byte = false;      ///< 8 bits
+    std::size_t repeats = 1;   ///< how often a number stands in an attribute of doubles
   };
   std::vector<std::pair<std::string, std::uint32_t>> dimensions;
   std::vector<Variable> variables;
@@ -87,9 +88,9 @@ class ClassicFile {
       for (const auto& [name, value] : variable.numbers) {
         const bool packed =
             variable.is_short && !variable.real_limits && name != "scale_factor" && name != "add_offset";
-        out +=
-            name_of(name) + number(packed ? kShort : kDouble) + number(1) +
-            (packed ? raw(static_cast<std::int16_t>(value), true) + std::string(2, '\0') : raw(value, true));
+        out += name_of(name) + number(packed ? kShort : kDouble) + number(packed ? 1 : variable.repeats);
+        if (packed) out += raw(static_cast<std::int16_t>(value), true) + std::string(2, '\0');
+        for (std::size_t i = 0; !packed && i < variable.repeats; ++i) out += raw(value, true);
       }
       out += number(variable.is_byte    ? kByte
                     : variable.is_short ? kShort
@@ -305,6 +306,16 @@ TEST(Netcdf, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(folder.write("flat.nc", flat.bytes())).find("three axes"), std::string::npos);
   ClassicFile endless = ocean("m");
   endless.dimensions.emplace_back("far", 2013265920);
+  // Libraries have room for 256 bytes of a name, and for one number of a scale.
+  ClassicFile long_name = ocean("m"), scales = ocean("m");
+  long_name.dimensions[1].first = std::string(300, 'z');
+  EXPECT_NE(refusal(folder.write("name.nc", long_name.bytes())).find("a name of 300 bytes"),
+            std::string::npos);
+  scales.variables[4].numbers = {{"scale_factor", 0.5}};
+  scales.variables[4].repeats = 900;
+  EXPECT_NE(refusal(folder.write("scales.nc", scales.bytes()))
+                .find("has 900 numbers in the attribute scale_factor of 'u'"),
+            std::string::npos);
   EXPECT_NE(refusal(folder.write("endless.nc", endless.bytes())).find("an axis 'far' of 2013265920 places"),
             std::string::npos);
 }

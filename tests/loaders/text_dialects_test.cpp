@@ -74,6 +74,62 @@ std::string velocity(double first) {
   return array("U", "Float64", 3, text);
 }
 
+/// A quarter of a pipe as one Bezier cell of order 2, 1, 1, with arrays of these names. @param marked as what they are.
+std::string quarter_of_pipe(const std::string& weights, const std::string& degrees, bool marked) {
+  constexpr std::array<std::array<int, 3>, 12> kNodes{{{0, 0, 0},
+                                                       {2, 0, 0},
+                                                       {2, 1, 0},
+                                                       {0, 1, 0},
+                                                       {0, 0, 1},
+                                                       {2, 0, 1},
+                                                       {2, 1, 1},
+                                                       {0, 1, 1},
+                                                       {1, 0, 0},
+                                                       {1, 1, 0},
+                                                       {1, 0, 1},
+                                                       {1, 1, 1}}};
+  std::string points, speeds, w, connectivity;
+  for (std::size_t i = 0; i < kNodes.size(); ++i) {
+    const auto& [angle, radius, height] = kNodes[i];
+    const int x = angle < 2 ? 2 - radius : 0, y = angle > 0 ? 2 - radius : 0;
+    points += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(height) + " ";
+    speeds += std::to_string(-y) + " " + std::to_string(x) + " 0.3 ";
+    w += angle == 1 ? "0.7071067811865476 " : "1 ";
+    connectivity += std::to_string(i) + " ";
+  }
+  const auto mark = [marked](const char* as, const std::string& name) {
+    return marked ? std::string(" ") + as + "=\"" + name + "\"" : std::string();
+  };
+  return mesh("<Piece NumberOfPoints=\"12\" NumberOfCells=\"1\"><PointData" +
+              mark("RationalWeights", weights) + ">" + array("U", "Float64", 3, speeds) +
+              array(weights, "Float64", 1, w) + "</PointData><CellData" +
+              mark("HigherOrderDegrees", degrees) + ">" + array(degrees, "Float64", 3, "2 1 1") +
+              "</CellData><Points>" + array("Points", "Float64", 3, points) + "</Points><Cells>" +
+              array("connectivity", "Int64", 1, connectivity) + array("offsets", "Int64", 1, "12") +
+              array("types", "UInt8", 1, "79") + "</Cells></Piece>");
+}
+
+// What polynomials of cells need comes with them, whether it is asked for or not.
+TEST(TextDialects, WeightsAndDegreesOfCellsComeWithThem) {
+  const TempFolder folder;
+  for (const std::string& text :
+       {quarter_of_pipe("w", "p", true), quarter_of_pipe("RationalWeights", "HigherOrderDegrees", false)}) {
+    Source source = opened(folder.write("arc.vtu", text));
+    const auto blocks = source.read({"U"});
+    const DataArray* const weights = blocks.at(0).find("RationalWeights", Association::kPoint);
+    const DataArray* const degrees = blocks.at(0).find("HigherOrderDegrees", Association::kCell);
+    ASSERT_NE(weights, nullptr);
+    ASSERT_NE(degrees, nullptr);
+    EXPECT_EQ(weights->at(0), 1.0);
+    EXPECT_NEAR(weights->at(9), std::sqrt(0.5), 1e-15);
+    EXPECT_EQ(degrees->at(0, 0), 2.0);
+    EXPECT_EQ(degrees->at(0, 2), 1.0);
+  }
+  // A mark on an array of three numbers is no weight.
+  const std::string odd = quarter_of_pipe("U", "p", true);
+  EXPECT_NE(refusal(folder.write("odd.vtu", odd)), "");
+}
+
 TEST(TextDialects, PiecesWithoutPointsStandAnywhere) {
   const TempFolder folder;
   const std::string empty = "<Piece NumberOfPoints=\"0\" NumberOfCells=\"0\"><PointData/><Points>" +
