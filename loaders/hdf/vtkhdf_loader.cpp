@@ -6,6 +6,7 @@
 
 #include "common/base/error.h"
 #include "common/base/text.h"
+#include "common/field/grid/curved_cell.h"
 #include "common/load/helper/serve.h"
 #include "common/load/step_times.h"
 #include "loaders/hdf/hdf5_check.h"
@@ -44,7 +45,12 @@ class VtkHdfLoader : public Loader {
   std::vector<DataSet> read(const std::vector<std::string>& names, std::size_t step) override {
     const std::set<std::string> wanted(names.begin(), names.end());
     const Kept kept = keep(
-        step, [&](const std::string& name) { return wanted.count(name) > 0; }, nullptr);
+        step,
+        [&](const std::string& name) {
+          // The last two are parts of the topology (vtk_convert.h).
+          return wanted.count(name) > 0 || name == kRationalWeights || name == kHigherOrderDegrees;
+        },
+        nullptr);
     std::vector<DataSet> out;
     std::vector<int> levels;
     for (const VtkBlock& block : kept.used) {

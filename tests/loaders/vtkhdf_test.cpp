@@ -287,6 +287,25 @@ TEST(VtkHdf, PolyhedraHaveTheirFaces) {
   EXPECT_EQ(stream, (Whole{4, 3, 4, 6, 7, 3, 5, 6, 7, 3, 4, 5, 7, 3, 4, 5, 6}));
 }
 
+// Cells of four nodes and order 1; the last is a Bezier cell.
+TEST(VtkHdf, WeightsAndDegreesOfCellsComeWithThem) {
+  const Hdf5File file;
+  begin(file, "/VTKHDF", "UnstructuredGrid");
+  Stored stored;
+  stored.add({2, 0.0});
+  stored.types[1] = 78;
+  stored.write(file, "/VTKHDF");
+  file.set("/VTKHDF/PointData/RationalWeights", std::vector<double>{1, 1, 1, 1, 1, 0.5, 1, 1});
+  file.set("/VTKHDF/CellData/HigherOrderDegrees", std::vector<double>(6, 1.0), {2, 3});
+  const TempFolder folder;
+  Source source = Source::open({{folder.write("a.vtkhdf", file.bytes())}, {}});
+  const auto blocks = source.read({"u"});
+  const DataArray* const weights = blocks.at(0).find("RationalWeights", Association::kPoint);
+  ASSERT_NE(weights, nullptr);
+  EXPECT_EQ(weights->at(5), 0.5);
+  EXPECT_NE(blocks[0].find("HigherOrderDegrees", Association::kCell), nullptr);
+}
+
 // --- levels and collections -------------------------------------------------------------------------------
 
 TEST(VtkHdf, CoarseCellsUnderFineOnesAreHidden) {
