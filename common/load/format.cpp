@@ -293,8 +293,14 @@ bool is_carp_result(const FileHead& head) {
   }
   return values || table;
 }
+/// Surfaces of openCARP's meshes, which are opened with one.
+bool is_carp_surface(const FileHead& head) {
+  const std::string_view text = text_after_blanks(head);
+  return (head.ending == ".surf" || head.ending == ".vtx") && !text.empty() &&
+         std::isdigit(static_cast<unsigned char>(text.front())) != 0;
+}
 bool looks_like_carp(const FileHead& head, const FormatRow& row) {
-  return is_bare_mesh(head, row) || is_carp_result(head);
+  return is_bare_mesh(head, row) || is_carp_result(head) || is_carp_surface(head);
 }
 
 bool is_plot3d(const FileHead& head, Plot3dFile kind) {

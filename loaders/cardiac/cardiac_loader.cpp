@@ -122,6 +122,17 @@ class CardiacLoader : public Loader {
       series_.push_back(std::move(series));
     }
     if (series_.empty()) return;
+    const std::string unit = series_.front().time_unit();
+    for (IgbFile& series : series_) {
+      const std::string own = series.time_unit();
+      if (own == unit) continue;
+      info.notes.push_back(series.state_times_in(unit)
+                               ? "times of " + series.file() + ", in " + own + ", turned into " + unit
+                               : "WARNING: times of " + series.file() + " are in " +
+                                     (own.empty() ? "no unit that it states" : own) + ", those of " +
+                                     series_.front().file() + " in " + (unit.empty() ? "none" : unit) +
+                                     ": taken as they stand");
+    }
     shared_ = shared_times(series_);
     info.times = shared_.times;
     for (std::size_t r = 0; r < series_.size(); ++r) {
@@ -132,14 +143,7 @@ class CardiacLoader : public Loader {
                              " of the other results: no "
                              "data there");
     }
-    const std::string& unit = series_.front().time_unit();
     if (!unit.empty()) info.notes.push_back("times in " + unit);
-    for (const IgbFile& series : series_)
-      if (series.time_unit() != unit)
-        info.notes.push_back("WARNING: times of " + series.file() + " are in " +
-                             (series.time_unit().empty() ? "no unit that it states" : series.time_unit()) +
-                             ", those of " + series_.front().file() + " in " +
-                             (unit.empty() ? "none" : unit) + ": taken as they stand");
   }
 
   /// An array of an EX model as it is at a step.

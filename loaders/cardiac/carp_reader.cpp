@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <future>
 #include <limits>
@@ -17,9 +18,11 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/wall_surfaces.h"
 #include "common/load/volume_block.h"
 #include "common/math/vec.h"
 #include "loaders/cardiac/carp_binary.h"
+#include "loaders/cardiac/carp_surfaces.h"
 #include "loaders/cardiac/mesh_text.h"
 #include "loaders/cardiac/text_lines.h"
 
@@ -145,10 +148,11 @@ double squared_steps(const UnstructuredTopology& topology, const std::vector<dou
 
 /// Whether the elements count points from 1: they name the point behind the last, or, where no element names
 /// point 0, their edges are much shorter so.
-void count_from_zero(const std::string& file, const std::vector<double>& positions, CarpElements& elements,
-                     std::vector<std::string>& notes) {
+/// @return the number of the first point.
+std::int64_t count_from_zero(const std::string& file, const std::vector<double>& positions,
+                             CarpElements& elements, std::vector<std::string>& notes) {
   constexpr double kMuchShorter = 0.8;  // of the squares; a mesh whose points are off by one has long edges
-  if (elements.lowest < 1 || elements.topology.types.empty()) return;
+  if (elements.lowest < 1 || elements.topology.types.empty()) return 0;
   const auto points = static_cast<std::int64_t>(positions.size() / 3);
   std::string why = "an element names point " + std::to_string(points) + " of " + std::to_string(points);
   if (elements.highest < points) {
@@ -159,13 +163,14 @@ void count_from_zero(const std::string& file, const std::vector<double>& positio
         notes.push_back("WARNING: no element of " + file +
                         " names point 0, and edges do not tell whether points count from 0 or 1: taken as "
                         "from 0");
-      return;
+      return 0;
     }
     why = "no element names point 0, and edges are " +
           short_number(std::round(100.0 * std::sqrt(from_one / from_zero))) + " % as long so";
   }
   for (std::int64_t& point : elements.topology.connectivity) --point;
   notes.push_back("points of " + file + " count from 1: " + why);
+  return 1;
 }
 
 /// Prisms and hexahedra, see order_second_face().
@@ -234,6 +239,10 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
       files.results.push_back(file);
       continue;
     }
+    if (is_carp_surface(ending)) {
+      files.surfaces.push_back(file);
+      continue;
+    }
     std::string* part = ending.ends_with("pts")    ? &files.pts
                         : ending.ends_with("elem") ? &files.elem
                                                    : &files.lon;
@@ -260,6 +269,13 @@ CarpFiles find_carp_files(const std::vector<std::string>& named) {
     throw input_error({any, "", "has no .pts file beside it", stem_of(any) + ".pts", "name it too"});
   if (files.elem.empty())
     throw input_error({any, "", "has no .elem file beside it", stem_of(any) + ".elem", "name it too"});
+  // A result that is called so names them itself.
+  const bool named_there =
+      std::any_of(files.results.begin(), files.results.end(), [](const std::string& result) {
+        const std::string name = std::filesystem::path(stem_of(result)).filename().string();
+        return name == kSurfaceArray || name.ends_with(std::string(".") + kSurfaceArray);
+      });
+  if (files.surfaces.empty() && !named_there) files.surfaces = surfaces_beside(stem_of(files.pts));
   return files;
 }
 
@@ -279,7 +295,7 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
   const std::size_t points = positions.size() / 3;
   CarpElements read =
       binary ? read_binary_elements(files.elem, points) : read_elements(*lines, count, points);
-  count_from_zero(files.elem, positions, read, notes);
+  const std::int64_t first = count_from_zero(files.elem, positions, read, notes);
   order_second_faces(positions, read.topology);
   note_labels(files.elem, read, notes);
   const std::vector<double>& regions = read.regions;
@@ -300,12 +316,18 @@ DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes) {
                       counted(static_cast<std::uint64_t>(vectors), "direction") + " an element");
   }
   mesh.arrays.push_back(make_array("region", Association::kCell, 1, std::span<const double>(regions)));
+  if (!files.surfaces.empty()) add_carp_surfaces(files.surfaces, stem_of(files.pts), first, mesh, notes);
   notes.emplace_back("micrometres of openCARP turned into mm");
   // A heart of a mouse is 5 mm long, and one that is stated in mm would be a thousandth of its size.
   constexpr double kTooSmall = 0.5;  // mm
-  if (const double size = describe_mesh(mesh).bounds.diagonal(); size < kTooSmall)
+  constexpr double kTooLarge = 5e3;  // mm; a torso fits in
+  const double size = describe_mesh(mesh).bounds.diagonal();
+  if (size < kTooSmall)
     notes.push_back("WARNING: the mesh is " + short_number(1e3 * size) +
                     " micrometres across: no heart is; are its points stated in mm?");
+  if (size > kTooLarge)
+    notes.push_back("WARNING: the mesh is " + short_number(1e-3 * size) +
+                    " metres across: no heart is; are its points stated in nanometres?");
   return mesh;
 }
 

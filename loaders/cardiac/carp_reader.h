@@ -11,8 +11,9 @@ namespace palpate {
 struct CarpFiles {
   std::string pts;
   std::string elem;
-  std::string lon;                   ///< may be empty
-  std::vector<std::string> results;  ///< .igb and .dat (carp_results.h)
+  std::string lon;                    ///< may be empty
+  std::vector<std::string> results;   ///< .igb and .dat (carp_results.h)
+  std::vector<std::string> surfaces;  ///< .surf and .vtx (carp_surfaces.h)
 };
 
 /// The set that `named` belongs to: files with the same stem beside it, unless they are named themselves; text beside
@@ -22,7 +23,7 @@ struct CarpFiles {
 
 /// Elements of any of openCARP's types; the region becomes the cell array "region", directions the cell
 /// arrays "fibre" and, of orthotropic meshes, "sheet" and "normal", unless all are zero. Coordinates are turned from micrometres
-/// into mm.
+/// into mm. Files of surfaces become the point array "surface".
 /// @param notes gets what is to be said.
 /// @throws Error (bad input) naming file and line.
 [[nodiscard]] DataSet read_carp(const CarpFiles& files, std::vector<std::string>& notes);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <span>
 #include <sstream>
 #include <string_view>
@@ -150,10 +151,58 @@ IgbFile::IgbFile(std::string file, std::size_t points, std::size_t cells) : file
                                                               : value("fac_t", 1.0));
   if (!stated && steps > 1)
     notes_.push_back(file_ + ": the header states no times (inc_t, dim_t): steps are one apart");
+  // All that state the times should state the same.
+  constexpr double kSame = 0.01;  // dim_t counts steps or the intervals between, by who wrote it
+  const auto disagrees = [&](const char* key, double per_step) {
+    if (words.count(key) == 0 || !(std::abs(per_step - between) > kSame * between)) return;
+    notes_.push_back("WARNING: " + file_ + ": the header states steps " + short_number(between) +
+                     " apart, and by " + key + ":" + words.at(key) + " they are " + short_number(per_step) +
+                     ": taken as " + (words.count("inc_t") > 0 ? "inc_t" : "dim_t") + " says");
+  };
+  disagrees("fac_t", value("fac_t", between));
+  const double whole = value("dim_t", between * intervals);
+  if (promised > 1 && std::abs(whole - between * (intervals + 1.0)) > kSame * between)
+    disagrees("dim_t", whole / intervals);
   if (!(between > 0.0)) refuse("has steps " + short_number(between) + " apart", "times that rise");
   for (std::uint64_t i = 0; i < steps; ++i) times_.push_back(first + static_cast<double>(i) * between);
   info_ = {array_name(file_), of_points ? Association::kPoint : Association::kCell, known->components,
            ScalarType::kFloat64, tuples};
+  doubt_byte_order(order);
+}
+
+bool IgbFile::state_times_in(const std::string& unit) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> kSeconds{
+      {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"µs", 1e-6}}};
+  const auto seconds = [&kSeconds](const std::string& word) {
+    const auto* const found =
+        std::ranges::find(kSeconds, std::string_view(word), &std::pair<std::string_view, double>::first);
+    return found == kSeconds.end() ? 0.0 : found->second;
+  };
+  const double own = seconds(time_unit_), other = seconds(unit);
+  if (!(own > 0.0 && other > 0.0)) return false;
+  for (double& time : times_) time *= own / other;
+  time_unit_ = unit;
+  return true;
+}
+
+void IgbFile::doubt_byte_order(const std::string& stated) {
+  if (stored_ != ScalarType::kFloat32 && stored_ != ScalarType::kFloat64) return;
+  const DataArray as_stated = read_stored(0, swapped_), turned = read_stored(0, !swapped_);
+  // Of the bytes in the wrong order most have exponents that no potential has.
+  const auto usual = [](const DataArray& values) {
+    constexpr double kLeast = 1e-12, kMost = 1e12;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < values.tuples; ++i) {
+      const double size = std::abs(values.at(i));
+      count += size == 0.0 || std::isnan(size) || (size > kLeast && size < kMost) ? 1 : 0;
+    }
+    return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, values.tuples));
+  };
+  constexpr double kFew = 0.5, kNearlyAll = 0.95;
+  if (usual(as_stated) < kFew && usual(turned) > kNearlyAll)
+    notes_.push_back(
+        "WARNING: " + file_ + ": numbers of the first step make no sense as " + stated +
+        ", which the header states, and do in the other byte order: is it wrong? Read as stated");
 }
 
 std::uint64_t IgbFile::whole_steps(std::uint64_t promised, std::uint64_t step_bytes) {
@@ -181,29 +230,33 @@ std::uint64_t IgbFile::whole_steps(std::uint64_t promised, std::uint64_t step_by
   return std::min(whole, promised);
 }
 
-DataArray IgbFile::read(std::size_t step) const {
+DataArray IgbFile::read_stored(std::size_t step, bool swapped) const {
   const std::size_t numbers = info_.tuples * as_size(info_.components);
   const std::size_t size = byte_size(stored_);
-  std::vector<std::byte> bytes(numbers * size);
+  auto bytes = std::make_shared<std::vector<std::byte>>(numbers * size);
   PackedFile in(file_);
   // A file that is not packed is known as such once a byte was read, and then gone through without reading.
   std::byte first{};
-  if (in.read(&first, 1) != 1 || !in.go_to(header_ + step * bytes.size()) ||
-      in.read(bytes.data(), bytes.size()) != bytes.size())
+  if (in.read(&first, 1) != 1 || !in.go_to(header_ + step * bytes->size()) ||
+      in.read(bytes->data(), bytes->size()) != bytes->size())
     throw input_error({file_, "time step " + std::to_string(step + 1), "cannot be read"});
-  if (swapped_)
+  if (swapped)
     for (std::size_t n = 0; n < numbers; ++n)
-      std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(n * size),
-                   bytes.begin() + static_cast<std::ptrdiff_t>((n + 1) * size));
-  const DataArray stored{.name = info_.name,
-                         .association = info_.association,
-                         .components = 1,
-                         .type = stored_,
-                         .tuples = numbers,
-                         .bytes = bytes,
-                         .owner = nullptr};
-  std::vector<double> values(numbers);
-  for (std::size_t n = 0; n < numbers; ++n) values[n] = stored.at(n) * factor_ + zero_;
+      std::reverse(bytes->begin() + static_cast<std::ptrdiff_t>(n * size),
+                   bytes->begin() + static_cast<std::ptrdiff_t>((n + 1) * size));
+  return {.name = info_.name,
+          .association = info_.association,
+          .components = 1,
+          .type = stored_,
+          .tuples = numbers,
+          .bytes = *bytes,
+          .owner = bytes};
+}
+
+DataArray IgbFile::read(std::size_t step) const {
+  const DataArray stored = read_stored(step, swapped_);
+  std::vector<double> values(stored.tuples);
+  for (std::size_t n = 0; n < values.size(); ++n) values[n] = stored.at(n) * factor_ + zero_;
   return make_array(info_.name, info_.association, info_.components, std::span<const double>(values));
 }
 
@@ -241,27 +294,51 @@ namespace {
 /// Rows "node time" of openCARP's activations: a node may be activated again, or never.
 DataArray read_node_times(const std::string& file, std::size_t points, std::vector<std::string>& notes) {
   TextLines lines(file, '#');
-  std::vector<double> times(points, std::numeric_limits<double>::quiet_NaN());
-  std::size_t again = 0;
+  // One place more than there are points, for rows that count them from 1.
+  std::vector<double> times(points + 1, std::numeric_limits<double>::quiet_NaN());
+  std::size_t again = 0, behind = 0;
   while (lines.next()) {
     if (lines.line().empty()) continue;
     const auto node = number(lines.word_here());
     const auto time = number(lines.word_here());
     if (!node || !time || !lines.word_here().empty())
       lines.refuse("is no node with a time", "two numbers a row");
-    if (!(*node >= 0.0 && *node < static_cast<double>(points)) || *node != std::floor(*node))
+    if (!(*node >= 0.0 && *node <= static_cast<double>(points)) || *node != std::floor(*node))
       lines.refuse("names node " + short_number(*node), "0 to " + std::to_string(points) + " less one");
+    if (*node == static_cast<double>(points)) behind = lines.line_number();
     double& first = times[floor_size(*node)];
     again += std::isnan(first) ? 0 : 1;
     if (std::isnan(first) || *time < first) first = *time;
   }
+  const bool from_one = behind > 0 && std::isnan(times.front());
+  if (behind > 0 && !from_one)
+    throw input_error({file, "line " + std::to_string(behind), "names node " + std::to_string(points),
+                       "0 to " + std::to_string(points) + " less one, as another row names node 0"});
+  times.erase(from_one ? times.begin() : times.end() - 1);
   const auto without = std::count_if(times.begin(), times.end(), [](double t) { return std::isnan(t); });
   notes.push_back(
       file + ": a table of nodes and times" +
+      (from_one
+           ? "; nodes count from 1, as one is " + std::to_string(points) + " of " + std::to_string(points)
+           : "") +
       (again > 0 ? "; of nodes with several times the first is taken, " + std::to_string(again) + " left out"
                  : "") +
       (without > 0 ? "; " + counted(static_cast<std::uint64_t>(without), "point") + " without a time" : ""));
   return make_array(array_name(file), Association::kPoint, 1, std::span<const double>(times));
+}
+
+/// openCARP writes -1 for the activation of a place that never was: none, where all other numbers are times.
+void drop_never_activated(const std::string& file, std::vector<double>& values,
+                          std::vector<std::string>& notes) {
+  std::size_t never = 0;
+  for (const double value : values) {
+    never += value == -1.0 ? 1 : 0;
+    if (value < 0.0 && value != -1.0) return;
+  }
+  if (never == 0 || never == values.size()) return;
+  std::replace(values.begin(), values.end(), -1.0, std::numeric_limits<double>::quiet_NaN());
+  notes.push_back(file + ": " + counted(never, "place") + " of -1, and no other number below 0: taken for " +
+                  "never activated, as openCARP writes it: no data there");
 }
 
 }  // namespace
@@ -292,6 +369,7 @@ DataArray read_dat(const std::string& file, std::size_t points, std::size_t cell
   if (values.size() != points && values.size() != cells)
     lines.refuse("ends after " + std::to_string(values.size()) + " numbers",
                  std::to_string(points) + " points or " + std::to_string(cells) + " elements");
+  drop_never_activated(file, values, notes);
   return make_array(array_name(file), values.size() == points ? Association::kPoint : Association::kCell, 1,
                     std::span<const double>(values));
 }

@@ -32,11 +32,18 @@ class IgbFile {
   /// "ms", "mV" as the header states them, or empty.
   [[nodiscard]] const std::string& time_unit() const noexcept { return time_unit_; }
   [[nodiscard]] const std::string& unit() const noexcept { return unit_; }
+  /// States the times in another unit, where both are known: s, ms, us. @return whether they are.
+  bool state_times_in(const std::string& unit);
   [[nodiscard]] const std::string& file() const noexcept { return file_; }
-  /// What is to be said: steps that are promised and not there, bytes that are not promised.
+  /// What is to be said: steps that are promised and not there, bytes that are not promised, times and byte orders
+  /// that are stated wrongly.
   [[nodiscard]] const std::vector<std::string>& notes() const noexcept { return notes_; }
 
  private:
+  /// The numbers of a step as they stand.
+  [[nodiscard]] DataArray read_stored(std::size_t step, bool swapped) const;
+  /// A note where the numbers of the first step make sense in the other byte order alone.
+  void doubt_byte_order(const std::string& stated);
   /// Steps that are there of those promised, with a note where these differ.
   [[nodiscard]] std::uint64_t whole_steps(std::uint64_t promised, std::uint64_t step_bytes);
 
@@ -62,8 +69,9 @@ struct SharedTimes {
 /// times, where others have several.
 [[nodiscard]] SharedTimes shared_times(const std::vector<IgbFile>& results);
 
-/// A .dat file: a number a line for each point, or for each cell ("nan" is none); or rows "node time", of which
-/// the first time of a node is taken. Named as the file without its ending.
+/// A .dat file: a number a line for each point, or for each cell ("nan" is none, and so is -1 among numbers that are not
+/// below 0); or rows "node time", of which the first time of a node is taken; nodes count from 0, or from 1 where one is
+/// the count of points. Named as the file without its ending.
 /// @param notes gets what is to be said of such a table.
 /// @throws Error (bad input) naming file and line where something else stands there or counts disagree.
 [[nodiscard]] DataArray read_dat(const std::string& file, std::size_t points, std::size_t cells,

@@ -13,6 +13,7 @@
 #include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/math/vec.h"
+#include "loaders/cardiac/chaste_binary.h"
 #include "loaders/cardiac/element_frames.h"
 #include "loaders/cardiac/marked_faces.h"
 #include "loaders/cardiac/mesh_text.h"
@@ -60,7 +61,27 @@ class LongerRows {
   std::size_t rows_ = 0, most_ = 0;
 };
 
+Nodes read_binary_nodes(ChasteBinary& in) {
+  if (in.count(1) != 3) in.refuse("has nodes of " + counted(in.count(1), "dimension"), "3");
+  const std::uint64_t attributes = in.count(2);
+  if (attributes > as_size(kMostAttributes))
+    in.refuse("has " + counted(attributes, "attribute"), "at most 100");
+  in.read(0, 3 + attributes);
+  Nodes nodes;
+  nodes.attributes.resize(attributes);
+  for (std::size_t n = 0; n < in.count(0); ++n) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      nodes.positions.push_back(in.number(n, axis));
+      if (!std::isfinite(nodes.positions.back()))
+        in.refuse("has a node " + std::to_string(n) + " whose coordinates are not finite", "numbers");
+    }
+    for (std::size_t a = 0; a < attributes; ++a) nodes.attributes[a].push_back(in.number(n, 3 + a));
+  }
+  return nodes;
+}
+
 Nodes read_nodes(const std::string& file, std::vector<std::string>& notes) {
+  if (auto binary = ChasteBinary::open(file)) return read_binary_nodes(*binary);
   constexpr std::size_t kLeastBytes = 8;  // "0 1 2 3\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of nodes", kLeastBytes);
@@ -114,9 +135,43 @@ bool order_mid_nodes(const Nodes& nodes, std::array<std::int64_t, 10>& cell) {
   return true;
 }
 
+void add_cell(std::span<const std::int64_t> cell, UnstructuredTopology& topology) {
+  topology.connectivity.insert(topology.connectivity.end(), cell.begin(), cell.end());
+  topology.types.push_back(cell.size() == 10 ? kVtkQuadraticTetrahedron : kVtkTetrahedron);
+  topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+}
+
+UnstructuredTopology read_binary_elements(ChasteBinary& in, const Nodes& nodes,
+                                          std::vector<std::vector<double>>& attributes) {
+  const std::uint64_t corners = in.count(1);
+  if (corners != 4 && corners != 10) in.refuse("has elements of " + counted(corners, "node"), "4 or 10");
+  if (in.count(2) > as_size(kMostAttributes))
+    in.refuse("has " + counted(in.count(2), "attribute"), "at most 100");
+  attributes.resize(in.count(2));
+  in.read(corners, attributes.size());
+  UnstructuredTopology topology;
+  topology.offsets.push_back(0);
+  for (std::size_t e = 0; e < in.count(0); ++e) {
+    std::array<std::int64_t, 10> cell{};
+    for (std::size_t n = 0; n < corners; ++n) {
+      cell[n] = in.node(e, n);
+      if (as_size(cell[n]) >= nodes.count())
+        in.refuse("has an element " + std::to_string(e) + " of node " + std::to_string(cell[n]),
+                  "nodes from 0 to " + std::to_string(nodes.count()) + " less one");
+    }
+    for (std::size_t a = 0; a < attributes.size(); ++a) attributes[a].push_back(in.number(e, a));
+    if (corners == 10 && !order_mid_nodes(nodes, cell))
+      in.refuse("has an element " + std::to_string(e) + " of nodes that are not on its six edges",
+                "one node on each edge");
+    add_cell(std::span(cell).first(corners), topology);
+  }
+  return topology;
+}
+
 UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
                                    std::vector<std::vector<double>>& attributes,
                                    std::vector<std::string>& notes) {
+  if (auto binary = ChasteBinary::open(file)) return read_binary_elements(*binary, nodes, attributes);
   constexpr std::size_t kLeastBytes = 10;  // "0 1 2 3 4\n"
   TextLines lines(file, '#');
   const std::size_t count = believed_count(lines, "the number of elements", kLeastBytes);
@@ -144,13 +199,39 @@ UnstructuredTopology read_elements(const std::string& file, const Nodes& nodes,
     longer.pass_over(lines);
     if (used == 10 && !order_mid_nodes(nodes, cell))
       lines.refuse("has nodes that are not on six edges of their tetrahedron", "one node on each edge");
-    topology.connectivity.insert(topology.connectivity.end(), cell.begin(),
-                                 cell.begin() + static_cast<std::ptrdiff_t>(used));
-    topology.types.push_back(used == 10 ? kVtkQuadraticTetrahedron : kVtkTetrahedron);
-    topology.offsets.push_back(static_cast<std::int64_t>(topology.connectivity.size()));
+    add_cell(std::span(cell).first(used), topology);
   }
   longer.say(file, "element", notes);
   return topology;
+}
+
+/// Of .ortho, .axi and .bases in text. @param rows gets the number of places in an element.
+Directions read_direction_file(const std::string& file, std::size_t elements, DirectionRows& rows) {
+  TextLines lines(file, '#');
+  const auto count = as_size(lines.integer("the number of directions", 0, 2'000'000'000));
+  if (count != elements)
+    lines.refuse("has " + std::to_string(count) + " directions",
+                 std::to_string(elements) + ", one an element");
+  if (rows.numbered)
+    rows.places = static_cast<int>(lines.integer("the number of places in an element", 1, kMostPlaces));
+  Directions directions = read_directions(lines, count, rows);
+  if (!lines.word().empty())
+    lines.refuse("goes on after " + std::to_string(count) + " directions", "one an element");
+  return directions;
+}
+
+/// Of .ortho and .axi, in numbers.
+Directions read_binary_directions(ChasteBinary& in, std::size_t elements, std::size_t numbers) {
+  if (in.count(0) != elements)
+    in.refuse("has " + counted(in.count(0), "direction"), std::to_string(elements) + ", one an element");
+  in.read(0, numbers);
+  Directions directions;
+  for (std::size_t e = 0; e < elements; ++e) {
+    std::array<Vec3, 3> row{Vec3{0.0}, Vec3{0.0}, Vec3{0.0}};
+    for (std::size_t n = 0; n < numbers; ++n) row[n / 3][static_cast<int>(n % 3)] = in.number(e, n);
+    append_directions(std::span(row).first(numbers / 3), directions);
+  }
+  return directions;
 }
 
 /// Whole numbers in the first attribute of elements are the regions: TetGen's, and Chaste's of tissue and bath.
@@ -208,18 +289,14 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
   DataSet mesh;
   mesh.topology = std::move(topology);
   if (!files.directions.empty()) {
-    TextLines lines(files.directions, '#');
     const std::string ending = ending_of(files.directions);
-    const auto count = as_size(lines.integer("the number of directions", 0, 2'000'000'000));
-    if (count != elements)
-      lines.refuse("has " + std::to_string(count) + " directions",
-                   std::to_string(elements) + ", one an element");
     DirectionRows rows{.numbers = ending == ".axi" ? 3 : 9, .numbered = ending == ".bases"};
-    if (rows.numbered)
-      rows.places = static_cast<int>(lines.integer("the number of places in an element", 1, kMostPlaces));
-    Directions directions = read_directions(lines, count, rows);
-    if (!lines.word().empty())
-      lines.refuse("goes on after " + std::to_string(count) + " directions", "one an element");
+    Directions directions;
+    if (auto binary = ChasteBinary::open(files.directions); binary && !rows.numbered) {
+      directions = read_binary_directions(*binary, elements, as_size(rows.numbers));
+    } else {
+      directions = read_direction_file(files.directions, elements, rows);
+    }
     leave_out_missing(directions, notes);
     if (rows.places == kFramePlaces) {
       add_point_frames(directions.further, std::get<UnstructuredTopology>(mesh.topology), mesh, notes);
@@ -231,7 +308,12 @@ DataSet read_tetgen(const TetgenFiles& files, const std::string& surface_markers
                       " in each element, that at its centroid is taken");
     notes.push_back("fibres from " + files.directions);
   }
-  if (!files.face.empty()) {
+  if (!files.face.empty() && ChasteBinary::open(files.face)) {
+    notes.push_back(files.face + " is binary: its markers are left out");
+    if (!surface_markers.empty())
+      throw usage_error("--surface-markers " + surface_markers + ": " + files.face +
+                        " is binary, and not read");
+  } else if (!files.face.empty()) {
     add_marked_surfaces(files.face, nodes.first, surface_markers, mesh, notes);
   } else if (!surface_markers.empty()) {
     throw usage_error("--surface-markers " + surface_markers + ": there is no .face file beside " +

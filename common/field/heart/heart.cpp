@@ -18,6 +18,7 @@
 #include "common/field/grid/mesh_quality.h"
 #include "common/field/heart/tissue.h"
 #include "common/field/layer/paint_surfaces.h"
+#include "common/field/layer/wall_measures.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate {
@@ -102,6 +103,9 @@ void add_layers(const std::shared_ptr<const FieldGrid>& grid, const DataSet& mes
   if (!choice.layer.empty() && choice.paint.empty()) {
     heart.layer = make_scalar_field(grid, mesh, {.array = choice.layer}, file, threads);
     heart.notes.push_back("layers from the array '" + choice.layer + "'");
+    const DataArray* const depth = mesh.find(choice.layer, Association::kPoint);
+    if (std::string doubt = inward_doubt(*grid, *depth); !doubt.empty())
+      heart.notes.push_back(std::move(doubt));
   } else {
     if (!choice.paint.empty()) kept = nullptr;  // what is kept knows nothing of paint
     std::optional<WallLayer> layer = kept != nullptr ? kept->find(mesh) : std::nullopt;
@@ -208,7 +212,7 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
                  LayersNeeded layers, CachedLayers* kept) {
   DataSet mesh = given;
   const std::size_t joined = join_same_points(mesh);
-  const std::vector<std::string> tissue = hide_all_but_tissue(mesh, choice.fibre);
+  const Tissue tissue = hide_all_but_tissue(mesh, choice.fibre);
   const auto grid = make_field_grid(std::span(&mesh, 1), file, threads);
   if (!grid->tets) {
     throw input_error(
@@ -226,7 +230,8 @@ Heart make_heart(const DataSet& given, const HeartChoice& choice, const std::str
   };
   Heart heart;
   heart.fibres = directions(choice.fibre);
-  heart.notes = tissue;
+  heart.notes = tissue.notes;
+  heart.regions_left_out = tissue.left_out;
   const std::vector<std::string>& of_fibres = heart.fibres->notes().lines;
   heart.notes.insert(heart.notes.end(), of_fibres.begin(), of_fibres.end());
   if (const std::size_t folded = folded_faces(*grid->tets); folded > 0)

@@ -58,6 +58,7 @@ struct Heart {
   std::shared_ptr<const ScalarField> value;  ///< a potential, an activation time: what else is shown; or null
   std::optional<Vec3> axis;                  ///< from apex to base, where the file says it; data coordinates
   std::vector<std::string> notes;            ///< of mesh, fibres and layers, for the user
+  std::vector<double> regions_left_out;      ///< as they have no fibres
 };
 
 /// What becomes of a heart without layers: they are solved, and where they cannot be that is an error, or the

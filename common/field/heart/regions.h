@@ -12,6 +12,7 @@ namespace palpate {
 struct RegionCount {
   double number = 0.0;
   std::size_t elements = 0;
+  bool left_out = false;  ///< as it has no fibres
 
   bool operator==(const RegionCount&) const = default;
 };

@@ -9,6 +9,7 @@
 
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/grid/cell_faces.h"
 #include "common/field/heart/regions.h"
 #include "common/field/region_names.h"
 
@@ -83,6 +84,36 @@ void drop_tiny_directions(DataSet& mesh, const DirectionChoice& choice, std::vec
                   "' a million times shorter than the others: taken for none");
 }
 
+/// Says which regions have one direction in all their elements, while those of others turn: programs that need a
+/// direction everywhere give bath and blood such a one.
+/// @param shown cells of the wall.
+void note_even_regions(const std::vector<bool>& shown, const DataArray& fibre, const DataArray& numbers,
+                       std::vector<std::string>& notes) {
+  constexpr double kEven = 1.0 - 1e-9;  // cosine
+  constexpr std::size_t kFew = 10;      // elements, which may be alike by chance
+  struct Directions {
+    Vec3 first{0.0};
+    std::size_t count = 0;
+    bool even = true;
+  };
+  std::map<double, Directions> regions;
+  for (std::size_t c = 0; c < fibre.tuples; ++c) {
+    const Vec3 d{fibre.at(c, 0), fibre.at(c, 1), fibre.at(c, 2)};
+    const double length = glm::length(d);
+    if (!shown[c] || !(length > 0.0) || !std::isfinite(length)) continue;
+    Directions& region = regions[numbers.at(c)];
+    if (region.count++ == 0) region.first = d / length;
+    region.even = region.even && std::abs(glm::dot(d / length, region.first)) > kEven;
+  }
+  if (std::all_of(regions.begin(), regions.end(), [](const auto& r) { return r.second.even; })) return;
+  for (const auto& [number, region] : regions)
+    if (region.even && region.count > kFew)
+      notes.push_back("WARNING: all " + counted(region.count, "direction") + " of region " +
+                      short_number(number) + " are (" + short_number(region.first.x) + ", " +
+                      short_number(region.first.y) + ", " + short_number(region.first.z) +
+                      "), while those of others turn: is it bath or blood? --regions leaves it out");
+}
+
 }  // namespace
 
 double least_direction_length(std::span<const double> lengths) {
@@ -104,15 +135,20 @@ std::string region_array(const std::vector<ArrayInfo>& arrays) {
   return {};
 }
 
-std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoice& choice) {
-  std::vector<std::string> notes;
+Tissue hide_all_but_tissue(DataSet& mesh, const DirectionChoice& choice) {
+  Tissue tissue;
+  std::vector<std::string>& notes = tissue.notes;
   drop_tiny_directions(mesh, choice, notes);
   const auto* const cells = std::get_if<UnstructuredTopology>(&mesh.topology);
   const DataArray* const fibre = mesh.find(choice.array, choice.association);
-  if (cells == nullptr || fibre == nullptr || !fit(*cells, *fibre)) return notes;
+  if (cells == nullptr || fibre == nullptr || !fit(*cells, *fibre)) return tissue;
   const std::vector<bool> without = cells_without(*cells, *fibre);
   mesh.hidden_cells.resize(without.size());
-  const auto shown = [&mesh](std::size_t c) { return mesh.hidden_cells[c] == 0; };
+  // Triangles on the border are no part of the wall, whatever region and direction they have.
+  std::vector<bool> of_wall(without.size());
+  for (std::size_t c = 0; c < of_wall.size(); ++c)
+    of_wall[c] = mesh.hidden_cells[c] == 0 && !is_flat(cells->types[c]);
+  const auto shown = [&of_wall](std::size_t c) { return of_wall[c]; };
   const DataArray* numbers = regions_of(mesh);
   if (numbers != nullptr && numbers->tuples != without.size()) numbers = nullptr;
   std::map<double, Region> regions;
@@ -127,11 +163,14 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
   const bool tell =
       regions.size() <= kMostHeartRegions &&
       std::any_of(regions.begin(), regions.end(), [](const auto& r) { return !r.second.bare(); });
+  if (tell && regions.size() > 1 && fibre->association == Association::kCell)
+    note_even_regions(of_wall, *fibre, *numbers, notes);
   std::string names;
   std::size_t hidden = 0;
   for (const auto& [number, region] : regions) {
     if (!tell || !region.bare()) continue;
     names += (names.empty() ? "" : ", ") + short_number(number);
+    tissue.left_out.push_back(number);
     hidden += region.elements;
   }
   if (hidden > 0) {
@@ -147,20 +186,21 @@ std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoic
                     counted(hidden, "element") + " of " + std::to_string(without.size()) +
                     (left_fibres > 0 ? ", of which " + std::to_string(left_fibres) + " have one" : "") +
                     "; muscle is where fibres are");
-    return notes;
+    return tissue;
   }
   std::size_t all = 0, bare = 0;
   for (std::size_t c = 0; c < without.size(); ++c) {
     all += shown(c) ? 1 : 0;
     bare += shown(c) && without[c] ? 1 : 0;
   }
-  if (all == without.size()) mesh.hidden_cells.clear();
+  if (std::ranges::count(mesh.hidden_cells, std::uint8_t{0}) == std::ssize(mesh.hidden_cells))
+    mesh.hidden_cells.clear();
   const double share = static_cast<double>(bare) / static_cast<double>(std::max<std::size_t>(1, all));
   if (share > kManyWithout && bare < all)
     notes.push_back("WARNING: " + counted(bare, "element") + " of " + std::to_string(all) +
                     " without a fibre, and no region that tells bath or blood from muscle: layers go through "
                     "them all; number regions in an array 'region' of elements");
-  return notes;
+  return tissue;
 }
 
 }  // namespace palpate

@@ -21,12 +21,17 @@ namespace palpate {
 /// 0 where all are so.
 [[nodiscard]] double least_direction_length(std::span<const double> lengths);
 
+struct Tissue {
+  /// What is to be said: which regions are hidden, how many elements; a WARNING where many elements have no fibre and no
+  /// region tells why, and where all of a region have one direction, while others turn.
+  std::vector<std::string> notes;
+  std::vector<double> left_out;  ///< regions without fibres, by rising number
+};
+
 /// Hides the cells (DataSet::hidden_cells) of regions whose elements have no fibre, all but one in twenty,
 /// where another region has them: openCARP's own sign of what is no tissue. Fibres that are missing here and
 /// there within a region leave it as it is. Without the arrays of fibres and regions nothing is hidden.
 /// Directions shorter than least_direction_length() are taken for what they stand for: none.
-/// @return what is to be said: which regions, how many elements; a WARNING where many elements have no fibre
-/// and no region tells why.
-std::vector<std::string> hide_all_but_tissue(DataSet& mesh, const DirectionChoice& fibre);
+Tissue hide_all_but_tissue(DataSet& mesh, const DirectionChoice& fibre);
 
 }  // namespace palpate

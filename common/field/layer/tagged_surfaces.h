@@ -1,9 +1,6 @@
 /// Surfaces of a wall that its mesh names.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "common/field/data_set.h"
 #include "common/field/field_grid.h"
 #include "common/field/layer/wall_border.h"
@@ -11,14 +8,11 @@
 
 namespace palpate {
 
-/// The numbers of kSurfaceArray at the grid's points; 0 where there is another one. @param array of the input's points.
-[[nodiscard]] std::vector<std::uint8_t> tags_of_points(const FieldGrid& grid, const DataArray& array);
-
-/// Which of both surfaces a point with each tag lies on.
-[[nodiscard]] std::vector<WallSurface> tagged_points(const std::vector<std::uint8_t>& tags);
-
-/// Roles of triangles by the tags of their points, as find_wall_surfaces() says.
-[[nodiscard]] std::vector<BorderRole> tagged_roles(const WallBorder& border,
-                                                   const std::vector<std::uint8_t>& tags);
+/// Surfaces by the numbers of points, as find_wall_surfaces() says. Where a right endocardium is named and no septum, the
+/// side of its septum is found by the way through the wall. In doubt are surfaces that lie the other way round, and
+/// those that leave much of the border out.
+/// @param array kSurfaceArray of the input's points.
+[[nodiscard]] WallSurfaces tagged_surfaces(const FieldGrid& grid, const WallBorder& border,
+                                           const DataArray& array);
 
 }  // namespace palpate

@@ -69,6 +69,32 @@ std::string monotone_doubt(double share) {
          " % of the points: a surface may be taken for another one, or the mesh is coarse";
 }
 
+std::string inward_doubt(const FieldGrid& grid, const DataArray& depth) {
+  constexpr double kEnd = 0.05;  // of the range
+  std::vector<double> of_point(grid.tets->points().size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t input = 0; input < depth.tuples; ++input) {
+    const std::size_t p = grid.point_of_input.empty() ? input : grid.point_of_input[input];
+    if (p < of_point.size()) of_point[p] = depth.at(input);
+  }
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const double value : of_point) {
+    if (!std::isfinite(value)) continue;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  Box low, high;
+  for (std::size_t p = 0; p < of_point.size(); ++p) {
+    if (of_point[p] <= least + kEnd * (most - least)) low.include(grid.tets->points()[p]);
+    if (of_point[p] >= most - kEnd * (most - least)) high.include(grid.tets->points()[p]);
+  }
+  if (!(low.diagonal() > high.diagonal())) return {};
+  const double scale = grid.frame.length_scale();
+  return "WARNING: the depth '" + depth.name + "' rises inwards: where it is " + short_number(least) +
+         " the wall is " + short_number(scale * low.diagonal()) + " across, where it is " +
+         short_number(most) + " " + short_number(scale * high.diagonal()) +
+         "; it should rise from the inner to the outer surface";
+}
+
 WallMeasures measure_wall(const FieldGrid& grid, const WallSurfaces& surfaces,
                           std::span<const double> depth) {
   const TetMesh& mesh = *grid.tets;

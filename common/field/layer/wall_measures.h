@@ -18,6 +18,10 @@ namespace palpate {
 /// A WARNING where the share is below 97 %; else empty.
 [[nodiscard]] std::string monotone_doubt(double share);
 
+/// A WARNING where the depth that a file gives has its lowest values around its highest ones; else empty.
+/// @param depth of the input's points. @pre grid.tets.
+[[nodiscard]] std::string inward_doubt(const FieldGrid& grid, const DataArray& depth);
+
 struct WallMeasures {
   /// monotone_share().
   double monotone = 0.0;

@@ -438,15 +438,9 @@ WallSurfaces find_wall_surfaces(const FieldGrid& grid, const DataSet& mesh, cons
   };
   if (!grid.tets) refuse("is an image, whose border has no inner surface");
   WallBorder border = border_of(*grid.tets);
-  WallSurfaces surfaces;
-  surfaces.triangles = border.triangles;
   if (const DataArray* array = mesh.find(kSurfaceArray, Association::kPoint)) {
-    const std::vector<std::uint8_t> tags = tags_of_points(grid, *array);
-    surfaces.of_point = tagged_points(tags);
-    surfaces.note = std::string("inner and outer surface from the array '") + kSurfaceArray + "'";
+    WallSurfaces surfaces = tagged_surfaces(grid, border, *array);
     if (!both(surfaces.of_point)) refuse(std::string("has not both in its array '") + kSurfaceArray + "'");
-    surfaces.roles = tagged_roles(border, tags);
-    measure_surfaces(grid, border, surfaces);
     return surfaces;
   }
 

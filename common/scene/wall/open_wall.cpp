@@ -31,7 +31,7 @@ OpenWall open_wall(Input& input, std::vector<std::string> names, int threads, Pr
   OpenWall wall{.mesh = read_wall(input, all, progress), .grid = {}, .surfaces = {}, .notes = {}};
   if (progress) progress->begin("finding the surfaces of the wall", 0);
   join_same_points(wall.mesh);
-  if (fibre) wall.notes = hide_all_but_tissue(wall.mesh, *fibre);
+  if (fibre) wall.notes = hide_all_but_tissue(wall.mesh, *fibre).notes;
   std::erase_if(wall.mesh.arrays, [&names](const DataArray& array) {
     return std::find(names.begin(), names.end(), array.name) == names.end();
   });

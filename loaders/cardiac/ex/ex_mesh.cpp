@@ -17,6 +17,7 @@
 #include "common/field/layer/wall_layer.h"
 #include "loaders/cardiac/ex/ex_element.h"
 #include "loaders/cardiac/ex/ex_fields.h"
+#include "loaders/cardiac/ex/ex_groups.h"
 #include "loaders/cardiac/ex/ex_places.h"
 #include "loaders/cardiac/mesh_text.h"
 
@@ -197,7 +198,7 @@ std::vector<double> depths_of(const std::vector<std::int64_t>& point_of, const L
     }
   }
   for (std::size_t p = 0; p < tags.size(); ++p)
-    if (tags[p] != 0.0 && std::abs(depth[p] - (tags[p] - 1.0)) > kRounding) return {};
+    if (tags[p] != 0.0 && std::abs(depth[p] - (tags[p] == 2.0 ? 1.0 : 0.0)) > kRounding) return {};
   return depth;
 }
 
@@ -225,8 +226,9 @@ void check_memory(const Model& model, int refine, std::uint64_t memory, const st
 /// Whether all fields are linear in tetrahedra: sampling these finer says nothing more.
 bool linear_tetrahedra(const Model& model) {
   const auto is_linear = [](const ElementComponent& component) {
-    return std::all_of(component.basis.begin(), component.basis.end(),
-                       [](Basis basis) { return basis == Basis::kLinearSimplex; });
+    return std::all_of(component.basis.begin(), component.basis.end(), [](Basis basis) {
+      return basis == Basis::kLinearSimplex || basis == Basis::kConstant;
+    });
   };
   std::set<std::uint32_t> headers;
   for (const Element& element : model.elements) headers.insert(element.header);
@@ -406,7 +408,9 @@ SampledModel sample(const Model& model, int refine, const std::string& file, std
   }
   if (samples.cubes()) {
     const Lattice lattice{as_size(refine) + 1};
-    const std::vector<double> tags = surfaces_of(point_of, lattice, shapes.size(), points);
+    std::vector<double> tags =
+        group_surfaces(model, {samples.of_element, samples.first, point_of, points}, sampled.notes);
+    if (tags.empty()) tags = surfaces_of(point_of, lattice, shapes.size(), points);
     sampled.mesh.arrays.push_back(array_of("surface", 1, tags));
     int deep = 0;
     const std::vector<double> depth = depths_of(point_of, lattice, shapes.size(), tags, deep);

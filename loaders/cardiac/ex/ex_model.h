@@ -119,7 +119,13 @@ struct Element {
   Linked linked{};           ///< its shape
   std::vector<std::int64_t> nodes;
   std::vector<double> scales;
-  std::vector<double> values;  ///< of its own, at the places of grids
+  std::vector<double> values;       ///< of its own, at the places of grids
+  std::vector<std::int64_t> faces;  ///< their numbers: the first axis at 0 and 1, then the next; or none
+};
+
+/// What a group lists, of what a surface is made of.
+struct Group {
+  std::set<std::int64_t> nodes, faces;
 };
 
 struct Model {
@@ -131,6 +137,7 @@ struct Model {
   std::map<int, std::size_t> flat_elements;  ///< with fields of their own, passed over, by their dimension
   std::set<std::string> left_out;            ///< fields whose values are no numbers, with their type
   std::size_t data_points = 0;               ///< passed over
+  std::map<std::string, Group> groups;       ///< by their names
   /// Of nodes that have the fields of two headers: the header of both.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> joined_headers;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> joined_element_headers;  ///< likewise

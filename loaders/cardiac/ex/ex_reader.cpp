@@ -46,9 +46,12 @@ class Reader {
         version_ = static_cast<int>(claim("EX Version:", 1, kNewestVersion));
         continue;
       }
-      if (line.starts_with("Group name") || line.starts_with("Region")) continue;
+      if (line.starts_with("Group name") || line.starts_with("Region")) {
+        group_ = line.starts_with("Group") ? name_behind_colon() : std::string();
+        continue;
+      }
       if (line.starts_with("Node group") || line.starts_with("Element group")) {
-        skip_numbers();
+        pass_numbers(lines_);
       } else if (line.starts_with("Define ")) {
         defined_ = name_behind_colon();
       } else if (line.starts_with("Node template") || line.starts_with("Element template")) {
@@ -227,6 +230,7 @@ class Reader {
     (void)lines_.word_here();  // "Node:"
     const std::int64_t name = lines_.integer("the number of a node", 0, kMostNumber);
     if (data_points_) ++model_.data_points;
+    if (!data_points_ && !group_.empty()) model_.groups[group_].nodes.insert(name);
     if (current_.in_elements || current_.values == 0) return;  // a member of a group
     Node node;
     node.header = current_.header;
@@ -266,7 +270,8 @@ class Reader {
                     "\"NAME. BASIS*BASIS*BASIS, no modify, …\", a basis for each");
     for (std::size_t axis = 0; axis < axes.size(); ++axis) {
       component.basis[axis] = basis_of(lines_, trimmed(axes[axis]));
-      if (dimension_ == 3 && is_simplex(component.basis[axis]) != linked_[axis])
+      if (dimension_ == 3 && component.basis[axis] != Basis::kConstant &&
+          is_simplex(component.basis[axis]) != linked_[axis])
         lines_.refuse("has the basis " + std::string(trimmed(parts.front()).substr(0, 60)),
                       "one of the element's shape");
     }
@@ -407,12 +412,16 @@ class Reader {
     element.name = name;
     element.line = lines_.line_number();
     element.linked = current_.linked;
+    if (dimension_ == 2 && !group_.empty()) {
+      const std::int64_t face = name != 0 ? name : lines_.integer("the number of a face", 0, kMostNumber);
+      model_.groups[group_].faces.insert(face);
+    }
     // A face or line has a zero first and its own number behind; its parts are passed over.
     const bool volume = dimension_ == 3 && name != 0;
     while (lines_.next()) {
       const std::string_view line = lines_.line();
       if (line.starts_with("Faces")) {
-        skip_numbers();
+        element.faces = faces_of(lines_, version_ < kLabels);
       } else if (line.starts_with("Nodes:")) {
         (void)lines_.word_here();
         for (int n = 0; n < current_.nodes; ++n)
@@ -457,18 +466,6 @@ class Reader {
                     "the same one, or every element once");
   }
 
-  /// Passes over lines of numbers.
-  void skip_numbers() {
-    while (lines_.next()) {
-      const std::string_view line = lines_.line();
-      const bool numbers =
-          line.empty() || std::isdigit(static_cast<unsigned char>(line.front())) != 0 || line.front() == '-';
-      if (numbers) continue;
-      lines_.give_back();
-      return;
-    }
-  }
-
   /// What the nodes or elements that follow are like.
   struct Template {
     std::uint32_t header = 0;
@@ -487,6 +484,7 @@ class Reader {
   int dimension_ = 3;
   Linked linked_{};  ///< of the shape that was named last
   Template current_;
+  std::string group_;    ///< that is being read; empty: the region itself
   std::string defined_;  ///< the template whose definition is being read
   std::map<std::string, Template> templates_;
   std::map<std::string, std::int64_t> scale_set_first_;

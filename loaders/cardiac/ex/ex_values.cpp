@@ -1,6 +1,7 @@
 #include "loaders/cardiac/ex/ex_values.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -14,6 +15,11 @@
 
 namespace palpate::ex {
 namespace {
+
+/// Whether a line is one of numbers, or empty.
+bool is_of_numbers(std::string_view line) {
+  return line.empty() || std::isdigit(static_cast<unsigned char>(line.front())) != 0 || line.front() == '-';
+}
 
 constexpr std::int64_t kMostElement = 2'000'000'000;
 
@@ -153,6 +159,32 @@ std::string add_fields(const Element& again, Model& model, Element& there) {
   there.scales.insert(there.scales.end(), again.scales.begin(), again.scales.end());
   there.values.insert(there.values.end(), again.values.begin(), again.values.end());
   return {};
+}
+
+void pass_numbers(TextLines& lines) {
+  while (lines.next()) {
+    if (is_of_numbers(lines.line())) continue;
+    lines.give_back();
+    return;
+  }
+}
+
+std::vector<std::int64_t> faces_of(TextLines& lines, bool triples) {
+  constexpr std::size_t kMostNumbers = 100;
+  std::vector<std::int64_t> numbers;
+  (void)lines.word_here();  // "Faces:"
+  do {
+    for (std::string_view word = lines.word_here(); !word.empty(); word = lines.word_here())
+      if (numbers.size() < kMostNumbers) numbers.push_back(parsed<std::int64_t>(word).value_or(0));
+    if (!lines.next()) break;
+    if (is_of_numbers(lines.line())) continue;
+    lines.give_back();
+    break;
+  } while (true);
+  if (!triples) return numbers;
+  std::vector<std::int64_t> faces;
+  for (std::size_t n = 1; n < numbers.size(); n += 3) faces.push_back(numbers[n]);
+  return faces;
 }
 
 }  // namespace palpate::ex

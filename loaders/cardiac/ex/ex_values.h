@@ -19,4 +19,11 @@ namespace palpate::ex {
 /// The same for an element: a field that both have is the same where its parameters are those of the same nodes.
 [[nodiscard]] std::string add_fields(const Element& again, Model& model, Element& there);
 
+/// Passes over the lines of numbers that follow.
+void pass_numbers(TextLines& lines);
+
+/// Numbers of an element's faces, behind "Faces:" and in the lines of numbers that follow.
+/// @param triples before version 2 each is an element, a face and a line, of which two are zero.
+[[nodiscard]] std::vector<std::int64_t> faces_of(TextLines& lines, bool triples);
+
 }  // namespace palpate::ex

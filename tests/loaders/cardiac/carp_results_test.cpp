@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -208,6 +209,76 @@ TEST_F(CarpResults, SeveralResultsKeepTheirOwnTimes) {
   EXPECT_EQ(at("c", 2, Association::kCell), 4.0) << "of the only element, at every time";
 }
 
+TEST_F(CarpResults, TimesThatAreStatedTwiceAndDifferAreSaid) {
+  const std::vector<float> values{1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  for (const auto& [words, step, said] : {std::tuple{"inc_t:5 dim_t:10", 5.0, false},
+                                          {"inc_t:5 dim_t:15", 5.0, false},
+                                          {"inc_t:5 dim_t:100", 5.0, true},
+                                          {"inc_t:5 fac_t:5", 5.0, false},
+                                          {"inc_t:5 fac_t:1", 5.0, true},
+                                          {"dim_t:10 fac_t:7", 5.0, true},
+                                          {"fac_t:7", 7.0, false}}) {
+    folder_.write("vm.igb", igb(std::string("x:4 t:3 ") + words, values, false));
+    const Source source = together("vm.igb");
+    EXPECT_EQ(source.info().times, (std::vector<double>{0.0, step, 2.0 * step})) << words;
+    EXPECT_EQ(says(source.info().notes, "the header states steps 5 apart"), said) << words;
+  }
+}
+
+TEST_F(CarpResults, TimesInOtherUnitsAreTurned) {
+  const std::vector<float> values{1, 1, 1, 1, 2, 2, 2, 2};
+  folder_.write("a.igb", igb("x:4 t:2 inc_t:5 unites_t:ms", values, false));
+  folder_.write("b.igb", igb("x:4 t:2 inc_t:0.005 unites_t:s", values, false));
+  folder_.write("c.igb", igb("x:4 t:2 inc_t:5 unites_t:beats", values, false));
+  const auto with = [this](const char* other) {
+    return Source::open({.files = {folder_.path("m.pts"), folder_.path("a.igb"), folder_.path(other)},
+                         .solution = {},
+                         .raw = {}})
+        .info();
+  };
+  EXPECT_EQ(with("b.igb").times, (std::vector<double>{0.0, 5.0}));
+  EXPECT_TRUE(says(with("b.igb").notes, "in s, turned into ms"));
+  EXPECT_TRUE(says(with("c.igb").notes, "are in beats, those of"));
+}
+
+TEST_F(CarpResults, NumbersThatMakeSenseInTheOtherByteOrderAloneAreSaid) {
+  const std::vector<float> potentials{-85.5F, -80.25F, 12.125F, 20.3F};
+  for (const bool big : {false, true}) {
+    std::string file = igb("x:4 t:1", potentials, big);
+    folder_.write("vm.igb", file);
+    EXPECT_FALSE(says(together("vm.igb").info().notes, "byte order")) << big;
+    const std::string stated = big ? "big_endian   " : "little_endian";
+    file.replace(file.find(stated.substr(0, stated.find(' '))), stated.size(),
+                 big ? "little_endian" : "big_endian   ");
+    folder_.write("vm.igb", file);
+    EXPECT_TRUE(says(together("vm.igb").info().notes, "make no sense as")) << big;
+  }
+  folder_.write("vm.igb", igb("x:4 t:1", {0, 0, 0, 0}, false));
+  EXPECT_FALSE(says(together("vm.igb").info().notes, "byte order"));
+}
+
+TEST_F(CarpResults, PlacesThatWereNeverActivatedHaveNoTime) {
+  const auto at = [this](const char* text, std::size_t place) {
+    folder_.write("act.dat", text);
+    return together("act.dat").read({"act"}).at(0).find("act", Association::kPoint)->at(place);
+  };
+  EXPECT_TRUE(std::isnan(at("1.5\n-1\n0\n-1.0\n", 1)));
+  EXPECT_TRUE(says(together("act.dat").info().notes, "2 places of -1"));
+  EXPECT_EQ(at("1.5\n-1\n-2\n0\n", 1), -1.0) << "a potential";
+  EXPECT_EQ(at("-1\n-1\n-1\n-1\n", 1), -1.0);
+}
+
+TEST_F(CarpResults, TablesOfNodesMayCountFromOne) {
+  folder_.write("act.dat", "1 7\n3 5\n4 6\n");
+  Source source = together("act.dat");
+  EXPECT_TRUE(says(source.info().notes, "nodes count from 1"));
+  const auto blocks = source.read({"act"});
+  const DataArray* act = blocks.at(0).find("act", Association::kPoint);
+  EXPECT_EQ(act->at(0), 7.0);
+  EXPECT_TRUE(std::isnan(act->at(1)));
+  EXPECT_EQ(act->at(3), 6.0);
+}
+
 TEST_F(CarpResults, ActivationTimesAreANumberALine) {
   folder_.write("act.dat", "1.5\nnan\n-2\n1e3\n");
   Source source = together("act.dat");
@@ -240,6 +311,7 @@ TEST_F(CarpResults, TablesOfNodesAndTimesHaveTheFirstOfEach) {
   EXPECT_EQ(act->at(2), 5.5);
   EXPECT_EQ(act->at(3), 100.0);
   expect_result_refused("far.dat", "0 1\n4 1\n", "line 2: names node 4");
+  expect_result_refused("farther.dat", "1 1\n5 1\n", "line 2: names node 5");
   expect_result_refused("half.dat", "0 1\n1 1\n2 1\n3 1\n0.5 1\n", "line 5: names node 0.5");
   expect_result_refused("three.dat", "0 1\n1 1\n2 1\n3 1\n0 1 2\n", "line 5");
 }

@@ -225,6 +225,25 @@ TEST(ExSimplex, WedgesStandAlongAnyAxis) {
     }
 }
 
+TEST(ExSimplex, ValuesMayBeConstantInATetrahedron) {
+  std::string text = text_of(tetrahedra(1), linear, none);
+  const std::size_t of_nodes = text.find("2) pressure, field"),
+                    field = text.find("2) pressure, field", of_nodes + 1);
+  text.replace(
+      field, text.find("Element:", field) - field,
+      "2) stress, field, rectangular cartesian, real, #Components=1\n 1. constant*constant*constant, no "
+      "modify, element based.\n");
+  std::size_t at = 0;
+  for (int e = 1; (at = text.find(" 0 0\n Nodes:", at)) != std::string::npos; ++e, at += 12)
+    text.insert(at + 5, " Values:\n " + std::to_string(10 * e) + "\n");
+  const Read made = read(text, 4);
+  EXPECT_EQ(made.sampled.mesh.cell_count(), 12U);
+  const DataArray* const stress = made.sampled.mesh.find("stress", Association::kCell);
+  ASSERT_NE(stress, nullptr);
+  for (std::size_t c = 0; c < stress->tuples; ++c)
+    EXPECT_EQ(stress->at(c), 10.0 * static_cast<double>(c + 1));
+}
+
 TEST(ExSimplex, ABasisOfAnotherShapeIsRefused) {
   std::string text = text_of(tetrahedra(1), linear, none);
   const std::string shape = "simplex(2;3)*simplex*simplex";

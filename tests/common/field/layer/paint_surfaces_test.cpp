@@ -2,6 +2,7 @@
 #include "common/field/layer/paint_surfaces.h"
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <string>
@@ -87,20 +88,27 @@ TEST(SurfacePaint, IsReadAsItIsWritten) {
 }
 
 // What 'info --surfaces' writes into a mesh is read back: of two ventricles, too.
+/// A mesh with the array that names what was found. @param number of a role.
+DataSet tagged_mesh(const DataSet& mesh, const FieldGrid& grid, const WallSurfaces& found,
+                    const std::function<int(BorderRole)>& number) {
+  std::vector<double> tags(grid.tets->points().size(), 0.0);
+  for (const BorderRole role :
+       {BorderRole::kBase, BorderRole::kOuter, BorderRole::kSeptum, BorderRole::kRight, BorderRole::kInner})
+    give_on(found, role, number(role), tags);
+  DataSet tagged = mesh;
+  std::vector<double> of_input;
+  for (std::size_t p = 0; p < tagged.point_count(); ++p)
+    of_input.push_back(tags[grid.point_of_input.empty() ? p : grid.point_of_input[p]]);
+  tagged.arrays.push_back(
+      make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(of_input)));
+  return tagged;
+}
+
 TEST(TaggedSurfaces, NumbersOfPointsAreTheSurfacesThatWereFound) {
   const test::TwoVentricles heart(130.0 * std::numbers::pi / 180.0);
   const auto grid = make_field_grid(std::span(&heart.mesh, 1), "heart", 1);
   const WallSurfaces found = find_wall_surfaces(*grid, heart.mesh, "heart");
-  std::vector<double> tags(grid->tets->points().size(), 0.0);
-  for (const BorderRole role :
-       {BorderRole::kBase, BorderRole::kOuter, BorderRole::kSeptum, BorderRole::kRight, BorderRole::kInner})
-    give_on(found, role, tag_of(role), tags);
-  DataSet tagged = heart.mesh;
-  std::vector<double> of_input;
-  for (std::size_t p = 0; p < tagged.point_count(); ++p)
-    of_input.push_back(tags[grid->point_of_input.empty() ? p : grid->point_of_input[p]]);
-  tagged.arrays.push_back(
-      make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(of_input)));
+  const DataSet tagged = tagged_mesh(heart.mesh, *grid, found, tag_of);
   const WallSurfaces read = find_wall_surfaces(*grid, tagged, "heart");
   double wrong = 0.0, all = 0.0;
   for (std::size_t t = 0; t < read.roles.size(); ++t) {
@@ -116,6 +124,49 @@ TEST(TaggedSurfaces, NumbersOfPointsAreTheSurfacesThatWereFound) {
   const WallLayer by_tags = make_wall_layer(tagged, "heart"), by_shape = make_wall_layer(heart.mesh, "heart");
   for (std::size_t p = 0; p < by_tags.array.tuples; ++p)
     ASSERT_EQ(by_tags.array.at(p), by_shape.array.at(p)) << p << ": to the last bit";
+}
+
+// Programs name a right endocardium as one surface, both its sides: the septum's counts as outer all the same.
+TEST(TaggedSurfaces, TheSeptumOfARightEndocardiumIsFound) {
+  for (const double degrees : {70.0, 110.0, 150.0}) {
+    const test::TwoVentricles heart(degrees * std::numbers::pi / 180.0);
+    const auto grid = make_field_grid(std::span(&heart.mesh, 1), "heart", 1);
+    const WallSurfaces found = find_wall_surfaces(*grid, heart.mesh, "heart");
+    const DataSet tagged = tagged_mesh(heart.mesh, *grid, found, [](BorderRole role) {
+      return tag_of(role == BorderRole::kSeptum ? BorderRole::kRight : role);
+    });
+    const WallSurfaces read = find_wall_surfaces(*grid, tagged, "heart");
+    EXPECT_NE(read.note.find("names no septum"), std::string::npos) << read.note;
+    const double exact = area_of(found, BorderRole::kSeptum);
+    EXPECT_NEAR(area_of(read, BorderRole::kSeptum), exact, 0.1 * exact) << degrees;
+    EXPECT_TRUE(read.doubts.empty()) << read.doubts.front();
+    std::size_t other = 0;
+    for (std::size_t p = 0; p < read.of_point.size(); ++p)
+      other += read.of_point[p] == found.of_point[p] ? 0 : 1;
+    EXPECT_LE(other, read.of_point.size() / 100) << degrees << ": points at rims alone";
+  }
+}
+
+TEST(TaggedSurfaces, WhatIsNamedTheOtherWayRoundOrInPartIsDoubted) {
+  const test::TwoVentricles heart(130.0 * std::numbers::pi / 180.0);
+  const auto grid = make_field_grid(std::span(&heart.mesh, 1), "heart", 1);
+  const WallSurfaces found = find_wall_surfaces(*grid, heart.mesh, "heart");
+  const auto doubts = [&](const std::function<int(BorderRole)>& number) {
+    const WallSurfaces read =
+        find_wall_surfaces(*grid, tagged_mesh(heart.mesh, *grid, found, number), "heart");
+    return read.doubts.empty() ? std::string() : read.doubts.front();
+  };
+  EXPECT_EQ(doubts(tag_of), "");
+  const std::string turned = doubts([](BorderRole role) {
+    return tag_of(role == BorderRole::kOuter   ? BorderRole::kInner
+                  : role == BorderRole::kInner ? BorderRole::kOuter
+                                               : BorderRole::kLeft);
+  });
+  EXPECT_NE(turned.find("other way round"), std::string::npos) << turned;
+  const std::string part = doubts([](BorderRole role) {
+    return role == BorderRole::kRight || role == BorderRole::kSeptum ? 0 : tag_of(role);
+  });
+  EXPECT_NE(part.find("leaves out"), std::string::npos) << part;
 }
 
 }  // namespace

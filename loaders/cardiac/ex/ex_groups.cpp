@@ -1,0 +1,75 @@
+#include "loaders/cardiac/ex/ex_groups.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "common/base/index.h"
+#include "common/base/text.h"
+#include "common/field/layer/wall_surfaces.h"
+
+namespace palpate::ex {
+namespace {
+
+/// What a group is by its name; kLeft: no surface.
+BorderRole role_of_group(const std::string& name) {
+  const std::string low = lowered(name);
+  const auto has = [&low](std::string_view word) { return low.find(word) != std::string::npos; };
+  if (has("epi")) return BorderRole::kOuter;
+  if (!has("endo")) return BorderRole::kLeft;
+  return has("right") || has("rv") ? BorderRole::kRight : BorderRole::kInner;
+}
+
+/// Whether a face of a cube is in a group: by its number, or by its nodes.
+bool has_face(const Group& group, const Element& element, std::size_t axis, std::size_t end) {
+  constexpr std::size_t kFaces = 6, kCorners = 8, kLeastNodes = 3;
+  if (element.faces.size() == kFaces && group.faces.contains(element.faces[2 * axis + end])) return true;
+  if (element.nodes.size() != kCorners) return false;
+  std::set<std::int64_t> nodes;
+  for (std::size_t c = 0; c < kCorners; ++c) {
+    if ((c >> axis & 1U) != end) continue;
+    if (!group.nodes.contains(element.nodes[c])) return false;
+    nodes.insert(element.nodes[c]);
+  }
+  return nodes.size() >= kLeastNodes;
+}
+
+}  // namespace
+
+std::vector<double> group_surfaces(const Model& model, const SampledPlaces& places,
+                                   std::vector<std::string>& notes) {
+  /// The later one counts.
+  constexpr std::array<BorderRole, 3> kOrder{BorderRole::kOuter, BorderRole::kRight, BorderRole::kInner};
+  std::vector<double> tags(places.points, 0.0);
+  std::vector<std::string> taken;
+  bool inner = false, outer = false;
+  for (const BorderRole role : kOrder) {
+    for (const auto& [name, group] : model.groups) {
+      if (role_of_group(name) != role) continue;
+      std::size_t faces = 0;
+      for (std::size_t e = 0; e < model.elements.size(); ++e) {
+        if (model.elements[e].linked != Linked{}) return {};
+        const std::vector<Vec3>& xi = places.of_element[e]->xi;
+        for (int axis = 0; axis < 3; ++axis) {
+          for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+            if (!has_face(group, model.elements[e], as_size(axis), end)) continue;
+            ++faces;
+            for (std::size_t p = 0; p < xi.size(); ++p)
+              if (xi[p][axis] == static_cast<double>(end))
+                tags[as_size(places.point_of[places.first[e] + p])] = tag_of(role);
+          }
+        }
+      }
+      if (faces == 0) continue;
+      (role == BorderRole::kOuter ? outer : inner) = true;
+      taken.push_back("group '" + name + "' is the " + name_of(role) +
+                      ", by its name: " + counted(faces, "face"));
+    }
+  }
+  if (!inner || !outer) return {};
+  notes.insert(notes.end(), taken.begin(), taken.end());
+  return tags;
+}
+
+}  // namespace palpate::ex
