@@ -97,7 +97,7 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
   } else {
     layer = make_layer_geometry(*heart, document, &progress);
     state.ends = layer.fibres.ends;
-    state.seeds = layer.lines->size();
+    state.seeds = layer.seeds;
     state.outside_seeds = layer.fibres.outside_seeds.size();
     state.line_errors = layer.fibres.errors;
     state.seconds_trace = layer.fibres.seconds;
@@ -132,6 +132,8 @@ SceneState CardiacModel::present(Input& input, const CardiacContent& content, co
     info->input = input.spec();
   }
   info->regions = input.regions(&progress);
+  for (RegionCount& region : info->regions)
+    region.left_out = std::ranges::count(heart->heart().regions_left_out, region.number) > 0;
   info->bounds = depth.bounds();
   info->units = units_of(input);
   state.info = std::move(info);

@@ -118,7 +118,7 @@ class BesidePanel {
   bool typing_ = false;
 };
 
-/// Which regions are taken: as boxes to tick, the last of which stays.
+/// Which regions are taken: as boxes to tick, the last of which stays. Those without fibres cannot be.
 void draw_regions(PanelContext& on) {
   const std::vector<RegionCount>& regions = on.scene.info->regions;
   if (regions.size() < 2 || !section("REGIONS")) return;
@@ -126,17 +126,21 @@ void draw_regions(PanelContext& on) {
   std::vector<double> chosen = parse_regions(text);
   const auto taken = [&chosen](double number) { return std::ranges::find(chosen, number) != chosen.end(); };
   const bool all = chosen.empty();
+  const auto can_be = std::ranges::count(regions, false, &RegionCount::left_out);
   const bool scrolls = begin_list("##regions", regions.size(), 6.0F);
-  for (const auto& [number, elements] : regions) {
-    bool on_now = all || taken(number);
-    const std::string label = "region " + exact_number(number);
+  for (const auto& [number, elements, left_out] : regions) {
+    bool on_now = !left_out && (all || taken(number));
+    const std::string label = "region " + exact_number(number) + (left_out ? ", no fibres" : "");
+    ImGui::BeginDisabled(left_out);
     if (checkbox(label.c_str(), &on_now)) {
       if (all)
-        for (const RegionCount& each : regions) chosen.push_back(each.number);
+        for (const RegionCount& each : regions)
+          if (!each.left_out) chosen.push_back(each.number);
       std::erase(chosen, number);
       if (on_now) chosen.push_back(number);
-      if (!chosen.empty()) text = chosen.size() == regions.size() ? std::string() : regions_text(chosen);
+      if (!chosen.empty()) text = std::ssize(chosen) == can_be ? std::string() : regions_text(chosen);
     }
+    ImGui::EndDisabled();
     hint("%s", counted(elements, "element").c_str());
   }
   if (scrolls) ImGui::EndChild();

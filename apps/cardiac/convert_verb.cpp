@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -190,19 +191,43 @@ std::vector<bool> changing(const Task& task, const WrittenCells& cells, const Da
 /// Of each written element; both empty: the input has none.
 struct ElementDirections {
   std::vector<Vec3> fibres, sheets;
-  std::string note;  ///< elements without any
+  std::vector<std::string> notes;  ///< elements without any, and sheets that were turned
 
   /// @param ending of the file that they are written to.
   ElementDirections(const Task& task, const DataSet& first, const WrittenCells& cells,
                     const std::string& ending) {
     if (!task.heart) return;
     fibres = cells.directions(array_of(first, task.heart->fibre.array, task.heart->fibre.association));
-    if (!task.heart->sheet.array.empty())
+    if (!task.heart->sheet.array.empty()) {
       sheets = cells.directions(array_of(first, task.heart->sheet.array, task.heart->sheet.association));
+      // Means over an element's points are skew where these turn.
+      if (task.heart->sheet.association == Association::kPoint) stand_on_fibres();
+    }
     const auto without = as_size(std::count_if(fibres.begin(), fibres.end(), [](const Vec3& fibre) {
       return !(glm::length(fibre) > 0.0) || !is_finite(fibre);
     }));
-    if (without > 0) note = counted(without, "element") + " without a fibre: zeros in " + ending;
+    if (without > 0) notes.push_back(counted(without, "element") + " without a fibre: zeros in " + ending);
+  }
+
+ private:
+  void stand_on_fibres() {
+    constexpr double kSaid = 0.0871557427;  // sine of 5 degrees
+    constexpr double kParallel = 1e-6;
+    std::size_t turned = 0;
+    double most = 0.0;
+    for (std::size_t c = 0; c < sheets.size(); ++c) {
+      const double fibre = glm::length(fibres[c]), sheet = glm::length(sheets[c]);
+      if (!(fibre > 0.0 && sheet > 0.0)) continue;
+      const double sine = std::abs(glm::dot(fibres[c], sheets[c])) / (fibre * sheet);
+      const Vec3 across = sheets[c] - glm::dot(sheets[c], fibres[c]) / (fibre * fibre) * fibres[c];
+      sheets[c] = glm::length(across) > kParallel * sheet ? glm::normalize(across) : Vec3{0.0};
+      turned += sine > kSaid ? 1 : 0;
+      most = std::max(most, sine);
+    }
+    if (turned > 0)
+      notes.push_back("sheets of " + counted(turned, "element") + " turned by up to " +
+                      short_number(std::round(std::asin(std::min(most, 1.0)) * 180.0 / std::numbers::pi)) +
+                      " degrees to stand on the fibre: means over the element's points");
   }
 };
 
@@ -247,7 +272,7 @@ std::vector<std::filesystem::path> write_carp(const Task& given, const Document&
   out.write_mesh(cells.topology(), kMicrometres, regions.numbers);
   const ElementDirections directions(task, first, cells, ".lon");
   if (task.heart) out.write_directions(directions.fibres, directions.sheets);
-  if (!directions.note.empty()) context.console.note(directions.note);
+  for (const std::string& note : directions.notes) context.console.note(note);
   const std::vector<bool> changes = changing(task, cells, first, context.progress);
   std::vector<std::pair<std::size_t, std::size_t>> series;  // of a result, of the output
   for (std::size_t r = 0; r < task.results.size(); ++r) {
@@ -329,7 +354,7 @@ std::vector<std::filesystem::path> write_chaste(const Task& task, const Document
   const CarpRegions regions = regions_of(task, first, cells);
   if (!regions.note.empty()) context.console.note(regions.note);
   const ElementDirections directions(task, first, cells, ".ortho or .axi");
-  if (!directions.note.empty()) context.console.note(directions.note);
+  for (const std::string& note : directions.notes) context.console.note(note);
   return write_tetgen(options.output.file, cells.split().points, cells.split().tets,
                       {.regions = regions.numbers, .fibres = directions.fibres, .sheets = directions.sheets},
                       options.common.force);
@@ -353,7 +378,8 @@ ExitCode run_convert(const Document& options, const VerbContext& context) {
         options.output.file.empty()
             ? "convert needs an output: try --out heart.pts or --out heart.pvd"
             : options.output.file.string() +
-                  ": a heart is written as .pts (openCARP), .ele (Chaste, TetGen) or .pvd (VTK)");
+                  ": a heart is written as .pts (openCARP), .ele (Chaste, TetGen) or .pvd (VTK); EX files are "
+                  "read, and not written");
   Input input = open_input(options, context);
   if (!input.not_volume().empty())
     throw input_error({input.title(), "", input.not_volume(), "a mesh of the wall"});
@@ -387,7 +413,8 @@ Verb convert_verb(std::vector<UsageExample> examples) {
       .details =
           "NAME.pts keeps the elements of the file; results become NAME.RESULT.igb and NAME.RESULT.dat. "
           "NAME.pvd has tetrahedra, and so has NAME.ele, beside which NAME.node and, for Chaste, NAME.ortho or "
-          "NAME.axi lie, without results. All times are written, or the one of --time.",
+          "NAME.axi lie, without results. All times are written, or the one of --time. EX files are read, and not "
+          "written.",
       .groups = {Group::kInput, Group::kOut},
       .examples = std::move(examples),
       .run = run_convert};

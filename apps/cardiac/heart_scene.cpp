@@ -211,6 +211,7 @@ LayerGeometry make_layer_geometry(const LayeredHeart& heart, const Document& opt
   const double length = options.tracing.max_length;
   const auto places =
       make_seeds(parse_seeds(seeds), *depths.tet_mesh(), heart.frame(), depths.bounds(), options.common.seed);
+  layer.seeds = places.size();
   layer.fibres =
       trace_fibres(heart, places,
                    {.layer = layer.depth,

@@ -95,6 +95,7 @@ class AngleProbe {
 struct LayerGeometry {
   double depth = 0.0;
   FibreLineResult fibres;                          ///< its lines are in `lines`
+  std::size_t seeds = 0;                           ///< each with a line both ways
   std::shared_ptr<const std::vector<Line>> lines;  ///< cut
   std::shared_ptr<const IsosurfaceMesh> mesh;      ///< cut
 };

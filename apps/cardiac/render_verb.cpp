@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -88,7 +89,8 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   DrawnScene drawn;
   drawn.field = input.field_label();
   drawn.seconds_trace = layer.layer.fibres.seconds;
-  drawn.lines = layer.layer.lines->size();
+  drawn.lines = static_cast<std::size_t>(
+      std::ranges::count_if(*layer.layer.lines, [](const Line& line) { return line.points.size() > 1; }));
   drawn.points = layer.layer.fibres.points;
   drawn.what = counted(drawn.lines, "fibre");
   drawn.view = std::move(layer.view);

@@ -136,6 +136,8 @@ TEST_F(CardiacSession, ShowsTheWallAndTheFaceOfItsCut) {
   Progress progress;
   const SceneState whole = model.start(progress);
   ASSERT_EQ(whole.surfaces.size(), 3U) << "layer, inner and outer surface";
+  EXPECT_EQ(whole.seeds, 10U);
+  EXPECT_EQ(whole.lines->size(), 20U) << "each way";
   for (const std::size_t s : {1U, 2U}) {
     EXPECT_LT(whole.surfaces[s].opacity, 0.5) << "the layer is seen through it";
     const double lambda = s == 1 ? shape.lambda_inner : shape.lambda_outer;
@@ -146,6 +148,7 @@ TEST_F(CardiacSession, ShowsTheWallAndTheFaceOfItsCut) {
   document.heart.cut = "0,1,0,0";
   const SceneState half = model.update(document, progress);
   ASSERT_EQ(half.surfaces.size(), 4U) << "and the face of the cut";
+  EXPECT_EQ(half.seeds, 10U) << "whatever the cut leaves of their lines";
   const SurfaceView& face = half.surfaces[1];
   double area = 0.0;
   for (const auto& [a, b, c] : face.mesh->triangles) {
