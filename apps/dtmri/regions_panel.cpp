@@ -47,8 +47,35 @@ bool edit_length(const char* label, double& length) {
   return true;
 }
 
+/// The side of a plane that a region takes: that to which the plane's normal points, where that lies along an axis of
+/// the data. Another axis lays the plane through the crosshair, the other way along the same one leaves its place.
+/// @return whether it changed.
+bool choose_side(const std::string& label, const PanelContext& on, HalfSpace& beyond) {
+  static const std::vector<std::string> kPatient{"right", "left", "front", "back", "up", "down", "tilted"};
+  static const std::vector<std::string> kPlain{"x above", "x below", "y above", "y below",
+                                               "z above", "z below", "tilted"};
+  const std::vector<std::string>& words = on.view.anatomical ? kPatient : kPlain;
+  const auto normal_of = [](std::size_t side) {
+    Vec3 normal{0.0};
+    normal[static_cast<int>(side / 2)] = side % 2 == 0 ? 1.0 : -1.0;
+    return normal;
+  };
+  std::size_t now = 0;
+  while (now < 6 && normal_of(now) != beyond.normal) ++now;
+  std::string word = words[now];
+  // What is tilted is typed: it can be left, not chosen.
+  const bool chosen = choose_word(label.c_str(), word, {words.begin(), words.end() - (now < 6 ? 1 : 0)});
+  hint("of the plane, which the region takes; another axis lays the plane through the crosshair");
+  const auto side = as_size(std::ranges::find(words, word) - words.begin());
+  if (!chosen || side == now || side >= 6) return false;
+  const bool around = now < 6 && side / 2 == now / 2;
+  beyond.normal = normal_of(side);
+  beyond.offset = around ? 0.0 - beyond.offset : glm::dot(beyond.normal, on.view.tensors->position);
+  return true;
+}
+
 /// @return whether the shape changed.
-bool edit_shape(RegionShape& shape) {
+bool edit_shape(const std::string& number, const PanelContext& on, RegionShape& shape) {
   if (auto* const ball = std::get_if<Sphere>(&shape)) {
     const bool moved = edit_place("centre", ball->center);
     hint("of the ball, data coordinates");
@@ -68,13 +95,14 @@ bool edit_shape(RegionShape& shape) {
     return true;
   }
   if (auto* const beyond = std::get_if<HalfSpace>(&shape)) {
+    const bool sided = choose_side("side " + number, on, *beyond);
     Vec3 normal = beyond->normal;
     const bool turned = edit_place("normal", normal) && glm::length(normal) > 0.0;
     hint("of the plane; the region lies on the side to which it points");
     if (turned) beyond->normal = glm::normalize(normal);
     const bool moved = edit_length("offset", beyond->offset);
     hint("of the plane from the origin, along its normal");
-    return turned || moved;
+    return sided || turned || moved;
   }
   if (auto* const stroke = std::get_if<BrushStroke>(&shape)) {
     ImGui::TextDisabled("painted, %zu balls", stroke->centers.size());
@@ -93,7 +121,7 @@ const char* name_of(const RegionShape& shape) {
 }
 
 /// @return whether some region changed.
-bool edit_regions(std::vector<RegionEntry>& regions) {
+bool edit_regions(const PanelContext& on, std::vector<RegionEntry>& regions) {
   bool changed = false;
   std::optional<std::size_t> removed;
   for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -108,7 +136,7 @@ bool edit_regions(std::vector<RegionEntry>& regions) {
     choose_role(("role " + number).c_str(), regions[i].role);
     hint("seed: tracts begin in it; include: they enter it; exclude: they do not; stop: they end there");
     changed |= regions[i].role != before;
-    if (edit_shape(shape)) {
+    if (edit_shape(number, on, shape)) {
       regions[i].text = region_text(shape);
       changed = true;
     }
@@ -143,7 +171,7 @@ std::optional<RegionShape> draw_shapes(const TensorView& tensors) {
   hint("about the crosshair, six voxels wide");
   ImGui::SameLine();
   if (button("Beyond plane")) shape = HalfSpace{.normal = {1.0, 0.0, 0.0}, .offset = x.x};
-  hint("all that lies to the right of the crosshair (x above); its normal can be edited");
+  hint("all that lies to the right of the crosshair (x above); its side can be chosen");
   return shape;
 }
 
@@ -204,7 +232,7 @@ void draw_regions(RegionsPanel& panel, PanelContext& on) {
       changed = true;
     }
     if (brush != nullptr) draw_brush(*brush, *tensors.image);
-    changed |= edit_regions(regions);
+    changed |= edit_regions(on, regions);
     if (!regions.empty()) {
       input_text("regions file", &panel.file);
       hint(".csv: a row each; .nii.gz, .nrrd: an image with the sum of 1 seed, 2 include, 4 exclude, 8 stop");

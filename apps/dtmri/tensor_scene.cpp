@@ -22,6 +22,8 @@
 namespace palpate {
 namespace {
 
+constexpr std::string_view kLeftOut = "off:";  ///< before the place of a slice that is not shown
+
 /// The middle of what shows, on the centre of a voxel.
 Vec3 middle_of(const TensorVoxels& voxels) {
   const Index3 at = (voxels.first_shown + voxels.last_shown + 1) / 2;
@@ -112,27 +114,38 @@ SliceChoice parse_slices(const std::string& text) {
   const std::vector<std::string_view> parts = split(text, ',');
   bool good = parts.size() == 3;
   for (std::size_t axis = 0; good && axis < 3; ++axis) {
-    choice.shown[axis] = parts[axis] != "-";
-    if (!choice.shown[axis]) continue;
-    choice.position[axis] = number(parts[axis]);
+    std::string_view place = parts[axis];
+    choice.shown[axis] = place != "-" && !place.starts_with(kLeftOut);
+    if (place == "-") continue;
+    if (!choice.shown[axis]) place.remove_prefix(kLeftOut.size());
+    choice.position[axis] = number(place);
     good = choice.position[axis] && std::isfinite(*choice.position[axis]);
   }
   if (!good) {
-    throw usage_error("--slices " + text +
-                      ": all, none, or a place on each axis is expected, such as 0,-12.5,30, with '-' for a "
-                      "slice that is left out");
+    throw usage_error(
+        "--slices " + text +
+        ": all, none, or a place on each axis is expected, such as 0,-12.5,30, with '-' or off:30 for "
+        "a slice that is left out");
   }
   return choice;
 }
 
 std::string slices_text(const TensorView& view) {
-  if (std::none_of(view.slices.begin(), view.slices.end(), [](bool shown) { return shown; })) return "none";
+  const Vec3 middle = middle_of(*view.image);
+  const bool none = std::none_of(view.slices.begin(), view.slices.end(), [](bool shown) { return shown; });
+  if (none && view.position == middle) return "none";
   const std::array<int, 3> axes = slice_axes(view.image->axes);
   std::string text;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (axis > 0) text += ',';
+    const int a = static_cast<int>(axis);
     const bool shown = view.slices[static_cast<std::size_t>(axes[axis])];
-    text += shown ? exact_number(view.position[static_cast<int>(axis)]) : "-";
+    if (!shown && view.position[a] == middle[a]) {
+      text += '-';
+      continue;
+    }
+    if (!shown) text += kLeftOut;
+    text += exact_number(view.position[a]);
   }
   return text;
 }

@@ -55,7 +55,7 @@ struct SliceChoice {
 };
 
 /// "all", "none", or a place on each axis of the data with commas between; '-' in place of a number leaves
-/// the slice across that axis out.
+/// the slice across that axis out, "off:" before it does, too, but the crosshair goes there.
 /// @throws Error (usage).
 [[nodiscard]] SliceChoice parse_slices(const std::string& text);
 /// The view's slices as `--slices` says them.

@@ -199,12 +199,31 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   EXPECT_GT(all, 100U);
   show("bundles", 2);
 
-  // The left one goes through a ball high up, and does not cross the middle.
-  cross(-19.5, 16.0, 46.0);
+  // The corpus callosum reaches far into both halves. A tract beside it goes through a ball high up, and does not cross
+  // the middle.
+  const auto plane = [&](double x, const char* role, const char* side) {
+    cross(x, 16.0, 46.0);
+    choose("new region", role);
+    press("Beyond plane");
+    if (std::string(side) != "right") choose("side 2", side);
+  };
+  const auto clean = [&](const char* one) {
+    choose("edit", one);
+    press("Clean by regions");
+    press("Remove 2");
+    press("Remove 1");
+  };
+  plane(10.0, "include", "right");
+  plane(-10.0, "include", "left");
+  clean("1 bundle 1");
+  cross(22.0, 16.0, 46.0);
   press("Ball");
-  cross(-3.0, 16.0, 46.0);
-  choose("new region", "exclude");
-  press("Beyond plane");
+  plane(3.0, "exclude", "left");
+  clean("3 bundle 3");
+  cross(-19.5, 16.0, 46.0);
+  choose("new region", "include");
+  press("Ball");
+  plane(-3.0, "exclude", "right");
   key(kKeyS, kModifierControl);
   const WindowResult regions = open({"open", "--session", session});
   EXPECT_EQ(regions.document.tracts.include.size(), 1U);
@@ -226,8 +245,14 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
   key(kKeyS, kModifierControl);
   const WindowResult cleaned = open({"open", "--session", session});
   ASSERT_EQ(bundles(cleaned).size(), 3U);
-  EXPECT_NE(bundles(cleaned)[1].find("|keep=sphere:"), std::string::npos) << bundles(cleaned)[1];
-  EXPECT_NE(bundles(cleaned)[1].find("|drop=beyond:"), std::string::npos) << bundles(cleaned)[1];
+  const auto has = [&](std::size_t bundle, const char* step) {
+    EXPECT_NE(bundles(cleaned)[bundle].find(step), std::string::npos) << bundles(cleaned)[bundle];
+  };
+  has(0, "|keep=beyond:1,0,0,");
+  has(0, "|keep=beyond:-1,0,0,");
+  for (const std::size_t beside : {1U, 2U}) has(beside, "|keep=sphere:");
+  has(1, "|drop=beyond:1,0,0,");
+  has(2, "|drop=beyond:-1,0,0,");
   EXPECT_LT(shown(cleaned), all);
   EXPECT_TRUE(fs::exists(folder_.path("bundle_fa.csv")));
   std::size_t saved = 0;
@@ -239,9 +264,17 @@ TEST_F(DtmriBundles, OfAWholeHeadAreDrawnCleanedProfiledAndSaved) {
     ASSERT_EQ(trk.points.size(), trx.points.size());
     for (std::size_t p = 0; p < trx.points.size(); ++p)
       ASSERT_LT(glm::distance(trx.points[p], trk.points[p]), 1e-3F);
-    if (std::string(stem) != "bundle-2") continue;
-    EXPECT_GT(trx.line_count(), 5U);
-    for (const Vec3f& x : trx.points) ASSERT_LT(x.x, 0.0F) << "left of the middle";
+    EXPECT_GT(trx.line_count(), 5U) << stem;
+    for (std::size_t l = 0; l < trx.line_count(); ++l) {
+      const auto x = [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; };
+      const auto [left, right] = std::ranges::minmax_element(trx.line(l), x);
+      if (std::string(stem) == "bundle") {
+        EXPECT_TRUE(left->x < -9.0F && right->x > 9.0F) << "from one half into the other";
+      } else {
+        EXPECT_TRUE(std::string(stem) == "bundle-2" ? right->x < 0.0F : left->x > 0.0F)
+            << stem << " on its own side";
+      }
+    }
   }
   EXPECT_EQ(saved, shown(cleaned)) << "all that is seen";
   const WindowResult again = open({"open", "--session", session});

@@ -211,8 +211,9 @@ const Setting kViewRows[] = {
 
     {.name = "slices",
      .place = kTensorLookAt<&TensorOptions::slices>,
-     .help = "slices through the image: all (three through its middle), none, or where they lie on the axes "
-             "of the data, '-' for one that is left out",
+     .help =
+         "slices through the image: all (three through its middle), none, or where they lie on the axes "
+         "of the data, '-' for one that is left out, off:X for one that is left out but has the crosshair at X",
      .value = "X,Y,Z|all|none",
      .heading = "View",
      .groups = {Group::kView},

@@ -38,10 +38,14 @@ TEST(ParseSlices, KnowsAllNoneAndPlaces) {
   EXPECT_EQ(choice.position[0], 1.5);
   EXPECT_FALSE(choice.position[1]);
   EXPECT_EQ(choice.position[2], -20.0);
+  const SliceChoice left_out = parse_slices("off:1.5,-,-20");
+  EXPECT_EQ(left_out.shown, (std::array{false, false, true}));
+  EXPECT_EQ(left_out.position[0], 1.5);
 }
 
 TEST(ParseSlices, RefusesWhatIsNoPlace) {
-  for (const char* text : {"", "1,2", "1,2,3,4", "1,x,3", "nan,0,0", "inf,0,0", "All"})
+  for (const char* text :
+       {"", "1,2", "1,2,3,4", "1,x,3", "nan,0,0", "inf,0,0", "All", "off,0,0", "off:,0,0", "off:-,0,0"})
     EXPECT_THROW((void)parse_slices(text), Error) << text;
 }
 
@@ -71,12 +75,13 @@ TEST(MakeTensorView, RefusesAPlaceOutsideTheImage) {
 }
 
 TEST(SlicesText, ReadsBackToTheSameSlices) {
-  for (const char* text : {"4,-,-", "-,3.25,-2", "1,2,3", "none"}) {
+  for (const char* text : {"4,-,-", "-,3.25,-2", "1,2,3", "none", "off:4,-,1", "off:4,off:3.25,off:-2"}) {
     const TensorView view = make_tensor_view(permuted(), with_slices(text));
     const std::string saved = slices_text(view);
     EXPECT_EQ(saved, text);
     const TensorView again = make_tensor_view(permuted(), with_slices(saved));
     EXPECT_EQ(again.slices, view.slices) << text;
+    EXPECT_EQ(again.position, view.position) << text;
   }
 }
 
