@@ -134,6 +134,16 @@ std::string units_of(const Nrrd& nrrd, const std::string& length) {
   return units;
 }
 
+bool has_frame(const Nrrd& nrrd) { return nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); }
+
+/// Component c of a vector lies along its column c, in the header's space. The identity where there is none.
+Mat3 measurement_frame(const Nrrd& nrrd) {
+  Mat3 frame{1.0};
+  for (int c = 0; c < 3 && has_frame(nrrd); ++c)
+    for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
+  return frame;
+}
+
 /// What as many numbers are where tensors are asked for and their kind does not say.
 TupleKind kind_of_list(std::size_t size) {
   switch (size) {
@@ -177,7 +187,7 @@ class NrrdLoader : public Loader {
     info.notes.insert(info.notes.end(), place.notes.begin(), place.notes.end());
     info.times = nrrd_times(*nrrd, axes_, info.notes);
     const bool named = request.diffusion && request.diffusion->names_gradients();
-    describe_values(*nrrd, request.diffusion.has_value() && !named, info.notes);
+    describe_values(*nrrd, request.diffusion.has_value() && !named, info);
     if (named) take_named_gradients(*nrrd, *request.diffusion, info);
     if (request.diffusion && !named) describe_gradients(*nrrd, info);
 
@@ -191,7 +201,8 @@ class NrrdLoader : public Loader {
 
  private:
   /// Name and shape of the values, and whether they are vectors or tensors to be turned into RAS.
-  void describe_values(const Nrrd& nrrd, bool tensors, std::vector<std::string>& notes) {
+  void describe_values(const Nrrd& nrrd, bool tensors, FileInfo& info) {
+    std::vector<std::string>& notes = info.notes;
     array_.association = Association::kPoint;
     stored_type_ = scalar_type(nrrd.type, file_);
     array_.type = stored_type_;
@@ -211,6 +222,12 @@ class NrrdLoader : public Loader {
     kind_ = tuple_kind(axis.kind, axis.size);
     const bool weighted = nrrd_key(nrrd, "DWMRI_b-value") || nrrd_key(nrrd, "DWMRI_gradient_0000");
     if (tensors && kind_ == TupleKind::kNumbers && !weighted) {
+      if (axis.size == 6 && leave_open(nrrd, info)) {
+        array_.name = array_name(TupleKind::kSymmetric);
+        notes.push_back("6 numbers of a kind that says no more (" +
+                        std::string(airEnumStr(nrrdKind, axis.kind)) + ") taken for tensors");
+        return;
+      }
       kind_ = kind_of_list(axis.size);
       if (kind_ != TupleKind::kNumbers)
         notes.push_back(std::to_string(axis.size) + " numbers of a kind that says no more (" +
@@ -218,15 +235,11 @@ class NrrdLoader : public Loader {
     }
     array_.name = array_name(kind_);
     if (axis.kind == nrrdKindRGBColor || axis.kind == nrrdKindRGBAColor) array_.name = kColorArray;
-    const bool has_frame = nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]);
     if (kind_ == TupleKind::kNumbers) {
-      if (has_frame) notes.emplace_back(kUnturned);
+      if (has_frame(nrrd)) notes.emplace_back(kUnturned);
       return;
     }
-    // Component c of a vector lies along column c of the measurement frame, in the header's space.
-    for (int c = 0; c < 3 && has_frame; ++c) {
-      for (int r = 0; r < 3; ++r) turn_[c][r] = nrrd.measurementFrame[c][r];
-    }
+    turn_ = measurement_frame(nrrd);
     check_frame(notes);
     if (is_turn(turn_)) notes.emplace_back(kOwnFrame);
     for (int c = 0; c < 3; ++c) turn_[c] *= signs_;
@@ -236,6 +249,16 @@ class NrrdLoader : public Loader {
     notes.push_back(array_.name + " turned into RAS");
     const bool small = byte_size(stored_type_) <= 2 || stored_type_ == ScalarType::kFloat32;
     array_.type = small ? ScalarType::kFloat32 : ScalarType::kFloat64;
+  }
+
+  /// Whether tensors of an order that nobody states are left as they are stored: along axes that have a name, the values
+  /// themselves say which order is right.
+  bool leave_open(const Nrrd& nrrd, FileInfo& info) const {
+    const bool lps = signs_ == Vec3{-1.0, -1.0, 1.0};
+    if (measurement_frame(nrrd) != Mat3{1.0} || !(lps || signs_ == Vec3{1.0})) return false;
+    info.diffusion.layout = TensorLayout::kUnstated;
+    info.diffusion.frame = lps ? VectorFrame::kLps : VectorFrame::kScanner;
+    return true;
   }
 
   /// Axes in one plane would flatten what is measured along them.
@@ -269,10 +292,7 @@ class NrrdLoader : public Loader {
   void describe_gradients(const Nrrd& nrrd, FileInfo& info) {
     if (kind_ != TupleKind::kNumbers || !axes_.components) return;
     const NrrdKeys keys = [&nrrd](const std::string& key) { return nrrd_key(nrrd, key); };
-    Mat3 frame{1.0};
-    for (int c = 0; c < 3 && nrrd.spaceDim == 3 && !std::isnan(nrrd.measurementFrame[0][0]); ++c) {
-      for (int r = 0; r < 3; ++r) frame[c][r] = nrrd.measurementFrame[c][r];
-    }
+    Mat3 frame = measurement_frame(nrrd);
     const bool own_frame = is_turn(frame);
     if (frame == Mat3{1.0} && signs_ == Vec3{-1.0, -1.0, 1.0})
       info.diffusion.gradient_frame = VectorFrame::kLps;

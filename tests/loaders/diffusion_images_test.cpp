@@ -211,6 +211,61 @@ TEST(DiffusionNrrd, AppliesTheMeasurementFrameToListsOfSix) {
   EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-0.2 / 1.4, 0.0, 1.0}), 0.9995) << "LPS turned";
 }
 
+// Lists do not say their order. One tensor, in each of the three; and a frame of its own makes them NRRD's.
+TEST(DiffusionNrrd, FindsTheOrderOfListsOfSix) {
+  const TempFolder folder;
+  const std::string head =
+      "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 6 2 2 2\n"
+      "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: list space space space\nendian: little\n"
+      "encoding: raw\n\n";
+  // Along (2, -6, 3) / 7 in LPS; read in another order, some eigenvalue is below zero.
+  const double xx = 4.5, xy = -12.0, xz = 6.0, yy = 36.5, yz = -18.0, zz = 9.5;
+  for (const auto& six : {std::array{xx, xy, xz, yy, yz, zz}, std::array{xx, yy, zz, xy, xz, yz},
+                          std::array{xx, xy, yy, xz, yz, zz}}) {
+    std::string values;
+    for (int p = 0; p < 8; ++p) {
+      for (const double d : six) put(values, static_cast<float>(d));
+    }
+    folder.write("d.nrrd", head + values);
+    EXPECT_GT(along(first_tensor(folder.path("d.nrrd")), {-2.0, 6.0, 3.0}), 0.9995) << six[1] << six[2];
+  }
+  TensorSpec words;
+  words.order = "fsl";
+  EXPECT_LT(along(first_tensor(folder.path("d.nrrd"), words), {-2.0, 6.0, 3.0}), 0.9) << "as asked for";
+}
+
+// What is asked of a fit says that it does nothing where tensors are stored.
+TEST(StoredTensors, SayWhichOptionsMeanNothingToThem) {
+  const TempFolder folder;
+  std::string values;
+  for (int p = 0; p < 8; ++p) {
+    for (const float d : {0.3F, 0.0F, 0.2F, 0.4F, 0.0F, 1.7F}) put(values, d);
+  }
+  folder.write(
+      "d.nrrd",
+      "NRRD0005\ntype: float\ndimension: 4\nspace: left-posterior-superior\nsizes: 6 2 2 2\n"
+      "space directions: none (1,0,0) (0,1,0) (0,0,1)\nkinds: 3D-symmetric-matrix space space space\n"
+      "endian: little\nencoding: raw\n\n" +
+          values);
+  TensorSpec words;
+  words.mask = folder.write("mask.nii", "").string();
+  words.leave_out = "1";
+  words.max_b = 1000.0;
+  words.shell = "700";
+  words.bvec_length = "ignore";
+  words.fit = "ordinary";
+  words.negative = "zero";
+  words.order = "mrtrix";
+  std::string said;
+  for (const std::string& note : open(folder.path("d.nrrd"), words).load_tensor_image(1).notes)
+    said += note + "\n";
+  EXPECT_NE(
+      said.find("WARNING: --mask, --leave-out, --max-b, --shell, --bvec-length, --fit, --negative: of fits"),
+      std::string::npos)
+      << said;
+  EXPECT_NE(said.find("WARNING: --tensor-order"), std::string::npos) << said;
+}
+
 TEST(DiffusionNifti, HasTheHandednessThatItIsToldWhereTheHeaderHasNone) {
   const TempFolder folder;
   NiftiHeader header{.size = {3, 3, 3, 8}, .datatype = 16, .xyz_units = 2};

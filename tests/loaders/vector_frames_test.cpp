@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/error.h"
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/gradient_table.h"
@@ -110,6 +111,36 @@ TEST(VectorFrames, OfV1AreFoundWhereTheFileDoesNotSay) {
     EXPECT_LT(helix.degrees_off(made), 0.01);
     EXPECT_FALSE(made.orientation.suspicious) << made.orientation.advice;
   }
+}
+
+// The longest of three peaks, of another length in each voxel, with gaps of zero and of NaN; a series without its
+// gradients has as many volumes.
+TEST(VectorFrames, OfPeaksAreFoundAndTheLongestIsTaken) {
+  const TempFolder folder;
+  const ObliqueHelix helix;
+  const auto along = [&](std::size_t p) { return symmetric_eigen(helix.tensors[p]); };
+  const auto crossing = [](std::size_t p) { return p % 4 == 0; };
+  for (const Mat3& frame : {Mat3{1.0}, fsl_axes(helix.topology.axes)}) {
+    folder.write("peaks.nii", helix.image({9}, 0, [&](std::size_t p, int v) {
+      const SymmetricEigen found = along(p);
+      const bool fibre = found.values[0] > 2.0 * found.values[1];
+      if (!fibre || v >= 6) return v % 2 == 0 ? std::nan("") : 0.0;
+      const Vec3 second = crossing(p) ? 0.3 * found.vectors[1] : Vec3{0.0};
+      const double length = 0.5 + 0.1 * static_cast<double>(p % 3);
+      return v < 3 ? (glm::transpose(frame) * second)[v]
+                   : length * (glm::transpose(frame) * found.vectors[0])[v - 3];
+    }));
+    const TensorImage made = read_image(folder.path("peaks.nii"));
+    EXPECT_LT(helix.degrees_off(made), 0.01);
+    const auto note = std::ranges::find_if(
+        made.notes, [](const std::string& one) { return one.find("peaks, 3 a voxel") != std::string::npos; });
+    ASSERT_NE(note, made.notes.end());
+    EXPECT_NE(note->find("25 % of the voxels"), std::string::npos) << *note;
+  }
+  folder.write("dwi.nii", helix.image({9}, 0, [](std::size_t p, int v) {
+    return 100.0 + static_cast<double>((p + 7 * static_cast<std::size_t>(v)) % 50);
+  }));
+  EXPECT_THROW((void)read_image(folder.path("dwi.nii")), Error);
 }
 
 TEST(VectorFrames, OfSymmetricMatricesMayBeLps) {

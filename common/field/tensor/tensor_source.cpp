@@ -14,6 +14,12 @@ bool has_tensor_size(const ArrayInfo& array, TensorLayout layout) {
   return array.components == 6 || array.components == 7 || array.components == 9;
 }
 
+/// Directions x y z of one peak after another, as images of volumes hold them.
+bool has_peaks_size(const ArrayInfo& array, TensorLayout layout) {
+  return layout == TensorLayout::kUnstated && array.association == Association::kPoint &&
+         array.components % 3 == 0 && array.name != kSignalArray;
+}
+
 }  // namespace
 
 std::vector<TensorSource> tensor_sources(const std::vector<ArrayInfo>& arrays,
@@ -36,6 +42,13 @@ std::vector<TensorSource> tensor_sources(const std::vector<ArrayInfo>& arrays,
     sources.push_back({Kind::kEigenSet, {"V1", "V2", "V3", "L1", "L2", "L3"}, "eigenvectors"});
   if (has_signals) sources.push_back({Kind::kSignals, {kSignalArray}, "fit"});
   if (directions && has("FA", 1)) sources.push_back({Kind::kDirections, {"V1", "FA"}, "directions"});
+  // Six numbers may be two peaks: --field says so.
+  const bool others =
+      std::ranges::any_of(sources, [](const TensorSource& source) { return source.kind != Kind::kArray; });
+  for (const ArrayInfo& array : arrays) {
+    if (!others && has_peaks_size(array, diffusion.layout))
+      sources.push_back({Kind::kDirections, {array.name}, "peaks"});
+  }
   return sources;
 }
 
@@ -46,7 +59,7 @@ TensorSource choose_tensors(const std::vector<ArrayInfo>& arrays, const Diffusio
     throw input_error(
         {file, "", "has no tensors",
          "tensors (6, 7 or 9 numbers a point), diffusion-weighted volumes with their gradients, "
-         "or FSL's V1 with FA",
+         "FSL's V1 with FA, or peaks (3 numbers for each)",
          "for volumes in NIfTI name the gradients by --bval and --bvec"});
   }
   if (requested.empty()) return sources.front();

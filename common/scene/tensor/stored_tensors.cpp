@@ -155,7 +155,8 @@ std::vector<float> read_unstated(const DataArray& array, const UniformTopology& 
   if (wanted == StoredOrder::kAuto && most < kTensors)
     throw input_error(
         {file, "", "has six volumes that are positive tensors in no known order", "tensors",
-         "name the gradients of a diffusion-weighted series (--bval, --bvec), or --tensor-order"});
+         "name the gradients of a diffusion-weighted series (--bval, --bvec), or --tensor-order; --field peaks "
+         "takes them for two directions"});
   constexpr double kAsGood = 0.02;
   std::vector<float> best;
   FrameChoice chosen;
@@ -203,7 +204,12 @@ std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& sour
 /// A mean diffusivity that white and grey matter have [mm^2/s].
 constexpr double kMeanDiffusivity = 0.7e-3;
 
-/// With eigenvalues MD (1 + 2 t), MD (1 - t) twice, FA = sqrt(3 t^2 / (1 + 2 t^2)).
+/// With eigenvalues MD (1 + 2 t), MD (1 - t) twice, FA = sqrt(3 t^2 / (1 + 2 t^2)). @pre `unit` is of length 1.
+Mat3 tensor_along(const Vec3& unit, double fa) {
+  const double t = fa / std::sqrt(3.0 - 2.0 * fa * fa);
+  return kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
+}
+
 std::vector<float> from_directions(const DataSet& image, const TensorSource& source) {
   const DataArray& directions = *image.find(source.arrays[0], Association::kPoint);
   const DataArray& anisotropies = *image.find(source.arrays[1], Association::kPoint);
@@ -213,13 +219,64 @@ std::vector<float> from_directions(const DataSet& image, const TensorSource& sou
     const double length = glm::length(v);
     Mat3 tensor{0.0};
     if (length > 0.0 && std::isfinite(length)) {
-      const double fa = std::clamp(anisotropies.at(p), 0.0, 1.0);
-      const double t = fa / std::sqrt(3.0 - 2.0 * fa * fa);
-      const Vec3 unit = v / length;
-      tensor = kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
+      tensor = tensor_along(v / length, std::clamp(anisotropies.at(p), 0.0, 1.0));
     }
     store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
   }
+  return tensors;
+}
+
+/// The longest of the peaks of each voxel, and of how many voxels others are left aside.
+/// @throws Error (bad input) where the numbers are no directions.
+std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, std::string& what) {
+  std::vector<Vec3> longest(peaks.tuples, Vec3{0.0});
+  std::vector<double> lengths;
+  std::size_t several = 0, numbers = 0, negative = 0;
+  for (std::size_t p = 0; p < peaks.tuples; ++p) {
+    int found = 0;
+    for (int c = 0; c < peaks.components; c += 3) {
+      const Vec3 v{peaks.at(p, c), peaks.at(p, c + 1), peaks.at(p, c + 2)};
+      const double length = glm::length(v);
+      if (!(length > 0.0) || !std::isfinite(length)) continue;
+      ++found;
+      for (int axis = 0; axis < 3; ++axis) {
+        numbers += v[axis] != 0.0 ? 1 : 0;
+        negative += v[axis] < 0.0 ? 1 : 0;
+      }
+      if (length > glm::length(longest[p])) longest[p] = v;
+    }
+    if (found > 0) lengths.push_back(glm::length(longest[p]));
+    several += found > 1 ? 1 : 0;
+  }
+  // Signals are not below zero, directions are about as often as not: those of one hemisphere a third of the time.
+  constexpr double kLeastNegative = 0.05;
+  if (static_cast<double>(negative) < kLeastNegative * static_cast<double>(numbers) || lengths.empty()) {
+    throw input_error({file, "",
+                       "has " + std::to_string(peaks.components) +
+                           " volumes that are no directions: hardly a number is below zero",
+                       "peaks, tensors, or diffusion-weighted volumes with their gradients",
+                       "name the gradients by --bval and --bvec"});
+  }
+  const auto usual = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 99 / 100);
+  std::ranges::nth_element(lengths, usual);
+  constexpr double kAnisotropy = 0.8;
+  std::vector<float> tensors(6 * peaks.tuples);
+  for (std::size_t p = 0; p < peaks.tuples; ++p) {
+    const double length = glm::length(longest[p]);
+    const Mat3 tensor = length > 0.0
+                            ? tensor_along(longest[p] / length, kAnisotropy * std::min(1.0, length / *usual))
+                            : Mat3{0.0};
+    store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
+  }
+  const double share =
+      std::round(1000.0 * static_cast<double>(several) / static_cast<double>(lengths.size())) / 10.0;
+  what =
+      "directions alone (peaks, " + std::to_string(peaks.components / 3) +
+      " a voxel): tensors along the longest, with a mean diffusivity of 0.0007 mm^2/s and an FA of 0.8, less in "
+      "proportion where it is shorter than in the upper hundredth";
+  if (several > 0)
+    what += "; tracts follow it, others are left aside, in " + short_number(share) + " % of the voxels";
+  what += "; ";
   return tensors;
 }
 
@@ -237,11 +294,22 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
   const OpenFrame open{.asked = reading.frame, .stated = diffusion.frame};
   if (source.kind == TensorSource::Kind::kEigenSet || source.kind == TensorSource::Kind::kDirections) {
     const bool set = source.kind == TensorSource::Kind::kEigenSet;
-    std::vector<float> tensors = set ? from_eigen_set(image, source) : from_directions(image, source);
-    const FrameChoice choice = choose_frame(
-        tensors, topology, {VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps}, open, threads);
+    const bool peaks = !set && source.arrays.size() == 1;
+    std::string what;
+    std::vector<float> tensors =
+        set     ? from_eigen_set(image, source)
+        : peaks ? from_peaks(*image.find(source.arrays.front(), Association::kPoint), file, what)
+                : from_directions(image, source);
+    // Peaks are MRtrix's, which has them along the scanner's axes.
+    std::vector<VectorFrame> likely{VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps};
+    if (peaks) std::swap(likely[0], likely[1]);
+    const FrameChoice choice = choose_frame(tensors, topology, likely, open, threads);
     frame = choice.frame;
     turn_stored(matrix_of(frame, topology.axes), tensors);
+    if (peaks) {
+      notes.push_back(frame_note(what + "taken", choice));
+      return tensors;
+    }
     notes.push_back(
         frame_note(set ? "tensors put together from eigenvectors and eigenvalues,"
                        : "V1 and FA alone do not determine tensors: taken as alike across V1, with a "

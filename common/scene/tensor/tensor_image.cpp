@@ -80,6 +80,30 @@ void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn
   notes.push_back(std::move(warning));
 }
 
+/// What was asked for and means nothing here: of a fit where tensors are stored, of their order where it is no question.
+void say_unused(const TensorReading& reading, bool fits, bool order_open, std::vector<std::string>& notes) {
+  std::string unused;
+  const auto add = [&unused](bool asked, const char* option) {
+    if (asked) unused += (unused.empty() ? "" : ", ") + std::string(option);
+  };
+  if (!fits) {
+    const GradientChoice& gradients = reading.gradients;
+    add(!reading.mask_file.empty(), "--mask");
+    add(!gradients.left_out.empty(), "--leave-out");
+    add(std::isfinite(gradients.max_weighting), "--max-b");
+    add(!gradients.shells.empty(), "--shell");
+    add(!gradients.scale_by_length, "--bvec-length");
+    add(reading.fit.weights != FitOptions{}.weights, "--fit");
+    add(reading.fit.negative != FitOptions{}.negative, "--negative");
+  }
+  if (!unused.empty())
+    notes.push_back("WARNING: " + unused +
+                    ": of fits; the tensors of this file are taken as they are stored");
+  if (reading.order != StoredOrder::kAuto && !order_open)
+    notes.emplace_back(
+        "WARNING: --tensor-order: of six volumes in an order that the file leaves open; there are none here");
+}
+
 /// How many of the tensors have an eigenvalue below zero, of at most 20000 that are asked.
 void count_negative(const std::vector<float>& tensors, std::vector<std::string>& notes) {
   constexpr std::size_t kMostAsked = 20'000;
@@ -109,6 +133,8 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
   const bool as_stored =
       input.source.kind == TensorSource::Kind::kArray && input.diffusion.layout == TensorLayout::kData;
   const bool turned = !reading.turn.is_identity() || reading.frame;
+  say_unused(reading, input.source.kind == TensorSource::Kind::kSignals,
+             input.source.kind == TensorSource::Kind::kArray && !as_stored, result.notes);
   // The file's own numbers, in their own precision.
   const auto keep_stored = [&] {
     const DataArray& array = *result.image.find(input.source.arrays.front(), Association::kPoint);
