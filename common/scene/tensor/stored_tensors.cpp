@@ -243,7 +243,9 @@ std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, s
         numbers += v[axis] != 0.0 ? 1 : 0;
         negative += v[axis] < 0.0 ? 1 : 0;
       }
-      if (length > glm::length(longest[p])) longest[p] = v;
+      // Of those that are as long, but for rounding, the first: eigenvectors have one length often.
+      constexpr double kLonger = 1.0 + 1e-4;
+      if (length > kLonger * glm::length(longest[p])) longest[p] = v;
     }
     if (found > 0) lengths.push_back(glm::length(longest[p]));
     several += found > 1 ? 1 : 0;
