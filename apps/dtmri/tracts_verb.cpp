@@ -68,19 +68,21 @@ ExitCode reported(const VerbContext& context, const TractFitSummary& summary) {
   return ExitCode::kDone;
 }
 
-/// Bundles of a tractogram that no image goes with.
+/// A tractogram that no image goes with, or bundles of it.
 ExitCode run_alone(const Document& options, const VerbContext& context, Input& input) {
   const OutputOptions& output = options.output;
-  if (options.tract_appearance.bundles.empty() || !output.turn.empty())
+  if (!output.tracts.empty() || !output.turn.empty())
     throw usage_error(
         input.title() +
-        " holds tracts and no tensors that they could be held against: --bundle edits them alone");
-  const auto lattice = lattice_of_lines(read_tractogram(input.spec().files.front(), &context.progress).lines);
-  TractogramFile file = lines_of_bundles(options, context, nullptr, *lattice);
+        " holds tracts and no tensors that they could be held against: leave out --tracts and --turn");
+  TractogramFile file = read_tractogram(input.spec().files.front(), &context.progress);
+  const auto lattice = lattice_of_lines(file.lines);
+  const bool whole = options.tract_appearance.bundles.empty();
+  if (!whole) file = lines_of_bundles(options, context, nullptr, *lattice);
   TractFitSummary summary;
   summary.input = input.title();
-  summary.tracts = "bundles";
-  summary.notes = file.info.notes;
+  summary.tracts = whole ? input.title() : "bundles";
+  if (!whole) summary.notes = file.info.notes;  // else said when it was opened
   summary.lines = {file.lines.line_count(), file.lines.points.size(), lengths_of(file.lines)};
   if (!output.file.empty()) {
     file.lines.image = TractogramImage{lattice->points, lattice->axes, lattice->origin};
@@ -95,9 +97,8 @@ ExitCode run_alone(const Document& options, const VerbContext& context, Input& i
 ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   const std::vector<std::string>& bundles = options.tract_appearance.bundles;
-  if (options.output.tracts.empty() == bundles.empty())
-    throw usage_error(bundles.empty() ? "tracts needs lines: try --tracts tracts.tck"
-                                      : "give either --tracts, a file, or --bundle; not both");
+  if (!options.output.tracts.empty() && !bundles.empty())
+    throw usage_error("give either --tracts, a file, or --bundle; not both");
   for (const std::string& text : bundles) (void)parse_bundle(text);
   std::optional<TractTurn> turn;
   if (!options.output.turn.empty()) turn = parse_tract_turn(options.output.turn);
@@ -106,10 +107,12 @@ ExitCode run_tracts(const Document& options, const VerbContext& context) {
   if (!options.output.file.empty()) check_line_output(options.output.file, options.common.force);
   check_bundle_options(options);
 
-  TractogramFile file;
-  if (bundles.empty()) file = read_tractogram(options.output.tracts, &context.progress);
   Input input = open_input(options, context);
   if (role_of(input) == FileRole::kTracts) return run_alone(options, context, input);
+  if (options.output.tracts.empty() && bundles.empty())
+    throw usage_error("tracts needs lines: try --tracts tracts.tck");
+  TractogramFile file;
+  if (bundles.empty()) file = read_tractogram(options.output.tracts, &context.progress);
   const bool cones =
       (options.output.measure == name_of(TensorMeasure::kCone) && !options.output.profile.empty()) ||
       std::ranges::any_of(bundles, asks_for_cones);

@@ -80,6 +80,8 @@ Tractogram pack_lines(std::span<const DataSet> blocks) {
   for (const DataSet& block : blocks) {
     if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology))
       append_lines(block, *cells, lines);
+    else if (const auto* image = std::get_if<UniformTopology>(&block.topology))
+      lines.image = TractogramImage{image->points, image->axes, image->origin};
   }
   return lines;
 }

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
+#include "common/base/text.h"
 #include "common/geometry/tractogram.h"
 #include "common/load/gzip_head.h"
 #include "loaders/tract/tck_reader.h"
@@ -54,6 +55,7 @@ class TractLoader : public Loader {
     for (const auto& column : lines_.of_points) block.arrays.push_back(about(column, Association::kPoint));
     for (const auto& column : lines_.of_lines) block.arrays.push_back(about(column, Association::kCell));
     info.blocks.push_back(std::move(block));
+    describe_image(info);
     return info;
   }
 
@@ -82,6 +84,12 @@ class TractLoader : public Loader {
     }
     std::vector<DataSet> blocks;
     blocks.push_back(std::move(block));
+    if (lines_.image) {
+      DataSet image;
+      image.topology = UniformTopology{
+          .points = lines_.image->voxels, .origin = lines_.image->origin, .axes = lines_.image->axes};
+      blocks.push_back(std::move(image));
+    }
     return blocks;
   }
 
@@ -96,6 +104,36 @@ class TractLoader : public Loader {
       bytes = {reinterpret_cast<const char*>(unpacked.data()), unpacked.size()};
     }
     return format == Format::kTrk ? read_trk(file, bytes, notes) : read_tck(file, bytes, notes);
+  }
+
+  /// The image that the header places is a block without values, behind the lines.
+  void describe_image(FileInfo& info) {
+    if (!lines_.image) return;
+    constexpr double kMostVoxels = 0x1p30;
+    const Index3& points = lines_.image->voxels;
+    double voxels = 1.0;
+    for (int axis = 0; axis < 3; ++axis) voxels *= points[axis];
+    // Programs that know of no image write none, or one voxel.
+    if (voxels > kMostVoxels)
+      info.notes.push_back("the header's image, of " + short_number(voxels) + " voxels, is left aside");
+    if (voxels <= 1.0 || voxels > kMostVoxels) {
+      lines_.image.reset();
+      return;
+    }
+    BlockInfo block;
+    block.name = "image of the header";
+    block.grid = "uniform";
+    block.points = points;
+    block.point_count = static_cast<std::uint64_t>(voxels);
+    block.not_volume = "is the place of an image, without its values";
+    block.bounds = Box{};
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Vec3 index{0.0};
+      for (int axis = 0; axis < 3; ++axis)
+        index[axis] = (corner >> static_cast<unsigned>(axis) & 1U) != 0 ? points[axis] - 1.0 : 0.0;
+      block.bounds.include(lines_.image->origin + lines_.image->axes * index);
+    }
+    info.blocks.push_back(std::move(block));
   }
 
   /// What a gzip file holds, as far as it goes.

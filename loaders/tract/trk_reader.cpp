@@ -137,7 +137,10 @@ class TrkReader {
       if (count[axis] < 0) refuse("header, dim", "is negative");
     }
     std::string letters(bytes_.substr(offsetof(TrkHeader, voxel_order), 3));
-    if (letters[0] == '\0') letters = "LPS";  // TrackVis's own default
+    if (letters[0] == '\0') {
+      letters = "LPS";  // TrackVis's own default
+      notes_.emplace_back("the header states no voxel_order: LPS, TrackVis's own");
+    }
     const auto order = order_of(letters);
     if (!order) refuse("header, voxel_order", "names no three axes of the head", "RAS, LPS, …");
 
@@ -159,9 +162,18 @@ class TrkReader {
         image.axes[a][(*order)[axis].world] = (*order)[axis].positive ? size[a] : -size[a];
       }
       notes_.push_back(
-          "the file does not say where its image lies (vox_to_ras): its first voxel is put at the "
+          "WARNING: the file does not say where its image lies (vox_to_ras): its first voxel is put at the "
           "origin, with axes to " +
           letters);
+    }
+    for (int axis = 0; axis < 3 && placed; ++axis) {
+      constexpr double kRounding = 1e-2;
+      const double step = glm::length(image.axes[axis]);
+      if (std::abs(step - size[axis]) > kRounding * step && std::isfinite(step)) {
+        notes_.push_back("WARNING: voxel_size is " + short_number(size[axis]) + " mm along axis " +
+                         std::to_string(axis + 1) + ", but vox_to_ras has " + short_number(step) +
+                         " mm: tracts may be " + short_number(step / size[axis]) + " times too long");
+      }
     }
     check_axes(image);
 

@@ -48,6 +48,16 @@ TEST_F(DtmriBundles, AreEditedMeasuredAndWrittenWithoutAWindow) {
   }
   EXPECT_TRUE(fs::exists(folder_.path("p.csv")) && fs::exists(folder_.path("d.nii.gz")) &&
               fs::exists(folder_.path("m.nii.gz")));
+  // A tractogram alone, on the image that its header places.
+  const Json alone = json({"tracts", "both.trx", "--out", "alone.trk", "--density", "alone.nii.gz"});
+  EXPECT_EQ(alone["lengths"]["lines"].get<std::size_t>(), all + 1);
+  const auto image = read_tractogram(folder_.path("alone.trk")).lines.image;
+  ASSERT_TRUE(image && both.image);
+  EXPECT_EQ(image->voxels, both.image->voxels);
+  EXPECT_EQ(json({"info", "alone.nii.gz"})["blocks"][0]["size"],
+            json({"info", "d.nii.gz"})["blocks"][0]["size"]);
+  EXPECT_EQ(run({"tracts", "both.trx", "--tracts", "both.trx"}).exit_code, 2);
+  EXPECT_EQ(run({"tracts", "--example", "helix"}).exit_code, 2);
   const ProgramResult none = run({"tracts", "--example", "helix", "--bundle", traced + "|length=1e6,2e6"});
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_NE(none.err.find("no tract is left"), std::string::npos) << none.err;
