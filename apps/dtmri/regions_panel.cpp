@@ -33,7 +33,7 @@ void choose_role(const char* label, RegionRole& role) {
 /// @return whether it is another one, or the place is.
 bool edit_place(const char* label, Vec3& place) {
   std::array<double, 3> numbers{place.x, place.y, place.z};
-  input_numbers(label, numbers.data(), 3, "%.6g");
+  input_numbers(label, numbers.data(), 3, "%.4g");  // three in a row
   if (!ImGui::IsItemDeactivatedAfterEdit()) return false;
   place = {numbers[0], numbers[1], numbers[2]};
   return true;
@@ -181,7 +181,6 @@ void draw_brush(BrushControl& brush, const TensorVoxels& voxels) {
   if (brush.radius < kLeast * edge || brush.radius > kMost * edge) brush.radius = kUsual * edge;
   checkbox("brush", &brush.on);
   hint("a left drag over a slice paints a region there; slices are shown by S");
-  ImGui::SameLine();
   slider("brush radius", brush.radius, kLeast * edge, kMost * edge, "%.3g");
   hint("in units of the data");
 }
