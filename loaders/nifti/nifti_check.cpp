@@ -104,6 +104,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     offset = static_cast<double>(bytes.at<float>(108));
     claims.intercept = static_cast<double>(bytes.at<float>(116));
     claims.qform = qform_at<float>(bytes, 256, 76);
+    claims.time_step = static_cast<double>(bytes.at<float>(92));
   } else {
     if (head.size() < as_size(kBytes2)) return failed("ends within its header");
     const std::string_view magic = head.substr(4, 4);
@@ -116,6 +117,7 @@ NiftiClaims read_nifti_claims(std::string_view head) {
     offset = static_cast<double>(bytes.at<std::int64_t>(168));
     claims.intercept = bytes.at<double>(184);
     claims.qform = qform_at<double>(bytes, 352, 104);
+    claims.time_step = bytes.at<double>(136);
   }
   constexpr int kBinary = 1;
   claims.bits = claims.datatype == kBinary;

@@ -29,6 +29,7 @@ struct NiftiClaims {
   std::uint64_t offset = 0;         ///< of the first voxel in its file
   std::uint64_t stated_offset = 0;  ///< the same as it stands in the header
   double intercept = 0.0;           ///< as it stands in the header, finite or not
+  double time_step = 0.0;           ///< likewise, which niftilib takes for 1 where it is none
   NiftiQform qform;
   bool packed = false;  ///< the header's file is a gzip file; set by check_nifti()
   std::string problem;  ///< what is wrong, or empty

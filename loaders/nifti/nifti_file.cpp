@@ -140,7 +140,7 @@ struct NiftiFile::Image {
     place.notes.insert(place.notes.begin(), place_.notes.begin(), place_.notes.end());
     place_ = std::move(place);
     note_rest(claims);
-    describe_values(fourth_axis);
+    describe_values(fourth_axis, claims.time_step);
     if (scaled_ && !std::isfinite(claims.intercept))
       place_.notes.emplace_back("WARNING: the header's intercept (scl_inter) is no number: taken for 0");
   }
@@ -183,7 +183,7 @@ struct NiftiFile::Image {
   }
 
   /// Name and shape of the values, time steps, and what becomes of slope and intercept.
-  void describe_values(FourthAxis fourth_axis) {
+  void describe_values(FourthAxis fourth_axis, double time_step) {
     const nifti_image& image = *image_;
     stored_ = voxel_of(image.datatype, file_);
     const auto along = [&image](int axis) {
@@ -222,12 +222,14 @@ struct NiftiFile::Image {
       place_.notes.push_back("values are " + short_number(slope_) + " times the stored ones plus " +
                              short_number(intercept_) + ", as the header says");
     }
-    if (steps_ > 1) describe_times();
+    if (steps_ > 1) describe_times(time_step);
   }
 
-  void describe_times() {
+  /// @param stated as it stands in the header.
+  void describe_times(double stated) {
     const nifti_image& image = *image_;
-    const double dt = image.dt > 0.0 && std::isfinite(image.dt) ? image.dt : 1.0;
+    const bool known = stated > 0.0 && std::isfinite(stated);
+    const double dt = known ? stated : 1.0;
     const double start = std::isfinite(image.toffset) ? image.toffset : 0.0;
     for (std::int64_t t = 0; t < steps_; ++t) times_.push_back(start + dt * static_cast<double>(t));
     const char* const unit = image.time_units == NIFTI_UNITS_MSEC   ? "ms"
@@ -236,7 +238,14 @@ struct NiftiFile::Image {
                              : image.time_units == NIFTI_UNITS_PPM  ? "ppm"
                              : image.time_units == NIFTI_UNITS_RADS ? "rad/s"
                                                                     : "";
-    if (*unit != '\0') place_.notes.push_back(std::string("times in ") + unit + ", as the header says");
+    if (!known) {
+      place_.notes.push_back("WARNING: the header states no time step (pixdim[4] is " + short_number(stated) +
+                             "): " + counted(as_size(steps_), "time step") + " counted, one apart");
+    } else if (*unit != '\0') {
+      place_.notes.push_back(std::string("times in ") + unit + ", as the header says");
+    } else if (image.time_units != NIFTI_UNITS_SEC) {
+      place_.notes.emplace_back("the header does not say in which unit its times are (xyzt_units)");
+    }
   }
 
   /// The stored numbers of volume `index` (time step + steps * component), in this machine's byte order.

@@ -368,9 +368,20 @@ TEST(Nifti, TheFourthAxisIsTimeAndTheFifthHoldsComponents) {
     return std::any_of(notes.begin(), notes.end(),
                        [&](const std::string& note) { return note.find(words) != std::string::npos; });
   };
-  EXPECT_FALSE(said("times in "));
+  EXPECT_FALSE(said("times in ms"));
   header.xyz_units = 2 + 16;  // millimetres and milliseconds
   EXPECT_TRUE(said("times in ms, as the header says"));
+  header.xyz_units = 2;
+  EXPECT_TRUE(said("does not say in which unit its times are"));
+  header.xyz_units = 2 + 8;  // seconds
+  EXPECT_FALSE(said("unit"));
+  // Steps that nobody states are counted, in a WARNING; the library has them one apart without a word.
+  EXPECT_FALSE(said("WARNING"));
+  for (const double step : {0.0, -2.0, std::numeric_limits<double>::quiet_NaN()}) {
+    header.pixdim[3] = step;
+    EXPECT_TRUE(said("WARNING: the header states no time step")) << step;
+    EXPECT_FALSE(said("times in ")) << step;
+  }
 
   header.size = {2, 2, 2, 2, 3};
   Source vectors = Source::open(
