@@ -300,10 +300,37 @@ std::pair<double, double> range_of(const DicomFrame& frame) noexcept {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// The least and the largest number that it does hold, rescaled; those that it may hold where its pixels are packed or
-/// have bits beside them.
-std::pair<double, double> range_within(const DicomFrame& frame) {
-  if (!is_plain(frame)) return range_of(frame);
+/// A file whose frames were decoded last.
+struct DecodedFile {
+  std::string file;
+  Pixels pixels;
+};
+
+/// The least and the largest number of a frame that is packed, of another byte order or with bits beside its numbers: it is
+/// decoded for it.
+std::pair<double, double> range_of_decoded(const DicomSeries& series, const DicomFrame& frame,
+                                           DecodedFile& decoded) {
+  if (decoded.file != frame.file) {
+    std::size_t frames = 1;
+    for (const DicomFrame& other : series.frames)
+      if (other.file == frame.file) frames = std::max(frames, other.number + 1);
+    decoded = {frame.file, pixels_of(frame, frames)};
+  }
+  const Pixels& pixels = decoded.pixels;
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  visit(frame, pixels, [&](std::size_t, auto number) {
+    const double value = frame.slope * static_cast<double>(number) + frame.intercept;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  });
+  return {least, most};
+}
+
+/// The least and the largest number that it does hold, rescaled; of a table those that it may.
+std::pair<double, double> range_within(const DicomSeries& series, const DicomFrame& frame,
+                                       DecodedFile& decoded) {
+  if (frame.table) return range_of(frame);
+  if (!is_plain(frame)) return range_of_decoded(series, frame, decoded);
   const MappedFile mapped(frame.file);
   const std::string_view numbers = plain_bytes(frame, mapped);
   const auto of = [&]<typename T>(T) {
@@ -347,8 +374,9 @@ ScalarType dicom_value_type(const DicomSeries& series) {
     const bool small = whole && !missing;
     if (small && !fits_int16(low, high) && !fits_uint16(low, high)) {
       low = HUGE_VAL, high = -HUGE_VAL;
+      DecodedFile decoded;
       for (const DicomFrame& frame : series.frames) {
-        const auto [least, most] = range_within(frame);
+        const auto [least, most] = range_within(series, frame, decoded);
         low = std::min(low, least), high = std::max(high, most);
         if (!fits_int16(low, high) && !fits_uint16(low, high)) break;
       }

@@ -30,9 +30,10 @@ TEST_F(DicomTest, RescalesAndExtendsTheSign) {
 }
 
 // A CT as scanners write it, 16 bits with a sign and an intercept of -1024, might hold -33792: where it does not, its
-// voxels are whole numbers of 16 bits.
+// voxels are whole numbers of 16 bits, packed ones and those of the other byte order too.
 TEST_F(DicomTest, NumbersThatFitStayWholeNumbers) {
-  for (const bool far : {false, true}) {
+  for (const int kind : {0, 1, 2, 3, 4, 5}) {
+    const bool far = kind % 2 != 0, packed = kind / 2 == 1, big = kind / 2 == 2;
     const TempFolder folder;
     for (int k : {2, 0, 3, 1}) {
       DicomImage image = slice(k);
@@ -40,11 +41,18 @@ TEST_F(DicomTest, NumbersThatFitStayWholeNumbers) {
       image.slope = 1.0;
       image.intercept = -1024.0;
       if (far && k == 3) image.pixels[5] = 0x8000;
-      (void)folder.write("im" + std::to_string(k), image.bytes());
+      if (packed) {
+        image.syntax = "1.2.840.10008.1.2.5";
+        image.pixel_bytes = rle_pixels(image.pixels);
+      }
+      if (big) image.syntax = "1.2.840.10008.1.2.2";
+      const std::string start = dicom_preamble() + image.meta();
+      (void)folder.write("im" + std::to_string(k),
+                         big ? start + retyped(image.elements(), true) : image.bytes());
     }
     Source source = open(folder.path());
     const DataSet block = source.read({"scalars"}).front();
-    EXPECT_EQ(block.arrays.front().type, far ? ScalarType::kFloat32 : ScalarType::kInt16);
+    EXPECT_EQ(block.arrays.front().type, far ? ScalarType::kFloat32 : ScalarType::kInt16) << kind;
     if (!far) {
       expect_truth(block, -1024.0);
     } else {
