@@ -189,6 +189,24 @@ std::optional<ImageHeader> said_by_nrrd(std::string_view text) {
   return finish();
 }
 
+/// Whether the start of a MetaImage or of one of VTK's XML says that its voxels are packed.
+bool states_packing(std::string_view head) {
+  const std::size_t tag = head.find("<VTKFile");
+  if (tag != std::string_view::npos)
+    return head.substr(tag, head.find('>', tag) - tag).find("compressor=") != std::string_view::npos;
+  const std::string_view fields = head.substr(0, head.find("ElementDataFile"));
+  constexpr std::string_view kKey = "CompressedData";
+  std::size_t at = fields.find(kKey);
+  while (at != std::string_view::npos) {
+    const std::size_t value = fields.find_first_not_of(" \t=:", at + kKey.size());
+    if (value == std::string_view::npos) return false;
+    if (value > at + kKey.size())  // not CompressedDataSize
+      return std::string_view("Tt1").find(fields[value]) != std::string_view::npos;
+    at = fields.find(kKey, value);
+  }
+  return false;
+}
+
 }  // namespace
 
 ImageHeader ImageHeader::of_others() const {
@@ -212,6 +230,7 @@ std::optional<ImageHeader> read_image_header(const std::filesystem::path& file) 
     if (nrrd && head.file_size > head.bytes.size())  // a line may be cut
       head.bytes.resize(std::min(head.bytes.size(), head.bytes.rfind('\n') + 1));
     auto header = nrrd ? said_by_nrrd(head.bytes) : said_by_nifti(head.bytes);
+    if (!header && states_packing(head.bytes)) header.emplace().packed = true;
     if (header) header->packed = header->packed || packed;
     return header;
   } catch (const Error&) {

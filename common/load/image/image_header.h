@@ -12,7 +12,8 @@
 
 namespace palpate {
 
-/// The words are NIfTI's (nifti1.h); of NRRD there are the description, labels, pairs, and whether the voxels are packed.
+/// The words are NIfTI's (nifti1.h); of NRRD there are the description, labels, pairs, and whether the voxels are packed;
+/// of packed MetaImages and VTK's XML that they are.
 struct ImageHeader {
   /// How stored numbers become values: slope * number + intercept.
   struct Scaling {
@@ -46,7 +47,8 @@ struct ImageHeader {
   [[nodiscard]] ImageHeader of_others() const;
 };
 
-/// Of a NIfTI or NRRD file; nothing of any other, of a folder, and of what cannot be read.
+/// Of a NIfTI or NRRD file, and of a packed MetaImage or one of VTK's XML; nothing of any other, of a folder, and of what
+/// cannot be read.
 [[nodiscard]] std::optional<ImageHeader> read_image_header(const std::filesystem::path& file);
 
 }  // namespace palpate

@@ -19,6 +19,8 @@
 #include "common/field/tensor/gradient_table.h"
 #include "common/load/write/image_origin.h"
 #include "common/load/write/nifti_head.h"
+#include "common/load/write/packed_appendix.h"
+#include "common/load/write/vtp_appendix.h"
 #include "common/math/lattice.h"
 #include "common/math/vec_text.h"
 
@@ -110,7 +112,7 @@ std::string on_one_line(std::string text) {
 
 std::string vector_text(const Vec3& v) { return "(" + exact_text(v) + ")"; }
 
-/// Whether NRRD's voxels are packed: as those were that the image is made of.
+/// Whether voxels of NRRD and VTK are packed: as those were that the image is made of.
 bool packs(const ImageOrigin& origin) { return origin.header && origin.header->packed; }
 
 std::string nrrd_header(const UniformTopology& topology, const Stored& stored, const ImageOrigin& origin) {
@@ -228,8 +230,9 @@ void write_nrrd(Sink& sink, const UniformTopology& topology, ImageContent conten
   sink.write({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float)});
 }
 
-/// VTK XML, ImageData, raw appended data. Its Direction has the unit axes as columns.
-std::string vti_head(const UniformTopology& topology, const Stored& stored) {
+/// VTK XML, ImageData, appended data. Its Direction has the unit axes as columns.
+void write_vti(Sink& sink, const UniformTopology& topology, const Stored& stored,
+               std::span<const std::byte> bytes, bool packed) {
   const ImageContent content = stored.content;
   std::string extent, spacing, direction, name;
   for (int axis = 0; axis < 3; ++axis) {
@@ -249,21 +252,31 @@ std::string vti_head(const UniformTopology& topology, const Stored& stored) {
   name = content == ImageContent::kTensor   ? "tensors"
          : content == ImageContent::kVector ? "vectors"
                                             : "scalars";
-  return "<?xml version=\"1.0\"?>\n"
-         "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-         "<ImageData WholeExtent=\"" +
-         extent + "\" Origin=\"" + exact_number(topology.origin.x) + " " + exact_number(topology.origin.y) +
-         " " + exact_number(topology.origin.z) + "\" Spacing=\"" + spacing + "\" Direction=\"" + direction +
-         "\">\n<Piece Extent=\"" + extent + "\">\n<PointData " + role + "=\"" + name +
-         "\">\n<DataArray type=\"" + names_of(stored.type).vtk + "\" Name=\"" + name +
-         "\" NumberOfComponents=\"" + std::to_string(stored.components) +
-         "\" format=\"appended\" offset=\"0\"/>\n</PointData>\n</Piece>\n</ImageData>\n"
-         "<AppendedData encoding=\"raw\">\n_";
+  const char* const type = names_of(stored.type).vtk;
+  PackedAppendix packed_bytes;
+  VtpAppendix plain_bytes;
+  const std::string array = packed ? packed_bytes.declare(type, name, stored.components, bytes)
+                                   : plain_bytes.declare(type, name, stored.components, bytes.size());
+  sink.write(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\" version=\"1.0\" "
+                         "byte_order=\"LittleEndian\" header_type=\"UInt64\"") +
+             (packed ? " compressor=\"vtkZLibDataCompressor\"" : "") + ">\n<ImageData WholeExtent=\"" +
+             extent + "\" Origin=\"" + exact_number(topology.origin.x) + " " +
+             exact_number(topology.origin.y) + " " + exact_number(topology.origin.z) + "\" Spacing=\"" +
+             spacing + "\" Direction=\"" + direction + "\">\n<Piece Extent=\"" + extent + "\">\n<PointData " +
+             role + "=\"" + name + "\">\n" + array +
+             "</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_");
+  if (packed) {
+    sink.write(packed_bytes.bytes());
+  } else {
+    const std::uint64_t size = bytes.size();
+    sink.write({reinterpret_cast<const char*>(&size), sizeof size});
+    sink.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  sink.write("\n</AppendedData>\n</VTKFile>\n");
 }
 
 void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content,
-               std::span<const float> values) {
-  sink.write(vti_head(topology, stored_as(content)));
+               std::span<const float> values, bool packed) {
   std::string bytes;
   if (content == ImageContent::kColor) {
     bytes.resize(values.size());
@@ -282,10 +295,7 @@ void write_vti(Sink& sink, const UniformTopology& topology, ImageContent content
     }
     bytes.assign(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(float));
   }
-  const std::uint64_t size = bytes.size();
-  sink.write({reinterpret_cast<const char*>(&size), sizeof size});
-  sink.write(bytes);
-  sink.write("\n</AppendedData>\n</VTKFile>\n");
+  write_vti(sink, topology, stored_as(content), std::as_bytes(std::span(bytes)), packed);
 }
 
 void check_size(const std::filesystem::path& path, Ending ending, const Index3& n) {
@@ -326,7 +336,7 @@ std::vector<std::string> write_image(const std::filesystem::path& path, const Un
   if (ending == Ending::kNrrd) {
     write_nrrd(sink, topology, content, values, origin);
   } else if (ending == Ending::kVti) {
-    write_vti(sink, topology, content, values);
+    write_vti(sink, topology, content, values, packs(origin));
   } else {
     write_nifti(sink, topology, content, values, convention, origin, lost);
   }
@@ -352,11 +362,7 @@ std::vector<std::string> write_image(const std::filesystem::path& path, const Un
     if (packs(origin)) sink.pack_from_here();
     sink.write(bytes);
   } else if (ending == Ending::kVti) {
-    const std::uint64_t size = bytes.size();
-    sink.write(vti_head(topology, stored));
-    sink.write({reinterpret_cast<const char*>(&size), sizeof size});
-    sink.write(bytes);
-    sink.write("\n</AppendedData>\n</VTKFile>\n");
+    write_vti(sink, topology, stored, values.bytes, packs(origin));
   } else {
     const ImageHeader header = header_of(origin);
     const std::optional<DataArray> unscaled =

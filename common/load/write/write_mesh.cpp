@@ -6,13 +6,12 @@
 #include <string>
 #include <string_view>
 
-#include <zlib.h>
-
 #include "common/base/check.h"
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
 #include "common/base/text.h"
 #include "common/load/load.h"
+#include "common/load/write/packed_appendix.h"
 #include "common/load/write/write_tractogram.h"
 #include "common/math/vec_text.h"
 
@@ -21,56 +20,11 @@ namespace {
 
 constexpr std::uint8_t kTetrahedron = 10;  // VTK's number
 
-/// Appended data packed by zlib in blocks (https://docs.vtk.org, "VTK XML formats"): before each array stand the counts of
-/// blocks, of bytes in a block and in the last one where that is not full, and the packed bytes of each.
-class PackedArrays {
- public:
-  /// The element of an array. @param type "Float64".
-  template <typename T>
-  [[nodiscard]] std::string declare(const char* type, std::string_view name, int components,
-                                    const std::vector<T>& values) {
-    std::string text = appendix_text(type, name, components);
-    pack(std::as_bytes(std::span(values)));
-    return text;
-  }
-  void write(OutputFile& file) const { file.write(bytes_); }
-
- private:
-  static constexpr std::size_t kBlock = std::size_t{1} << 20;
-
-  [[nodiscard]] std::string appendix_text(const char* type, std::string_view name, int components) const {
-    return std::string("<DataArray type=\"") + type + "\" Name=\"" + std::string(name) +
-           "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
-           std::to_string(bytes_.size()) + "\"/>\n";
-  }
-  void pack(std::span<const std::byte> array) {
-    const std::uint64_t blocks = (array.size() + kBlock - 1) / kBlock;
-    std::vector<std::uint64_t> head{blocks, kBlock, array.size() % kBlock};
-    std::string packed;
-    for (std::size_t first = 0; first < array.size(); first += kBlock) {
-      const auto block = array.subspan(first, std::min(kBlock, array.size() - first));
-      uLongf size = compressBound(static_cast<uLong>(block.size()));
-      const std::size_t before = packed.size();
-      packed.resize(before + size);
-      const int result = compress2(reinterpret_cast<Bytef*>(packed.data() + before), &size,
-                                   reinterpret_cast<const Bytef*>(block.data()),
-                                   static_cast<uLong>(block.size()), Z_BEST_SPEED);
-      PALPATE_CHECK(result == Z_OK);  // the room is what zlib asks for
-      packed.resize(before + size);
-      head.push_back(size);
-    }
-    bytes_.append(reinterpret_cast<const char*>(head.data()), head.size() * sizeof(std::uint64_t));
-    bytes_ += packed;
-  }
-
-  std::string bytes_;
-};
-
 /// VTK XML, UnstructuredGrid, packed appended data.
 void write_vtu(OutputFile& file, std::span<const Vec3> points,
                std::span<const std::array<std::uint32_t, 4>> cells, std::span<const MeshColumn> columns,
                const std::optional<Vec3>& long_axis) {
-  PackedArrays arrays;
+  PackedAppendix arrays;
   std::string head =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
@@ -104,7 +58,7 @@ void write_vtu(OutputFile& file, std::span<const Vec3> points,
   head += arrays.declare("UInt8", "types", 1, std::vector<std::uint8_t>(cells.size(), kTetrahedron));
   head += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   file.write(head);
-  arrays.write(file);
+  file.write(arrays.bytes());
   file.write("\n</AppendedData>\n</VTKFile>\n");
 }
 

@@ -324,6 +324,35 @@ TEST(WriteImage, PairsUnitsAndLabelsAreSaidAgain) {
   EXPECT_EQ(read_file(folder.path("b.nrrd")).find("sample units"), std::string::npos);
 }
 
+// Files of VTK, too. What a MetaImage says of that is heard.
+TEST(WriteImage, VtiIsPackedAsTheInputWas) {
+  const TempFolder folder;
+  std::vector<float> values(kVoxels);
+  for (std::size_t i = 0; i < kVoxels; ++i) values[i] = static_cast<float>(i);
+  const std::string fields = "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\nElementType = MET_UCHAR\n";
+  const auto meta = [&](const std::string& said) {
+    const auto header = read_image_header(
+        folder.write("a.mha", fields + said + "\nElementDataFile = LOCAL\nCompressedData = True"));
+    return header && header->packed;
+  };
+  EXPECT_TRUE(meta("CompressedData = True"));
+  EXPECT_TRUE(meta("CompressedDataSize = 20\nCompressedData=True"));
+  EXPECT_FALSE(meta("CompressedData = False"));
+  EXPECT_FALSE(meta("CompressedDataSize = 1"));
+  for (const bool packed : {false, true}) {
+    const ImageHeader header{.description = {}, .packed = packed};
+    write_image(folder.path("a.vti"), grid(false), ImageContent::kScalar, values, ImageConvention::kMrtrix,
+                true, {.space = ImageSpace::kPatient, .header = header});
+    EXPECT_EQ(read_file(folder.path("a.vti")).find("compressor=") != std::string::npos, packed);
+    const auto said = read_image_header(folder.path("a.vti"));
+    EXPECT_EQ(said && said->packed, packed);
+    Input input = open(folder.path("a.vti"), FieldKind::kScalar);
+    const DataSet image = input.read({input.arrays().front().name}).front();
+    for (std::size_t i = 0; i < kVoxels; ++i)
+      ASSERT_EQ(image.arrays.front().at(i), static_cast<double>(i)) << packed;
+  }
+}
+
 // NRRD files are packed where the input was, and keep its description.
 TEST(WriteImage, NrrdIsPackedAsTheInputWas) {
   const TempFolder folder;
