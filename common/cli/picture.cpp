@@ -116,16 +116,22 @@ void tell(const RenderSummary& summary, const DrawnScene& drawn, const RenderedI
                   " of the volume are looked up and held, in a pool of " +
                   std::to_string(bricks.bytes >> 20U) + " MB\n");
   }
-  if (const auto& n = rendered.coarser_voxels) {
+  if (const auto& coarser = rendered.coarser_voxels) {
+    const Index3& n = coarser->points;
     std::string error;
     if (rendered.error && rendered.error->of_asked_voxels)
       error = "; root mean square of the picture's error " + short_number(rendered.error->rms) +
               " of full scale, worst " + short_number(rendered.error->worst);
     if (rendered.error && !rendered.error->of_asked_voxels)
       error = "; what they hide is not known: not even those of one ray fit";
-    console.note("drawn from " + std::to_string(n->x) + " x " + std::to_string(n->y) + " x " +
-                 std::to_string(n->z) +
+    console.note("drawn from " + std::to_string(n.x) + " x " + std::to_string(n.y) + " x " +
+                 std::to_string(n.z) +
                  " voxels, each the mean of several: finer ones do not fit --gpu-memory" + error);
+    if (coarser->hidden > 0.0)
+      console.note(
+          "WARNING: thin things are lost in these means: of the parts of the volume that show something " +
+          short_number(std::round(1e3 * coarser->hidden) / 10.0) +
+          " % or more are clear in this picture; a larger --gpu-memory shows them");
   }
   console.print(stereo_text(drawn.view));
   if (drawn.view.volume) {

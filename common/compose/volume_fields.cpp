@@ -93,8 +93,10 @@ std::vector<std::string> secondary_names(const Input& input, const VolumeOptions
 std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options, Progress* progress,
                                         Resampling* resampling) {
   std::vector<VolumeField> fields;
-  for (const std::string& name : secondary_names(input, options))
-    fields.push_back({load_named(input, name, progress, resampling), name});
+  for (const std::string& name : secondary_names(input, options)) {
+    const auto image = load_named(input, name, progress, resampling);
+    fields.push_back({.image = image, .name = name, .window = window_of_bulk(*image, 0)});
+  }
   return fields;
 }
 

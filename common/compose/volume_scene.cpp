@@ -205,6 +205,20 @@ void check_transfer(const std::string& name) {
 
 }  // namespace
 
+ValueWindow window_of_bulk(const VolumeImage& image, int threads) {
+  if (!(image.lowest <= image.highest)) return {};
+  const ValueHistogram histogram = histogram_of(image, threads);
+  // What the bulk leaves of the range is narrowed by steps of 256: it may fill some of the bins alone.
+  const auto some = [](std::uint64_t count) { return count > 0; };
+  const auto& counts = histogram.counts;
+  const auto empty_below = std::find_if(counts.begin(), counts.end(), some) - counts.begin(),
+             empty_above = std::find_if(counts.rbegin(), counts.rend(), some) - counts.rbegin();
+  const double bin = (histogram.upper - histogram.lower) / static_cast<double>(counts.size());
+  const double lower = histogram.lower + bin * static_cast<double>(empty_below),
+               upper = histogram.upper - bin * static_cast<double>(empty_above);
+  return {.width = lower < upper ? upper - lower : 1.0, .level = 0.5 * lower + 0.5 * upper};
+}
+
 ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
   if (image.lowest > image.highest) return {};  // no value is finite: nothing to be seen
   if (image.labels) return label_transfer(image);

@@ -23,6 +23,9 @@ namespace palpate {
 /// one shows, as Otsu's threshold of those values parts it, so that a lens looks into things.
 [[nodiscard]] ColorTransfer default_focus_transfer(const VolumeImage& image, int threads);
 
+/// Where all values lie but a few far ones (bulk_histogram()).
+[[nodiscard]] ValueWindow window_of_bulk(const VolumeImage& image, int threads);
+
 /// A transfer function of values, or of values and gradient magnitudes.
 struct VolumeTransfer {
   ColorTransfer colors;

@@ -15,17 +15,17 @@ namespace palpate {
 
 struct RenderedImage {
   Image image;
-  double first_frame_ms = 0.0;           ///< with the upload and the compiling of shaders
-  std::vector<double> frame_ms;          ///< of the repeated frames, by the clock
-  FrameQuality quality;                  ///< that the budget left
-  std::optional<double> expected_error;  ///< of that, RMS, as FrameBudget::expected_error()
-  bool timer_query = false;              ///< it was held by timer queries, not by the clock
-  std::optional<Index3> coarser_voxels;  ///< as VolumePass
-  BrickShare bricks;                     ///< likewise
-  std::optional<ImageError> error;       ///< of the volume's part, where asked for
-  std::string tables_by;                 ///< SceneRenderer::tables_by()
-  std::string renderer;                  ///< the OpenGL driver
-  std::vector<GpuObject> gpu;            ///< what was compiled and allocated
+  double first_frame_ms = 0.0;                  ///< with the upload and the compiling of shaders
+  std::vector<double> frame_ms;                 ///< of the repeated frames, by the clock
+  FrameQuality quality;                         ///< that the budget left
+  std::optional<double> expected_error;         ///< of that, RMS, as FrameBudget::expected_error()
+  bool timer_query = false;                     ///< it was held by timer queries, not by the clock
+  std::optional<CoarserVoxels> coarser_voxels;  ///< as VolumePass
+  BrickShare bricks;                            ///< likewise
+  std::optional<ImageError> error;              ///< of the volume's part, where asked for
+  std::string tables_by;                        ///< SceneRenderer::tables_by()
+  std::string renderer;                         ///< the OpenGL driver
+  std::vector<GpuObject> gpu;                   ///< what was compiled and allocated
 };
 
 /// Draws `view` off-screen, `repeat` times after the first frame. With a budget [ms] above 0 as a window does

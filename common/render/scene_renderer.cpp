@@ -451,7 +451,7 @@ BrickShare SceneRenderer::bricks() const noexcept {
 
 TractShare SceneRenderer::tract_share() const noexcept { return state_->tracts.share(); }
 
-std::optional<Index3> SceneRenderer::coarser_voxels() const noexcept {
+std::optional<CoarserVoxels> SceneRenderer::coarser_voxels() const noexcept {
   return state_->volume ? state_->volume->coarser_voxels() : std::nullopt;
 }
 

@@ -55,7 +55,7 @@ class SceneRenderer {
   /// What the last picture shows of the tracts.
   [[nodiscard]] TractShare tract_share() const noexcept;
   /// As VolumePass, of the last picture.
-  [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
+  [[nodiscard]] std::optional<CoarserVoxels> coarser_voxels() const noexcept;
   [[nodiscard]] BrickShare bricks() const noexcept;
   bool prepare_slabs(std::size_t cut);
   /// Whether the last picture made what that cache holds, which takes longer than the pictures that follow.

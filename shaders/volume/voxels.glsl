@@ -1,6 +1,27 @@
 // The voxels, whole or in bricks (common/render/volume/voxels/voxel_bricks.h), and their numbers at any place.
 // Needs the uniform block of volume/volume_block.glsl and volume/lines.glsl.
+#ifdef PINNED
+layout(binding = 0) uniform PINNED voxels;  // in memory (common/render/volume/voxels/pinned_voxels.h), x fastest
+
+// As textures give it: in [0, 1] of whole numbers.
+float stored_number(int at) { return (float(texelFetch(voxels, at).x) - PINNED_LOWEST) / PINNED_UNIT; }
+
+// Number at g, trilinear; beyond the points that of the nearest place.
+float first_number_at(vec3 g) {
+  vec3 last = field.points - 1.0, inside = clamp(g, vec3(0.0), last);
+  vec3 cell = min(floor(inside), max(last - 1.0, vec3(0.0))), u = inside - cell;
+  ivec3 n = ivec3(field.points), c = ivec3(cell), beside = min(n - 1, ivec3(1)) * ivec3(1, n.x, n.x * n.y);
+  int at = c.x + n.x * (c.y + n.y * c.z), above = at + beside.z;
+  vec4 low = vec4(stored_number(at), stored_number(at + beside.y), stored_number(above), stored_number(above + beside.y));
+  at += beside.x, above += beside.x;
+  vec4 high = vec4(stored_number(at), stored_number(at + beside.y), stored_number(above), stored_number(above + beside.y));
+  vec4 along_x = mix(low, high, u.x);
+  vec2 along_y = mix(along_x.xz, along_x.yw, u.y);
+  return mix(along_y.x, along_y.y, u.z);
+}
+#else
 layout(binding = 0) uniform sampler3D voxels;  // of the volume, or the pool of bricks
+#endif
 
 #ifdef BRICKED  // cells of a brick an axis
 layout(binding = 11) uniform sampler3D brick_index;  // xyz: voxel of the pool at which the brick begins; w: see below
@@ -20,7 +41,7 @@ float first_number_at(vec3 g) {
   float number = texture(voxels, (place.xyz + inside + 0.5) / vec3(textureSize(voxels, 0))).x;
   return isinf(place.w) ? number : place.w;  // not in the pool: a number that stands for all of the brick
 }
-#else
+#elif !defined(PINNED)
 // Number at g, trilinear; beyond the points that of the nearest place.
 float first_number_at(vec3 g) { return texture(voxels, (g + 0.5) / field.points).x; }
 #endif

@@ -192,7 +192,7 @@ void draw_volume_colors(const OverlayPen& pen, const SceneView& view, float righ
 }
 
 // The parts of a label map by name; of many the first ones.
-void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable& table, float right,
+void draw_labels(const OverlayPen& pen, const std::string& label, const LabelTable& table, float right,
                  float middle, float length) {
   const auto most = as_size(std::max(1, static_cast<int>(length / (1.45F * pen.text_height()))));
   const std::vector<Label>& labels = table.labels();
@@ -202,8 +202,27 @@ void draw_labels(const OverlayPen& pen, const SceneView& view, const LabelTable&
     entries.push_back({{label.color.r, label.color.g, label.color.b}, label.name});
   }
   const std::size_t left_out = labels.size() - entries.size();
-  draw_legend(pen, view.volume_label + (left_out > 0 ? ", " + std::to_string(left_out) + " more" : ""),
-              entries, right, middle);
+  draw_legend(pen, label + (left_out > 0 ? ", " + std::to_string(left_out) + " more" : ""), entries, right,
+              middle);
+}
+
+// What lies over a slice.
+void draw_blend_colors(const OverlayPen& pen, const SliceBlend& blend, float right, float height) {
+  const float middle = 0.5F * height, length = 0.5F * height;
+  if (blend.image->labels) {
+    draw_labels(pen, blend.name, *blend.image->labels, right, middle, length);
+    return;
+  }
+  const ValueWindow& window = blend.window;
+  const ValueRange range{window.level - 0.5 * window.width, window.level + 0.5 * window.width};
+  if (!(range.lower < range.upper)) return;
+  draw_color_bar(
+      pen,
+      {.label = blend.name,
+       .table = color_table(blend.map),
+       .range = range,
+       .values_below = blend.image->lowest<range.lower, .values_above = blend.image->highest> range.upper},
+      right, middle, length);
 }
 
 void draw_directions(const OverlayPen& pen, bool anatomical, float right, float middle) {
@@ -254,9 +273,13 @@ void draw_at_right(const OverlayPen& pen, const SceneView& view, const ColorLege
   const float em = pen.text_height(), h = static_cast<float>(height);
   // Room for the letter of the right border.
   const float right = static_cast<float>(width) - (view.anatomical ? 3.6F : 1.2F) * em;
+  if (view.slice && view.slice->blend) {
+    draw_blend_colors(pen, *view.slice->blend, right, h);
+    return;
+  }
   const bool volume = view.volume && view.volume->shown;
   if (volume && view.volume->image->labels) {
-    draw_labels(pen, view, *view.volume->image->labels, right, 0.5F * h, 0.7F * h);
+    draw_labels(pen, view.volume_label, *view.volume->image->labels, right, 0.5F * h, 0.7F * h);
     return;
   }
   if (volume && has_colored_parts(*view.volume)) {

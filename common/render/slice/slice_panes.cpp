@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "common/base/index.h"
@@ -190,7 +191,7 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
                             pane_view_height(panes, bounds, radiological, parts, pane));
   view.units = scene.units;
   view.background = scene.background;
-  view.show_outline = view.show_color_bar = false;
+  view.show_outline = false;
   view.show_axes = !scene.anatomical;  // letters say more
   SlicePanes titled = panes;
   if (volume.image->labels) titled.slab = 0.0;
@@ -208,7 +209,13 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
   slice.slab = panes.slab;
   slice.rule = panes.rule;
   if (panes.blend > 0.0 && !volume.fields.empty())
-    slice.blend = SliceBlend{.image = volume.fields.front().image, .opacity = panes.blend};
+    slice.blend = SliceBlend{.image = volume.fields.front().image,
+                             .name = std::filesystem::path(volume.fields.front().name).filename().string(),
+                             .window = volume.fields.front().window,
+                             .opacity = panes.blend};
+  // Once is enough.
+  view.show_color_bar = scene.show_color_bar && slice.blend && pane == parts.front();
+  view.color_bar_left = scene.color_bar_left;
   const double reach = bounds.diagonal();
   for (const SlicePlane other : kPlanes) {
     if (other == plane) continue;

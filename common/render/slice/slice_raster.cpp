@@ -249,7 +249,7 @@ void blend_labels(const SliceBlend& blend, const std::vector<double>& values, Im
 
 void blend_over(const SliceBlend& blend, const std::vector<double>& values, Image& image) {
   if (blend.image->labels) return blend_labels(blend, values, image);
-  const double low = blend.image->lowest, range = blend.image->highest - low;
+  const double low = blend.window.level - 0.5 * blend.window.width, range = blend.window.width;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i];
     if (!std::isfinite(value) || !(range > 0.0)) continue;

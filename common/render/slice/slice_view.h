@@ -70,9 +70,11 @@ struct SliceImage {
 /// A second image over the first one, in colours.
 struct SliceBlend {
   std::shared_ptr<const VolumeImage> image;
+  std::string name;
+  ValueWindow window;  ///< from clear to the last colour
   ColorMap map = ColorMap::kHeat;
-  double opacity =
-      0.0;  ///< of its highest value; lower ones are clearer, in proportion; of labels, of all of them
+  /// From `window` up; lower values are clearer, in proportion; of labels, of all of them.
+  double opacity = 0.0;
 
   bool operator==(const SliceBlend&) const = default;
 };

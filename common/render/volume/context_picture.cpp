@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -58,6 +59,8 @@ void ContextPicture::update(const VolumeView& view, const SceneFrame& frame, con
   level_ = view.context.level;
   view_ = context_of(view);
   view_.image = coarse;
+  if (level_ > 0)
+    view_.storage.least_pinned = std::numeric_limits<std::uint64_t>::max();  // lenses blend with a texture
   frame_ = frame;
   share_ = view.context.viewport;
   magnifies_ = has_magnified_parts(view);

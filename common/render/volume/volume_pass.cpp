@@ -467,10 +467,10 @@ void VolumePass::draw_planes(const FrameBlock& block) {
   s.planes.draw(s.shown, s.frame, block, s.defines);
 }
 
-std::optional<Index3> VolumePass::coarser_voxels() const noexcept {
+std::optional<CoarserVoxels> VolumePass::coarser_voxels() const noexcept {
   const auto& drawn = state_->textures.image();
   if (drawn == nullptr || drawn == state_->asked.image) return std::nullopt;
-  return drawn->points;
+  return CoarserVoxels{.points = drawn->points, .hidden = state_->textures.hidden()};
 }
 
 BrickShare VolumePass::bricks() const noexcept { return state_->textures.bricks_held(); }

@@ -107,9 +107,8 @@ class VolumePass {
   /// a plane that moved rests.
   void forget(PictureCache cache) noexcept;
 
-  /// Voxels an axis of the coarser volume that is drawn in place of the view's, which does not fit its
-  /// storage; nothing where the view's own is drawn.
-  [[nodiscard]] std::optional<Index3> coarser_voxels() const noexcept;
+  /// The coarser volume that is drawn in place of the view's; nothing where that is drawn.
+  [[nodiscard]] std::optional<CoarserVoxels> coarser_voxels() const noexcept;
 
   /// What was made for the last view, for `--explain`.
   struct Cost {

@@ -111,6 +111,8 @@ VolumeView VolumeTextures::drawn(VolumeView view) const {
 void VolumeTextures::bind(bool colors) const {
   if (bricks_) {
     bricks_->bind();
+  } else if (pinned_) {
+    pinned_->bind(volume_shader::kVoxels);
   } else {
     glBindTextureUnit(volume_shader::kVoxels, voxels_->name());
   }
@@ -126,6 +128,7 @@ void VolumeTextures::bind_voxels(std::uint32_t unit) const { glBindTextureUnit(u
 
 std::vector<std::string> VolumeTextures::shader_defines() const {
   std::vector<std::string> defines;
+  if (pinned_) defines = pinned_->defines();
   if (bricks_) defines.push_back("BRICKED " + std::to_string(bricks_->layout().cells));
   if (field_count_ > 1) defines.push_back("FIELDS " + std::to_string(field_count_));
   if (regions_) defines.emplace_back("REGIONS");
@@ -149,6 +152,7 @@ void VolumeTextures::share_voxels(const VolumeTextures& other) {
   }
   colors_ = other.colors_;
   voxels_ = other.voxels_;
+  pinned_ = other.pinned_;
   bricks_ = other.bricks_;
   placed_ = {};
   changes_ = other.changes_;
@@ -159,7 +163,7 @@ BrickShare VolumeTextures::bricks_held() const noexcept {
   BrickShare share = bricks_ ? bricks_->share() : BrickShare{};
   share.wanted += left_out_;
   share.entered += entered_before_;
-  share.left += entered_before_;  // with the places that they had
+  share.left += entered_before_ - (bricks_ ? bricks_->kept() : 0);  // with the places that they had
   return share;
 }
 
@@ -189,19 +193,21 @@ void VolumeTextures::place_voxels(const VolumeView& view, const BrickSight& sigh
     sight_.reset();
     if (whole) {
       check_size(*view.image, largest_volume_texture());
-      place_whole(view.image, brick_ranges(*view.image));
+      place_whole(view.image, brick_ranges(*view.image), view.storage);
     }
   }
   if (!whole && !(sight_ == sight && lenses_ == view.lenses)) place_bricks(view, sight);
   placed_ = std::move(wanted);
 }
 
-void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges) {
-  if (image_ == image && voxels_) return;
+void VolumeTextures::place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges,
+                                 const VoxelStorage& storage) {
+  if (image_ == image && (voxels_ || pinned_)) return;
   forget_bricks();
   voxels_.reset();
-  voxels_ = std::make_shared<const GlTexture>(upload_whole(*image));
-  cost_.voxel_bytes = image->byte_count();
+  pinned_ = image->byte_count() >= storage.least_pinned ? PinnedVoxels::pin(image) : nullptr;
+  if (!pinned_) voxels_ = std::make_shared<const GlTexture>(upload_whole(*image));
+  cost_.voxel_bytes = pinned_ ? 0 : image->byte_count();
   ++changes_;
   take_image(image, ranges);
 }
@@ -248,7 +254,7 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
     Level& at = levels_[level];
     view.image = at.image;
     if (level > 0 && fits_whole(*at.image, view.storage.memory)) {
-      place_whole(at.image, at.ranges);
+      place_whole(at.image, at.ranges, view.storage);
       sight_ = sight;
       return;
     }
@@ -280,6 +286,7 @@ void VolumeTextures::place_bricks(VolumeView view, const BrickSight& sight) {
       wanted.resize(some);
     }
     voxels_.reset();
+    pinned_.reset();
     if (!bricks_ || image_ != at.image || bricks_->layout().cells != cells || bricks_->coarse() != coarse) {
       BrickPool pool;
       if (bricks_ && coarse && bricks_.use_count() == 1) pool = std::move(*bricks_).give_pool();
@@ -375,6 +382,12 @@ void VolumeTextures::update_tables(const VolumeView& view) {
       static_cast<double>(first.size());
   tiles_.set_bricks(shell_bricks(bricks(), maps));
   gaps_ = gap_share(bricks(), maps);
+  hidden_ = 0.0;
+  if (!levels_.empty() && levels_.front().image != image_) {
+    VolumeView finest = view;
+    finest.image = levels_.front().image;
+    hidden_ = hidden_share(finest, levels_.front().ranges, view, bricks_of_image_.ranges());
+  }
   cost_.table_ms = 1e3 * clock.seconds();
 }
 

@@ -16,6 +16,7 @@
 #include "common/render/volume/voxels/brick_demand.h"
 #include "common/render/volume/voxels/brick_map.h"
 #include "common/render/volume/voxels/field_voxels.h"
+#include "common/render/volume/voxels/pinned_voxels.h"
 #include "common/render/volume/voxels/voxel_bricks.h"
 
 namespace palpate {
@@ -39,7 +40,7 @@ class VolumeTextures {
 
   /// To the units of shaders/volume/volume_block.glsl. @param colors of the voxels, too.
   void bind(bool colors) const;
-  /// The voxels alone, to another unit. @pre they stand as a whole: shader_defines() is empty.
+  /// The voxels alone, to another unit. @pre they stand as a whole, and not pinned: shader_defines() is empty.
   void bind_voxels(std::uint32_t unit) const;
 
   /// What shaders that look up voxels are told (compile_program()): others only after update() for another
@@ -61,6 +62,8 @@ class VolumeTextures {
   [[nodiscard]] TilePass& tiles() noexcept { return tiles_; }
   [[nodiscard]] const TilePass& tiles() const noexcept { return tiles_; }
 
+  /// CoarserVoxels::hidden of what is drawn.
+  [[nodiscard]] double hidden() const noexcept { return hidden_; }
   /// Of a volume in bricks.
   [[nodiscard]] BrickShare bricks_held() const noexcept;
   /// How often other voxels were uploaded: what was drawn before is no longer what would be.
@@ -113,7 +116,8 @@ class VolumeTextures {
   void place_bricks(VolumeView view, const BrickSight& sight);
   bool add_level(const VolumeView& view, bool wait);
   void forget_bricks();
-  void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
+  void place_whole(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges,
+                   const VoxelStorage& storage);
   void take_image(const std::shared_ptr<const VolumeImage>& image, const BrickRanges& ranges);
   void update_colors(const VolumeView& view);
   void update_lines(const VolumeView& view);
@@ -128,7 +132,8 @@ class VolumeTextures {
   std::vector<std::uint8_t> update_regions(const VolumeView& view, const FieldTransfer& transfer,
                                            const TransferBlock& place);
 
-  std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks
+  std::shared_ptr<const GlTexture> voxels_;  ///< null where they stand in bricks, or are pinned
+  std::shared_ptr<const PinnedVoxels> pinned_;
   std::shared_ptr<VoxelBricks> bricks_;
   std::uint64_t entered_before_ = 0;  ///< bricks of this volume, into other places than `bricks_`
   PlaceKey placed_;
@@ -150,7 +155,8 @@ class VolumeTextures {
   std::shared_ptr<const VolumeImage> image_;
   FieldBricks bricks_of_image_;
   TilePass tiles_;
-  double gaps_ = 1.0;  ///< gap_share() of the context's field
+  double gaps_ = 1.0;    ///< gap_share() of the context's field
+  double hidden_ = 0.0;  ///< hidden_share()
   TableKey key_;
   std::vector<std::vector<std::uint8_t>> distances_;  ///< between empty bricks, for each transfer function
   std::vector<std::vector<OpticalEntry>> optical_;    ///< of each preintegrated table; empty: not filled

@@ -60,6 +60,9 @@ struct VoxelStorage {
   /// Of bricks that may be uploaded for one picture [bytes], one of them in any case; coarse ones stand in
   /// for those that are not there yet, and the same picture drawn again has more. 0: all that it looks up.
   std::uint64_t upload = 0;
+  /// Where the rasteriser is the processor, voxels of so many bytes and more are read where they stand
+  /// (pinned_voxels.h).
+  std::uint64_t least_pinned = std::uint64_t{32} << 20U;
 
   bool operator==(const VoxelStorage&) const = default;
 };
@@ -76,10 +79,18 @@ struct BrickShare {
   [[nodiscard]] bool complete() const noexcept { return held == wanted; }
 };
 
-/// Another scalar of the scene, on a grid of its own, for lenses that show it.
+/// What is drawn in place of a volume that does not fit its storage.
+struct CoarserVoxels {
+  Index3 points{0};  ///< an axis
+  double hidden =
+      0.0;  ///< share of the parts that show something which show nothing so, at least (hidden_share())
+};
+
+/// Another scalar of the scene, on a grid of its own, for lenses that show it, and over slices.
 struct VolumeField {
   std::shared_ptr<const VolumeImage> image;
   std::string name;
+  ValueWindow window;  ///< over which its colours on slices are spread
 
   bool operator==(const VolumeField&) const = default;
 };

@@ -74,9 +74,15 @@ std::string frame_text(const PanelState& state) {
   give_up(quality.viewport, "resolution around lenses");
   give_up(quality.resolution, "resolution");
   give_up(quality.focus, "samples in lenses");
-  if (const auto& n = state.picture.coarser_voxels) {
-    std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n->x, n->y, n->z);
+  if (const auto& coarser = state.picture.coarser_voxels) {
+    const Index3& n = coarser->points;
+    std::snprintf(part.data(), part.size(), "coarser: %d x %d x %d voxels, ", n.x, n.y, n.z);
     text += part.data();
+    if (coarser->hidden > 0.0) {
+      std::snprintf(part.data(), part.size(), "%.3g %% or more of what shows lost in them, ",
+                    100.0 * coarser->hidden);
+      text += part.data();
+    }
   }
   if (const BrickShare& bricks = state.picture.bricks; bricks.all > 0) {
     std::snprintf(part.data(), part.size(), "bricks: %zu of %zu, %zu in all, %llu in, %llu out, %.0f MB, ",

@@ -20,8 +20,8 @@ struct PictureFigures {
   double milliseconds = 0.0;
   double frames_per_second = 0.0;
   FrameQuality quality;
-  std::optional<Index3> coarser_voxels;  ///< as VolumePass
-  BrickShare bricks;                     ///< likewise
+  std::optional<CoarserVoxels> coarser_voxels;  ///< as VolumePass
+  BrickShare bricks;                            ///< likewise
   /// Of a volume at rest, as far as it is known: from a sparse set of its pixels.
   std::optional<ImageError> error;
   /// Of one that moves, where it has rested before: RMS, by what was given up

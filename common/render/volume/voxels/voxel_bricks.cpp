@@ -86,26 +86,6 @@ bool is_even(const VolumeImage& image, std::size_t brick, const BrickLayout& lay
   });
 }
 
-// For each brick of `ranges` its distance to the nearest one in which some transfer function of the view
-// shows something.
-std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickRanges& ranges) {
-  const NumberRange numbers = table_range(view);
-  std::vector<std::uint8_t> nearest(ranges.ranges.size(), std::numeric_limits<std::uint8_t>::max());
-  const auto columns = as_size(view.table_entries);
-  for (const FieldTransfer& transfer : transfers_of(view)) {
-    if (transfer.field > 0) continue;
-    const PlaceRange places = table_places(view, 0);
-    const std::vector<OpticalEntry> entries =
-        transfer.regions ? deepest_entries(make_region_table(*transfer.regions, places, columns))
-                         : optical_entries(transfer.colors, places.lower.x, places.upper.x, columns,
-                                           step_lengths(view).longest / opacity_length_of(view));
-    const std::vector<std::uint8_t> distances =
-        empty_distances(ranges, entries, numbers.lower, numbers.upper);
-    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::min(nearest[i], distances[i]);
-  }
-  return nearest;
-}
-
 // How many bricks of BrickRanges beyond those in which something is seen values are read that count: as far
 // as a sample and the differences about it reach.
 int bricks_reached(const VolumeView& view) {
@@ -188,6 +168,43 @@ BrickLayout brick_layout(const VolumeImage& image, int cells) {
   PALPATE_CHECK(cells > 0 && cells % kBrickCells == 0);
   const Index3 all = glm::max(image.points - 1, Index3(1));
   return {.cells = cells, .bricks = (all + cells - 1) / cells, .points = glm::min(all, Index3(cells)) + 1};
+}
+
+std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickRanges& ranges) {
+  const NumberRange numbers = table_range(view);
+  std::vector<std::uint8_t> nearest(ranges.ranges.size(), std::numeric_limits<std::uint8_t>::max());
+  const auto columns = as_size(view.table_entries);
+  for (const FieldTransfer& transfer : transfers_of(view)) {
+    if (transfer.field > 0) continue;
+    const PlaceRange places = table_places(view, 0);
+    const std::vector<OpticalEntry> entries =
+        transfer.regions ? deepest_entries(make_region_table(*transfer.regions, places, columns))
+                         : optical_entries(transfer.colors, places.lower.x, places.upper.x, columns,
+                                           step_lengths(view).longest / opacity_length_of(view));
+    const std::vector<std::uint8_t> distances =
+        empty_distances(ranges, entries, numbers.lower, numbers.upper);
+    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::min(nearest[i], distances[i]);
+  }
+  return nearest;
+}
+
+double hidden_share(const VolumeView& view, const BrickRanges& ranges, const VolumeView& coarser,
+                    const BrickRanges& coarser_ranges) {
+  const std::vector<std::uint8_t> fine = distances_to_seen(view, ranges),
+                                  coarse = distances_to_seen(coarser, coarser_ranges);
+  Index3 joined(1);  // cells of the volume in one of the coarser one
+  for (int a = 0; a < 3; ++a) {
+    const double ratio = glm::length(coarser.image->axes[a]) / glm::length(view.image->axes[a]);
+    joined[a] = std::max(1, static_cast<int>(std::lround(ratio)));
+  }
+  std::size_t seen = 0, hidden = 0;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    if (fine[i] > 0) continue;
+    ++seen;
+    const Index3 at = glm::min(at_index(i, ranges.bricks) / joined, coarser_ranges.bricks - 1);
+    if (coarse[index_in(coarser_ranges.bricks, at)] > 0) ++hidden;
+  }
+  return seen > 0 ? static_cast<double>(hidden) / static_cast<double>(seen) : 0.0;
 }
 
 std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,
@@ -293,19 +310,53 @@ void VoxelBricks::find_pool(std::size_t needed, std::size_t wanted, std::uint64_
       (memory == 0 || brick_index_bytes(layout_) + pool_bytes(pool_.bricks, layout_, image_->type) <= memory);
   if (!does) {
     pool_ = {};  // before there is another one
-    pool_ = {make_voxel_texture(size * layout_.points, image_->type, "voxels in bricks"), size,
-             layout_.points, image_->type};
+    pool_ = {.texture = make_voxel_texture(size * layout_.points, image_->type, "voxels in bricks"),
+             .bricks = size,
+             .points = layout_.points,
+             .type = image_->type,
+             .places = {}};
   }
   placed_ = true;
-  share_.left += static_cast<std::uint64_t>(
-      std::count_if(slots_.begin(), slots_.end(), [](int slot) { return slot >= 0; }));
   bytes_ = brick_index_bytes(layout_) + pool_bytes(pool_.bricks, layout_, image_->type);
-  std::fill(slots_.begin(), slots_.end(), -1);
   std::fill(coarse_numbers_.begin(), coarse_numbers_.end(), -1);
   coarse_held_ = 0;
   first_coarse_ = count_of(pool_.bricks) - coarse;
-  free_.resize(first_coarse_);
-  for (std::size_t i = 0; i < free_.size(); ++i) free_[i] = static_cast<int>(free_.size() - 1 - i);
+  take_places();
+}
+
+// Of what stands in the pool its own bricks stay; the places of others are free, those last that were looked up last.
+void VoxelBricks::take_places() {
+  const auto own = [&](std::size_t place) { return pool_.places[place].image.lock() == image_; };
+  const auto held = [&] {
+    return static_cast<std::uint64_t>(
+        std::count_if(slots_.begin(), slots_.end(), [](int slot) { return slot >= 0; }));
+  };
+  const std::uint64_t before = held();
+  std::fill(slots_.begin(), slots_.end(), -1);
+  pool_.places.resize(count_of(pool_.bricks));
+  for (std::size_t place = first_coarse_; place < pool_.places.size(); ++place) pool_.places[place] = {};
+  free_.clear();
+  for (std::size_t place = 0; place < first_coarse_; ++place) {
+    if (!own(place)) {
+      free_.push_back(static_cast<int>(place));
+      continue;
+    }
+    const BrickPool::Place& at = pool_.places[place];
+    slots_[at.brick] = static_cast<int>(place);
+    looked_up_[at.brick] = at.looked_up;
+  }
+  std::stable_sort(free_.begin(), free_.end(), [&](int a, int b) {
+    return pool_.places[as_size(a)].looked_up > pool_.places[as_size(b)].looked_up;
+  });
+  const std::uint64_t now = held();
+  (now > before ? kept_ : share_.left) += now > before ? now - before : before - now;
+}
+
+BrickPool VoxelBricks::give_pool() && {
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i] >= 0) pool_.places[as_size(slots_[i])].looked_up = looked_up_[i];
+  }
+  return std::move(pool_);
 }
 
 Index3 VoxelBricks::place_of(std::size_t slot) const { return layout_.points * at_index(slot, pool_.bricks); }
@@ -378,7 +429,7 @@ void VoxelBricks::find_room(std::size_t places) {
   if (free_.size() >= places) return;
   std::vector<std::size_t> leaving;
   for (std::size_t i = 0; i < slots_.size(); ++i) {
-    if (slots_[i] >= 0 && looked_up_[i] < pictures_) leaving.push_back(i);
+    if (slots_[i] >= 0 && looked_up_[i] < pool_.pictures) leaving.push_back(i);
   }
   std::sort(leaving.begin(), leaving.end(), [&](std::size_t a, std::size_t b) {
     return looked_up_[a] != looked_up_[b] ? looked_up_[a] < looked_up_[b] : a < b;
@@ -397,8 +448,8 @@ void VoxelBricks::hold(const std::vector<bool>& needed, const std::vector<std::s
   if (!placed_ || wanted.size() > first_coarse_ || count > coarse_room_ ||
       (storage.memory > 0 && bytes_ > storage.memory))
     find_pool(count, wanted.size(), storage.memory);
-  ++pictures_;
-  for (const std::size_t i : wanted) looked_up_[i] = pictures_;
+  ++pool_.pictures;
+  for (const std::size_t i : wanted) looked_up_[i] = pool_.pictures;
   share_.held = 0;
   std::vector<std::size_t> lacking;
   for (const std::size_t i : wanted) {
@@ -418,6 +469,7 @@ void VoxelBricks::hold(const std::vector<bool>& needed, const std::vector<std::s
   for (const std::size_t i : lacking) {
     slots_[i] = free_.back();
     free_.pop_back();
+    pool_.places[as_size(slots_[i])] = {.image = image_, .brick = i, .looked_up = pool_.pictures};
     upload(i, as_size(slots_[i]));
   }
   share_.held += lacking.size();

@@ -54,6 +54,16 @@ struct PointsPlace {
 [[nodiscard]] std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,
                                               const BrickLayout& layout);
 
+/// For each brick of `ranges` its distance to the nearest one in which some transfer function of the view
+/// shows something, as empty_distances(). @param ranges brick_ranges(*view.image).
+[[nodiscard]] std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickRanges& ranges);
+
+/// Of the bricks in which something is seen, the share that lies where a coarser image shows nothing: thin things
+/// are lost in means. A lower bound: what is lost beside something that is seen is not in it.
+/// @param ranges brick_ranges() of the image of `view`. @param coarser the same view of means of its voxels.
+[[nodiscard]] double hidden_share(const VolumeView& view, const BrickRanges& ranges,
+                                  const VolumeView& coarser, const BrickRanges& coarser_ranges);
+
 /// Places of a pool that coarse bricks for so many bricks take.
 [[nodiscard]] std::size_t coarse_places(std::size_t bricks, const BrickLayout& layout);
 
@@ -70,12 +80,19 @@ struct PointsPlace {
                                           int largest);
 
 /// Where bricks stand. One of enough places serves other levels of the same volume, too: to make a large one
-/// takes longer than a picture.
+/// takes longer than a picture. What a level leaves there stays until its place is needed.
 struct BrickPool {
+  struct Place {
+    std::weak_ptr<const VolumeImage> image;  ///< whose brick stands there; none: nothing does
+    std::size_t brick = 0;
+    std::uint64_t looked_up = 0;  ///< the last of `pictures` that did
+  };
   GlTexture texture;
   Index3 bricks{0};  ///< an axis
   Index3 points{0};  ///< of a brick, an axis
   ScalarType type = ScalarType::kFloat32;
+  std::vector<Place> places;
+  std::uint64_t pictures = 0;  ///< drawn from it
 };
 
 /// What a pool is to serve besides: finer levels of the volume.
@@ -104,7 +121,7 @@ class VoxelBricks {
             const VoxelStorage& storage);
 
   /// The pool, for other bricks; these hold none then.
-  [[nodiscard]] BrickPool give_pool() && { return std::move(pool_); }
+  [[nodiscard]] BrickPool give_pool() &&;
 
   /// Binds the pool as the voxels, and the index (shaders/volume/voxels.glsl).
   void bind() const;
@@ -112,9 +129,12 @@ class VoxelBricks {
   [[nodiscard]] bool coarse() const noexcept { return coarse_; }
   [[nodiscard]] std::uint64_t bytes() const noexcept { return bytes_; }
   [[nodiscard]] const BrickShare& share() const noexcept { return share_; }  ///< of the last hold()
+  /// Bricks that came with the pool and were of use.
+  [[nodiscard]] std::uint64_t kept() const noexcept { return kept_; }
 
  private:
   void find_pool(std::size_t needed, std::size_t wanted, std::uint64_t memory);
+  void take_places();
   void find_room(std::size_t places);
   void upload(std::size_t brick, std::size_t slot);
   void hold_coarse(std::vector<std::size_t> bricks);
@@ -138,7 +158,7 @@ class VoxelBricks {
   std::size_t coarse_room_ = 0, coarse_held_ = 0;
   GlTexture index_;
   std::vector<std::byte> scratch_;
-  std::uint64_t bytes_ = 0, pictures_ = 0;
+  std::uint64_t bytes_ = 0, kept_ = 0;
   BrickShare share_;
 };
 

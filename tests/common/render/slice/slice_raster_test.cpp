@@ -240,7 +240,7 @@ TEST(SliceRaster, BlendsASecondImage) {
   SliceView slice = slice_of(made);
   const Image grey = slice_raster(slice, camera, 40, 30);
   for (const double opacity : {0.0, 0.5, 1.0}) {
-    slice.blend = SliceBlend{.image = slice.image, .opacity = opacity};
+    slice.blend = SliceBlend{.image = slice.image, .name = "", .window = slice.window, .opacity = opacity};
     const Image both = slice_raster(slice, camera, 40, 30);
     for (int y = 0; y < 30; ++y) {
       for (int x = 0; x < 40; ++x) {

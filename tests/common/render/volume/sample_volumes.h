@@ -75,6 +75,8 @@ inline DataSet sampled_block(const Index3& points, const Vec3& spacing, ScalarTy
   };
   if (type == ScalarType::kUint8) return whole(std::uint8_t{}, 255.0);
   if (type == ScalarType::kUint16) return whole(std::uint16_t{}, 65535.0);
+  if (type == ScalarType::kInt8) return whole(std::int8_t{}, 127.0);
+  if (type == ScalarType::kInt16) return whole(std::int16_t{}, 32767.0);
   return block_of(points, spacing, std::vector<float>(values.begin(), values.end()), ScalarType::kFloat32);
 }
 

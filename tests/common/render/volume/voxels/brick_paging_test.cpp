@@ -11,6 +11,7 @@
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_picture.h"
 #include "common/render/volume/voxels/brick_demand.h"
+#include "common/render/volume/voxels/coarse_image.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
 namespace palpate::test {
@@ -185,6 +186,32 @@ TEST(BrickPaging, BricksInLensesComeFirstThenThoseInFront) {
   order = bricks_in_sight(view, needed, layout, sight);
   for (std::size_t i = 1; i < order.size(); ++i)
     EXPECT_LE(depth(order[i - 1]), depth(order[i]) + 1e-6) << "not from front to back";
+}
+
+// Voxels of one level and those of another stand in the pool together: who comes back finds what nobody needed the place of.
+TEST(BrickPaging, BricksStayWhileAnotherLevelIsShown) {
+  const OffscreenContext context;
+  const VolumeView view = solid_view();
+  const auto coarser = coarse_image(*view.image, 1);
+  const BrickLayout fine = brick_layout(*view.image, kCells), coarse = brick_layout(*coarser, kCells);
+  ASSERT_EQ(fine.points, coarse.points);
+  const VoxelStorage storage{.memory = bricked_bytes(12, fine, view.image->type, 2048)};
+  const auto hold = [&](const std::shared_ptr<const VolumeImage>& image, BrickPool pool,
+                        const std::vector<std::size_t>& wanted, std::uint64_t uploads) {
+    const BrickLayout layout = brick_layout(*image, kCells);
+    VoxelBricks bricks(image, layout, brick_ranges(*image), false, {}, std::move(pool));
+    bricks.hold(std::vector<bool>(layout.bricks.x * layout.bricks.y * layout.bricks.z, true), wanted,
+                storage);
+    EXPECT_EQ(bricks.share().entered, uploads);
+    EXPECT_EQ(bricks.share().held, wanted.size());
+    return std::move(bricks).give_pool();
+  };
+  BrickPool pool = hold(view.image, {}, {0, 1, 2, 3}, 4);
+  pool = hold(coarser, std::move(pool), {0, 1, 2, 3, 4, 5}, 6);
+  pool = hold(view.image, std::move(pool), {0, 1, 2, 3, 7}, 1);
+  // Room for twelve: of the other level five are still there, the place of the sixth was needed.
+  pool = hold(view.image, std::move(pool), {0, 1, 2, 3, 7, 8, 9}, 2);
+  pool = hold(coarser, std::move(pool), {0, 1, 2, 3, 4, 5}, 1);
 }
 
 TEST(BrickPaging, WhatWasLookedUpTheLongestAgoLeavesFirst) {

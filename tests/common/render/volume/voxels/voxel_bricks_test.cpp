@@ -17,6 +17,7 @@
 #include "common/base/error.h"
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_picture.h"
+#include "common/render/volume/voxels/coarse_image.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
 namespace palpate::test {
@@ -170,6 +171,29 @@ TEST(VoxelBricks, HoldOnlyWhatIsSeen) {
   EXPECT_LE(worst_difference(picture.draw(view, camera), whole), kLevel) << "at its own resolution";
   EXPECT_LE(picture.cost().voxel_bytes, dense / 3);
   EXPECT_GT(picture.cost().voxel_bytes, dense / 40);
+}
+
+// A wire of one voxel is lost in means of eight, a cube is not.
+TEST(VoxelBricks, SayHowMuchCoarserVoxelsHide) {
+  const auto at = [](double x) { return std::lround(32.0 * (x + 1.0)); };
+  const auto wire_and_cube = [&](const Vec3& x) {
+    const bool wire = at(x.y) == 20 && at(x.z) == 20;
+    const auto in = [&](double v) { return at(v) >= 40 && at(v) <= 56; };
+    return wire || (in(x.x) && in(x.y) && in(x.z)) ? 1.0 : 0.0;
+  };
+  VolumeView view = view_of(sampled_block(Index3(65), Vec3(2.0 / 64.0), ScalarType::kUint8, wire_and_cube));
+  view.transfer = spread(ColorTransfer({{0.6, Vec3f(1.0F), 0.0}, {0.7, Vec3f(1.0F), 0.5}}),
+                         view.image->lowest, view.image->highest);
+  VolumeView coarser = view;
+  coarser.image = coarse_image(*view.image, 1);
+  const auto hidden = [&] {
+    return hidden_share(view, brick_ranges(*view.image), coarser, brick_ranges(*coarser.image));
+  };
+  // Eight bricks along the wire; four along each edge of the cube, with those that it touches.
+  EXPECT_DOUBLE_EQ(hidden(), 8.0 / (8.0 + 64.0));
+  view.transfer = coarser.transfer = spread(ColorTransfer({{0.0, Vec3f(1.0F), 0.0}, {0.7, Vec3f(1.0F), 0.5}}),
+                                            view.image->lowest, view.image->highest);
+  EXPECT_EQ(hidden(), 0.0) << "all that is seen is seen, though fainter";
 }
 
 TEST(VoxelBricks, NeverTakeMoreMemoryThanGiven) {
