@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <utility>
@@ -125,7 +126,9 @@ std::string label_note(const VolumeImage& image) {
   }
   if (!is_whole(image.stored) || image.sparse || image.colors || image.point_count() == 0) return {};
   constexpr std::size_t kLooks = std::size_t{1} << 18, kFew = 64;
-  const std::size_t step = std::max<std::size_t>(1, image.point_count() / kLooks);
+  std::size_t step = std::max<std::size_t>(1, image.point_count() / kLooks);
+  // One that divides a layer would go down a few columns alone, which may all be air.
+  while (std::gcd(step, as_size(image.points.x) * as_size(image.points.y)) > 1) ++step;
   std::set<double> different;
   for (std::size_t i = 0; i < image.point_count(); i += step) {
     different.insert(image.number(i));
