@@ -207,15 +207,19 @@ void check_transfer(const std::string& name) {
 
 ValueWindow window_of_bulk(const VolumeImage& image, int threads) {
   if (!(image.lowest <= image.highest)) return {};
-  const ValueHistogram histogram = histogram_of(image, threads);
-  // What the bulk leaves of the range is narrowed by steps of 256: it may fill some of the bins alone.
-  const auto some = [](std::uint64_t count) { return count > 0; };
-  const auto& counts = histogram.counts;
-  const auto empty_below = std::find_if(counts.begin(), counts.end(), some) - counts.begin(),
-             empty_above = std::find_if(counts.rbegin(), counts.rend(), some) - counts.rbegin();
-  const double bin = (histogram.upper - histogram.lower) / static_cast<double>(counts.size());
-  const double lower = histogram.lower + bin * static_cast<double>(empty_below),
-               upper = histogram.upper - bin * static_cast<double>(empty_above);
+  const ValueHistogram bulk = histogram_of(image, threads);
+  double lower = image.lowest, upper = image.highest;
+  if (image.sparse) {
+    lower = bulk.lower, upper = bulk.upper;
+  } else if (lower < bulk.lower || bulk.upper < upper) {
+    // Its ends are those of bins, up to 256 times as far apart as the values are.
+    lower = HUGE_VAL, upper = -HUGE_VAL;
+    for (std::size_t i = 0; i < image.point_count(); ++i) {
+      const double value = image.value(i);
+      if (!(value >= bulk.lower && value <= bulk.upper)) continue;
+      lower = std::min(lower, value), upper = std::max(upper, value);
+    }
+  }
   return {.width = lower < upper ? upper - lower : 1.0, .level = 0.5 * lower + 0.5 * upper};
 }
 

@@ -27,12 +27,10 @@ TEST(VolumeScene, FewFarValuesDoNotWidenAWindow) {
         *make_volume_image(block_of(n, Vec3(1.0), numbers, ScalarType::kFloat32), "s", "test"), 1);
   };
   EXPECT_EQ(window(), (ValueWindow{.width = 8.0, .level = 4.0}));
-  for (const float far : {1e3F, 1e20F, -1e30F}) {
+  for (const float far : {1e5F, 1e20F, -1e30F}) {
     numbers[5] = far;
     numbers[77] = std::numeric_limits<float>::quiet_NaN();
-    const ValueWindow found = window();
-    EXPECT_NEAR(found.level - 0.5 * found.width, 0.0, 0.3) << far;
-    EXPECT_NEAR(found.level + 0.5 * found.width, 8.0, 0.3) << far;
+    EXPECT_EQ(window(), (ValueWindow{.width = 8.0, .level = 4.0})) << far;
   }
 }
 
