@@ -19,6 +19,7 @@
 #include "common/render/volume/volume_bindings.h"
 #include "common/render/volume/voxels/axis_tables.h"
 #include "common/render/volume/voxels/coarse_image.h"
+#include "common/render/volume/voxels/seen_bricks.h"
 #include "common/render/volume/voxels/voxel_texture.h"
 
 namespace palpate {

@@ -54,16 +54,6 @@ struct PointsPlace {
 [[nodiscard]] std::vector<bool> needed_bricks(const VolumeView& view, const BrickRanges& ranges,
                                               const BrickLayout& layout);
 
-/// For each brick of `ranges` its distance to the nearest one in which some transfer function of the view
-/// shows something, as empty_distances(). @param ranges brick_ranges(*view.image).
-[[nodiscard]] std::vector<std::uint8_t> distances_to_seen(const VolumeView& view, const BrickRanges& ranges);
-
-/// Of the bricks in which something is seen, the share that lies where a coarser image shows nothing: thin things
-/// are lost in means. A lower bound: what is lost beside something that is seen is not in it.
-/// @param ranges brick_ranges() of the image of `view`. @param coarser the same view of means of its voxels.
-[[nodiscard]] double hidden_share(const VolumeView& view, const BrickRanges& ranges,
-                                  const VolumeView& coarser, const BrickRanges& coarser_ranges);
-
 /// Places of a pool that coarse bricks for so many bricks take.
 [[nodiscard]] std::size_t coarse_places(std::size_t bricks, const BrickLayout& layout);
 

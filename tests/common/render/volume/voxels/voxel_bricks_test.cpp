@@ -18,6 +18,7 @@
 #include "common/render/volume/volume_block.h"
 #include "common/render/volume/volume_picture.h"
 #include "common/render/volume/voxels/coarse_image.h"
+#include "common/render/volume/voxels/seen_bricks.h"
 #include "tests/common/render/lens/sample_lenses.h"
 
 namespace palpate::test {
