@@ -103,10 +103,11 @@ endfunction()
 # ctest. The tests of a CMakeLists.txt share a program, <folder>_tests, since linking a program for each costs as much
 # as compiling it; tests that are slow, count allocations or locks, or need VTK or OpenVDB have programs apart. A test
 # that compiles sources of the product has a program for itself.
+# OWN_DISPLAY: the test moves the mouse of its display, which windows of others would see.
 # A folder that sets PALPATE_PLAIN_TESTS has its tests compiled without the optimiser.
 # Every test has the label `fast` (run under the sanitizers too) unless LABELS says `slow` (not built there).
 function(palpate_test path)
-  cmake_parse_arguments(arg "" "TIMEOUT" "LABELS;USES;DEPENDS;SOURCES" ${ARGN})
+  cmake_parse_arguments(arg "OWN_DISPLAY" "TIMEOUT" "LABELS;USES;DEPENDS;SOURCES" ${ARGN})
   if(PALPATE_SANITIZE AND "slow" IN_LIST arg_LABELS)
     return()
   endif()
@@ -167,7 +168,13 @@ function(palpate_test path)
     list(APPEND arg_LABELS fast)
     add_dependencies(fast_tests ${program})
   endif()
-  add_test(NAME ${path} COMMAND ${program} --file=tests/${path}.cpp)
+  set(display "")
+  if(arg_OWN_DISPLAY AND PALPATE_XVFB_RUN)
+    set(display ${PALPATE_XVFB_RUN} -a -n ${PALPATE_NEXT_DISPLAY} -s "-screen 0 1280x1024x24")
+    math(EXPR next "${PALPATE_NEXT_DISPLAY} + 20")
+    set(PALPATE_NEXT_DISPLAY ${next} CACHE INTERNAL "")
+  endif()
+  add_test(NAME ${path} COMMAND ${display} $<TARGET_FILE:${program}> --file=tests/${path}.cpp)
   # Long tests begin first, or the last of them would run alone.
   set(cost 1)
   if("slow" IN_LIST arg_LABELS)
