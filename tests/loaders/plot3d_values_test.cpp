@@ -217,7 +217,7 @@ TEST(Plot3dValues, FilesThatAreCutOffOrOfAnotherGridAreRefused) {
   };
   const std::string functions = function_file(l, 3), overflow = overflow_file(l, 6, 0, true);
   for (const std::string& whole : {functions, overflow}) {
-    for (std::size_t size = 0; size < whole.size(); size += 13) refused(whole.substr(0, size));
+    for (std::size_t size = 0; size < whole.size(); size += 41) refused(whole.substr(0, size));
     refused(whole + "x");
   }
   Layout single = l;
