@@ -28,11 +28,22 @@ BorderRole role_by_name(const std::string& file, const std::string& mesh) {
   if (name.starts_with(mesh)) name.erase(0, mesh.size());
   name = lowered(name);
   const auto has = [&name](std::string_view word) { return name.find(word) != std::string::npos; };
+  // Two letters stand at an end of a part of the name: "nerve" is no right ventricle, and "baseline" no base.
+  const auto has_part = [&name](std::string_view word, bool whole) {
+    std::size_t begin = 0;
+    while (begin < name.size()) {
+      const std::size_t end = std::min(name.find_first_of("._- ", begin), name.size());
+      const std::string_view part = std::string_view(name).substr(begin, end - begin);
+      if (whole ? part == word : part.starts_with(word) || part.ends_with(word)) return true;
+      begin = end + 1;
+    }
+    return false;
+  };
   if (has("epi")) return BorderRole::kOuter;
-  if (has("base")) return BorderRole::kBase;
-  if (has("sept")) return has("lv") ? BorderRole::kInner : BorderRole::kSeptum;
-  if (has("rv")) return BorderRole::kRight;
-  return has("endo") || has("lv") ? BorderRole::kInner : BorderRole::kLeft;
+  if (has_part("base", true)) return BorderRole::kBase;
+  if (has("sept")) return has_part("lv", false) ? BorderRole::kInner : BorderRole::kSeptum;
+  if (has_part("rv", false)) return BorderRole::kRight;
+  return has("endo") || has_part("lv", false) ? BorderRole::kInner : BorderRole::kLeft;
 }
 
 /// Marks the points of a file. @return how many rows it has.

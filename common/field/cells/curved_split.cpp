@@ -186,7 +186,8 @@ class CurvedSplitter {
     const DataArray* const degrees = block.find(kHigherOrderDegrees, Association::kCell);
     for (std::size_t i = 0; degrees != nullptr && degrees->components == 3 && i < 3; ++i) {
       constexpr double kMost = 1000.0;  // that CurvedCell knows none of
-      orders[i] = static_cast<int>(std::clamp(degrees->at(c, static_cast<int>(i)), 0.0, kMost));
+      const double order = degrees->at(c, static_cast<int>(i));
+      orders[i] = order >= 0.0 && order < kMost ? static_cast<int>(order) : static_cast<int>(kMost);
     }
     auto [found, fresh] = shapes_.try_emplace({type, out.nodes.size(), orders});
     if (fresh) found->second.cell = CurvedCell::make(type, out.nodes.size(), orders);

@@ -44,12 +44,19 @@ std::vector<double> group_surfaces(const Model& model, const SampledPlaces& plac
   std::vector<double> tags(places.points, 0.0);
   std::vector<std::string> taken;
   bool inner = false, outer = false;
+  const auto named = [](const auto& group) { return role_of_group(group.first) != BorderRole::kLeft; };
+  if (std::ranges::none_of(model.groups, named)) return {};
+  const bool cubes =
+      std::ranges::all_of(model.elements, [](const Element& element) { return element.linked == Linked{}; });
+  if (!cubes) {
+    notes.emplace_back("groups name surfaces, and elements are no cubes: surfaces are found by shape");
+    return {};
+  }
   for (const BorderRole role : kOrder) {
     for (const auto& [name, group] : model.groups) {
       if (role_of_group(name) != role) continue;
       std::size_t faces = 0;
       for (std::size_t e = 0; e < model.elements.size(); ++e) {
-        if (model.elements[e].linked != Linked{}) return {};
         const std::vector<Vec3>& xi = places.of_element[e]->xi;
         for (int axis = 0; axis < 3; ++axis) {
           for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
@@ -67,7 +74,12 @@ std::vector<double> group_surfaces(const Model& model, const SampledPlaces& plac
                       ", by its name: " + counted(faces, "face"));
     }
   }
-  if (!inner || !outer) return {};
+  if (!inner || !outer) {
+    notes.emplace_back(
+        "groups that name a surface are left out: faces of one with \"endo\" and of one with \"epi\" in its "
+        "name are needed");
+    return {};
+  }
   notes.insert(notes.end(), taken.begin(), taken.end());
   return tags;
 }

@@ -63,8 +63,9 @@ TEST_F(CarpSurfaces, AreFoundBesideTheMeshByTheirNames) {
   folder_.write("m.lvendo.surf.vtx", "1\nintra\n99\n");
   folder_.write("m.stimulus.vtx", "1\nintra\n0\n");
   folder_.write("other.rvendo.vtx", "1\nintra\n0\n");
+  for (const char* none : {"m.nerve.vtx", "m.baseline.vtx"}) folder_.write(none, "1\nextra\n4\n");
   EXPECT_EQ(surface(), (std::vector<double>{1, 1, 1, 2, 2, 2}));
-  EXPECT_FALSE(says("stimulus"));
+  for (const char* none : {"stimulus", "nerve", "baseline"}) EXPECT_FALSE(says(none)) << none;
 }
 
 TEST_F(CarpSurfaces, EachNameIsASurface) {

@@ -1,6 +1,7 @@
 // Surfaces of a wall that groups of an EX model name: of a box whose first axis goes through the wall.
 #include "loaders/cardiac/ex/ex_groups.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -94,6 +95,9 @@ TEST(ExGroups, WithoutBothTheThirdAxisSays) {
     ASSERT_EQ(surface->at(p), z == 0.0 ? 1.0 : z == 1.0 ? 2.0 : 0.0);
   }
   EXPECT_NE(model.mesh.find("layer", Association::kPoint), nullptr);
+  EXPECT_TRUE(std::ranges::any_of(model.notes, [](const std::string& note) {
+    return note.find("groups that name a surface are left out") != std::string::npos;
+  }));
 }
 
 }  // namespace
