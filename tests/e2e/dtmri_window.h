@@ -27,17 +27,14 @@ class DtmriWindow : public ExplorerTest {
   /// Runs the script so far, which begins anew. @param picture of the window's last frame; empty: in the folder.
   WindowResult open(const std::vector<std::string>& arguments, const std::filesystem::path& picture = {}) {
     const ParsedCommand parsed = parse_command_line(explorer_, arguments);
-    Progress progress;
-    InterruptGuard interrupt(progress, "dtmri");
-    Console console("dtmri", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "dtmri"};
+    const QuietVerb verb(explorer_);
     WindowOptions window{.program = "dtmri",
                          .width = width_,
                          .height = height_,
                          .angles = camera_angles(parsed.options.view.camera),
                          .session = folder_.path("a.palpate.toml"),
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kTensor), parsed.options, context),
+                         .touch = window_touch(modes_of(FieldKind::kTensor), parsed.options, verb.context),
                          .panels = dtmri_panels(),
                          .script = std::exchange(script_, {}),
                          .hidden = true};  // a screen is lower than the panel

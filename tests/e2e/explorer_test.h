@@ -10,6 +10,10 @@
 #include <gtest/gtest.h>
 
 #include "common/base/json.h"
+#include "common/base/progress.h"
+#include "common/cli/console.h"
+#include "common/cli/explorer.h"
+#include "common/cli/interrupt.h"
 #include "tests/e2e/program.h"
 #include "tests/support/temp_folder.h"
 
@@ -34,6 +38,18 @@ class ExplorerTest : public ::testing::Test {
 
  private:
   std::string explorer_;
+};
+
+/// What a verb works with, for a window in the test's own process; nothing of it is printed.
+struct QuietVerb {
+  explicit QuietVerb(const Explorer& explorer)
+      : interrupt(progress, explorer.name),
+        console(explorer.name, false, true),
+        context{explorer, progress, interrupt, console, explorer.name} {}
+  Progress progress;
+  InterruptGuard interrupt;
+  Console console;
+  VerbContext context;
 };
 
 }  // namespace palpate::test

@@ -57,10 +57,7 @@ class GridPanes : public ExplorerTest {
 
   WindowResult open(const std::vector<std::string>& arguments) {
     const ParsedCommand parsed = parse_command_line(explorer_, arguments);
-    Progress progress;
-    InterruptGuard interrupt(progress, "grid");
-    Console console("grid", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "grid"};
+    const QuietVerb verb(explorer_);
     WindowOptions window{.program = "grid",
                          .width = kWidth,
                          .height = kHeight,
@@ -68,7 +65,7 @@ class GridPanes : public ExplorerTest {
                          .focal_point = focal_point_of(parsed.options.view),
                          .session = folder_.path("a.palpate.toml"),
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
+                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, verb.context),
                          .panels = {draw_volume},
                          .script = script_};
     window.frames = next_ + 20;

@@ -96,10 +96,7 @@ class GridReading : public ExplorerTest {
 
   WindowResult open() {
     const ParsedCommand parsed = parse_command_line(explorer_, {"open"});
-    Progress progress;
-    InterruptGuard interrupt(progress, "grid");
-    Console console("grid", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "grid"};
+    const QuietVerb verb(explorer_);
     WindowOptions window{.program = "grid",
                          .width = kWidth,
                          .height = kHeight,
@@ -107,7 +104,7 @@ class GridReading : public ExplorerTest {
                          .start_page = true,
                          .recent = {{{folder_.path("study/b0")}}},  // where the dialog begins
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
+                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, verb.context),
                          .panels = {draw_volume},
                          .script = script_};
     window.frames = next_ + 30;

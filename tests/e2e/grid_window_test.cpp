@@ -42,17 +42,14 @@ class GridWindow : public ExplorerTest {
   /// What the command line says, in a window.
   WindowResult open(const std::vector<std::string>& arguments, const std::string& picture) {
     const ParsedCommand parsed = parse_command_line(explorer_, arguments);
-    Progress progress;
-    InterruptGuard interrupt(progress, "grid");
-    Console console("grid", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "grid"};
+    const QuietVerb verb(explorer_);
     WindowOptions window{.program = "grid",
                          .width = kWidth,
                          .height = kHeight,
                          .angles = camera_angles(parsed.options.view.camera),
                          .focal_point = focal_point_of(parsed.options.view),
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, context),
+                         .touch = window_touch(modes_of(FieldKind::kScalar), parsed.options, verb.context),
                          .panels = {draw_volume},
                          // Frames of some length: between two events the servo has time to answer.
                          .stop_requested =

@@ -107,10 +107,7 @@ class PanelWalk : public ExplorerTest {
         .verbs = {{.name = "open",
                    .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kTouch,
                               Group::kLayer, Group::kAngle, Group::kPlot, Group::kNotes, Group::kPart}}}};
-    Progress progress;
-    InterruptGuard interrupt(progress, program.name);
-    Console console(program.name, false, true);
-    const VerbContext context{explorer, progress, interrupt, console, program.name};
+    const QuietVerb verb(explorer);
     std::string words;
     for (const std::string& word : arguments) words += " " + word;
     std::vector<std::string> line{"open"};
@@ -118,10 +115,10 @@ class PanelWalk : public ExplorerTest {
     const Document plain = parse_command_line(explorer, line).options;
     line.insert(line.end(), arguments.begin(), arguments.end());
     const Document start = parse_command_line(explorer, line).options;
-    const WindowResult before = open(program, start, context, {}, 12);
+    const WindowResult before = open(program, start, verb.context, {}, 12);
     std::vector<DrawnControl> together;
     const auto press_all = [&] {
-      press(program, plain, before.document, context, std::exchange(together, {}), words);
+      press(program, plain, before.document, verb.context, std::exchange(together, {}), words);
     };
     // From below: what a control hides or shows lies below it.
     const std::vector<DrawnControl> controls = drawn_controls();

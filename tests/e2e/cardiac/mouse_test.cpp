@@ -68,10 +68,7 @@ class CardiacMouse : public ExplorerTest {
     arguments.insert(arguments.begin(), "open");
     arguments.insert(arguments.end(), {"--threads", "1"});
     const ParsedCommand parsed = parse_command_line(explorer_, arguments);
-    Progress progress;
-    InterruptGuard interrupt(progress, "cardiac");
-    Console console("cardiac", false, true);
-    const VerbContext context{explorer_, progress, interrupt, console, "cardiac"};
+    const QuietVerb verb(explorer_);
     const Document& options = parsed.options;
     WindowOptions window{.program = "cardiac",
                          .width = kWidth,
@@ -82,7 +79,7 @@ class CardiacMouse : public ExplorerTest {
                          .start_page = options.input.files.empty() && options.input.example.empty(),
                          .session = options.common.session,
                          .picture_folder = folder_.path(),
-                         .touch = window_touch(modes_of(FieldKind::kFibre), options, context),
+                         .touch = window_touch(modes_of(FieldKind::kFibre), options, verb.context),
                          .panels = cardiac_panels(),
                          .threads = 1,
                          // The servo has the time between two frames that a user would give it.
