@@ -53,6 +53,8 @@ target_compile_options(palpate_options INTERFACE
   # Clang 14 still look at all calls.
   $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,15>>:-Wno-deprecated-declarations>)
 if(CMAKE_UNITY_BUILD)
+  # Twice CMake's number: most of a file's time goes into headers that all have in common.
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
   # Files compiled together see one another's names, and are no longer main files: a build file by file has
   # these warnings.
   target_compile_options(palpate_options INTERFACE

@@ -35,22 +35,23 @@ Vec3 parse_vector(const std::string& text, const char* option, const char* expec
   return {v[0], v[1], v[2]};
 }
 
-constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypes{{{"uint8", ScalarType::kUint8},
-                                                                          {"int8", ScalarType::kInt8},
-                                                                          {"uint16", ScalarType::kUint16},
-                                                                          {"int16", ScalarType::kInt16},
-                                                                          {"uint32", ScalarType::kUint32},
-                                                                          {"int32", ScalarType::kInt32},
-                                                                          {"uint64", ScalarType::kUint64},
-                                                                          {"int64", ScalarType::kInt64},
-                                                                          {"float32", ScalarType::kFloat32},
-                                                                          {"float64", ScalarType::kFloat64},
-                                                                          {"uchar", ScalarType::kUint8},
-                                                                          {"char", ScalarType::kInt8},
-                                                                          {"ushort", ScalarType::kUint16},
-                                                                          {"short", ScalarType::kInt16},
-                                                                          {"float", ScalarType::kFloat32},
-                                                                          {"double", ScalarType::kFloat64}}};
+constexpr std::array<std::pair<std::string_view, ScalarType>, 16> kTypeNames{
+    {{"uint8", ScalarType::kUint8},
+     {"int8", ScalarType::kInt8},
+     {"uint16", ScalarType::kUint16},
+     {"int16", ScalarType::kInt16},
+     {"uint32", ScalarType::kUint32},
+     {"int32", ScalarType::kInt32},
+     {"uint64", ScalarType::kUint64},
+     {"int64", ScalarType::kInt64},
+     {"float32", ScalarType::kFloat32},
+     {"float64", ScalarType::kFloat64},
+     {"uchar", ScalarType::kUint8},
+     {"char", ScalarType::kInt8},
+     {"ushort", ScalarType::kUint16},
+     {"short", ScalarType::kInt16},
+     {"float", ScalarType::kFloat32},
+     {"double", ScalarType::kFloat64}}};
 
 }  // namespace
 
@@ -65,9 +66,9 @@ RawLayout parse_raw_layout(const RawSpec& spec) {
                       ": voxels along three axes are expected, such as 256x256x178");
   }
   layout.size = {size[0], size[1], size[2]};
-  const auto* const type =
-      std::find_if(kTypes.begin(), kTypes.end(), [&](const auto& known) { return known.first == spec.type; });
-  if (type == kTypes.end()) {
+  const auto* const type = std::find_if(kTypeNames.begin(), kTypeNames.end(),
+                                        [&](const auto& known) { return known.first == spec.type; });
+  if (type == kTypeNames.end()) {
     throw usage_error(
         "--raw-type " + spec.type +
         ": known are uint8, int8, uint16, int16, uint32, int32, uint64, int64, float32, float64");

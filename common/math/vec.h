@@ -31,6 +31,12 @@ using Index3 = glm::ivec3;
   return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z);
 }
 
+/// v / |v|; zero where it has no direction: no length, or a component that is no finite number.
+[[nodiscard]] inline Vec3 unit_or_zero(const Vec3& v) noexcept {
+  const double length = glm::length(v);
+  return length > 0.0 && std::isfinite(length) ? v / length : Vec3{0.0};
+}
+
 /// Between two directions, in [0, pi]; 0 where one has no length.
 [[nodiscard]] inline double angle_between(const Vec3& a, const Vec3& b) noexcept {
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));

@@ -22,6 +22,10 @@ namespace palpate {
   return text;
 }
 [[nodiscard]] inline std::string exact_text(const Vec3& v) { return exact_text({v.x, v.y, v.z}); }
+/// "1 0.5 2": the same with blanks, as a row of a file.
+[[nodiscard]] inline std::string exact_row(const Vec3& v) {
+  return exact_number(v.x) + " " + exact_number(v.y) + " " + exact_number(v.z);
+}
 
 /// "(1, 0.5, 2)": six digits, and no "-0" for what was turned around.
 [[nodiscard]] inline std::string position_text(const Vec3& x) {

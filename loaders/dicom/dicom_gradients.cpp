@@ -17,23 +17,20 @@ bool has_creator(const DicomScope& scope, DicomTag group, std::string_view creat
   return false;
 }
 
-Vec3 unit_or_zero(const std::vector<double>& numbers) {
-  if (numbers.size() != 3) return Vec3(0.0);
-  const Vec3 direction{numbers[0], numbers[1], numbers[2]};
-  const double length = glm::length(direction);
-  return std::isfinite(length) && length > 0.0 ? direction / length : Vec3(0.0);
+Vec3 direction_of(const std::vector<double>& numbers) {
+  return numbers.size() == 3 ? unit_or_zero(Vec3{numbers[0], numbers[1], numbers[2]}) : Vec3(0.0);
 }
 
 std::optional<DicomGradient> of_standard(const DicomScope& scope) {
   const auto b = dicom_number(scope, 0x00189087);
   if (!b) return std::nullopt;
-  return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x00189089, true))};
+  return DicomGradient{*b, direction_of(dicom_numbers(scope, 0x00189089, true))};
 }
 
 std::optional<DicomGradient> of_siemens(const DicomScope& scope) {
   const auto b = has_creator(scope, 0x0019, "SIEMENS MR HEADER") ? dicom_number(scope, 0x0019100c)
                                                                  : std::optional<double>();
-  if (b) return DicomGradient{*b, unit_or_zero(dicom_numbers(scope, 0x0019100e, true))};
+  if (b) return DicomGradient{*b, direction_of(dicom_numbers(scope, 0x0019100e, true))};
   // Older software says it in its private header alone.
   const std::string_view csa = csa_header(scope);
   const auto weighting = csa_words(csa, "B_value");
@@ -42,7 +39,7 @@ std::optional<DicomGradient> of_siemens(const DicomScope& scope) {
   std::vector<double> direction;
   for (const std::string& word : csa_words(csa, "DiffusionGradientDirection"))
     direction.push_back(number(word).value_or(std::nan("")));
-  return DicomGradient{*value, unit_or_zero(direction)};
+  return DicomGradient{*value, direction_of(direction)};
 }
 
 std::optional<DicomGradient> of_ge(const DicomScope& scope, DicomFrame& frame) {
@@ -58,7 +55,7 @@ std::optional<DicomGradient> of_ge(const DicomScope& scope, DicomFrame& frame) {
   for (const DicomTag tag : {0x001910bbU, 0x001910bcU, 0x001910bdU}) {
     if (const auto number = dicom_number(scope, tag)) numbers.push_back(*number);
   }
-  const Vec3 g = unit_or_zero(numbers);
+  const Vec3 g = direction_of(numbers);
   const bool rows = dicom_text(scope, 0x00181312).starts_with("ROW");
   const Vec3 normal = glm::cross(frame.along_row, frame.along_column);
   gradient.direction = rows ? g.y * frame.along_row - g.x * frame.along_column - g.z * normal

@@ -15,6 +15,7 @@
 #include "tests/loaders/case_fixtures.h"
 #include "tests/loaders/nifti_fixture.h"
 #include "tests/loaders/tracts/tract_fixture.h"
+#include "tests/support/samples.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -205,7 +206,7 @@ TEST(HostileFiles, TruncatedAnywhereTheyAreRefused) {
   };
   for (const Sample& sample : samples()) {
     const std::size_t whole = sample.content.size() - sample.trailing;
-    const std::size_t stride = std::max<std::size_t>(1, whole / 24);
+    const std::size_t stride = std::max<std::size_t>(1, whole / test::samples_of<std::size_t>(24));
     for (std::size_t size = 0; size < whole; size += stride) {
       const std::string_view part = std::string_view(sample.content).substr(0, size);
       const std::string_view section = sample.section;
@@ -221,7 +222,7 @@ TEST(HostileFiles, RandomBytesAndDamagedFilesNeverDoMoreThanFail) {
   const test::TempFolder folder;
   std::mt19937 random{5};
   for (const Sample& sample : samples()) {
-    for (int round = 0; round < 16; ++round) {
+    for (int round = 0; round < test::samples_of(16); ++round) {
       std::string content = sample.content;
       for (int flip = 0; flip < 1 + round; ++flip)
         content[random() % content.size()] = static_cast<char>(random());
@@ -400,7 +401,7 @@ TEST(HostileFiles, DamagedExodusFilesAreRefused) {
   huge.replace(at + 12, 4, "\x7f\xff\xff\xff");
   expect_refused(folder.write("a.ex2", huge), "2^31 nodes");
   std::mt19937 random{11};
-  for (int round = 0; round < 16; ++round) {
+  for (int round = 0; round < test::samples_of(16); ++round) {
     std::string damaged = content;
     for (int flip = 0; flip < 8; ++flip) damaged[random() % 12000] = static_cast<char>(random());
     (void)attempt({{folder.write("a.ex2", damaged)}, {}});

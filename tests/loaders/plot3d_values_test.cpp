@@ -12,6 +12,7 @@
 #include "common/base/text.h"
 #include "common/load/load.h"
 #include "tests/support/refusal.h"
+#include "tests/support/samples.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate::test {
@@ -217,7 +218,8 @@ TEST(Plot3dValues, FilesThatAreCutOffOrOfAnotherGridAreRefused) {
   };
   const std::string functions = function_file(l, 3), overflow = overflow_file(l, 6, 0, true);
   for (const std::string& whole : {functions, overflow}) {
-    for (std::size_t size = 0; size < whole.size(); size += 41) refused(whole.substr(0, size));
+    for (std::size_t size = 0; size < whole.size(); size += 164 / samples_of(4))
+      refused(whole.substr(0, size));
     refused(whole + "x");
   }
   Layout single = l;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "common/base/index.h"
@@ -367,9 +369,10 @@ void CurvedCell::weights(const Vec3& xi, std::vector<double>& out) const {
   std::vector<double> values;
   basis(xi, values);
   const std::size_t n = nodes_.size();
-  out.assign(n, 0.0);
+  out.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) out[i] += inverse_[i * n + j] * values[j];
+    out[i] = std::inner_product(values.begin(), values.end(),
+                                inverse_.begin() + static_cast<std::ptrdiff_t>(i * n), 0.0);
   }
 }
 

@@ -11,8 +11,6 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 std::size_t step_of(double angle) { return std::min<std::size_t>(17, floor_size(angle / 10.0)); }
 
 void count_components(const TetMesh& mesh, MeshQuality& quality) {
@@ -45,7 +43,8 @@ void count_border(const TetMesh& mesh, MeshQuality& quality) {
       if (mesh.neighbors()[c][f] != kNoCell) continue;
       ++quality.border_faces;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint64_t a = mesh.cells()[c][kFaces[f][i]], b = mesh.cells()[c][kFaces[f][(i + 1) % 3]];
+        const std::uint64_t a = mesh.cells()[c][kTetFaces[f][i]],
+                            b = mesh.cells()[c][kTetFaces[f][(i + 1) % 3]];
         edges.push_back(std::min(a, b) << 32U | std::max(a, b));
       }
     }
@@ -74,9 +73,9 @@ std::size_t folded_faces(const TetMesh& mesh) {
       const auto g = as_size(std::find(back.begin(), back.end(), static_cast<CellIndex>(c)) - back.begin());
       if (g == back.size()) continue;
       // Seen from outside, the face of the one runs round against that of the other.
-      const std::uint32_t a = mesh.cells()[c][kFaces[f][0]], b = mesh.cells()[c][kFaces[f][1]];
+      const std::uint32_t a = mesh.cells()[c][kTetFaces[f][0]], b = mesh.cells()[c][kTetFaces[f][1]];
       for (std::size_t i = 0; i < 3; ++i)
-        if (other[kFaces[g][i]] == a && other[kFaces[g][(i + 1) % 3]] == b) ++folded;
+        if (other[kTetFaces[g][i]] == a && other[kTetFaces[g][(i + 1) % 3]] == b) ++folded;
     }
   }
   return folded;
@@ -85,8 +84,8 @@ std::size_t folded_faces(const TetMesh& mesh) {
 std::array<double, 6> dihedral_angles(const std::array<Vec3, 4>& corners) noexcept {
   std::array<Vec3, 4> normal;
   for (std::size_t f = 0; f < 4; ++f) {
-    const Vec3& a = corners[kFaces[f][0]];
-    normal[f] = glm::cross(corners[kFaces[f][1]] - a, corners[kFaces[f][2]] - a);
+    const Vec3& a = corners[kTetFaces[f][0]];
+    normal[f] = glm::cross(corners[kTetFaces[f][1]] - a, corners[kTetFaces[f][2]] - a);
   }
   std::array<double, 6> angles{};
   std::size_t n = 0;

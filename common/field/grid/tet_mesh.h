@@ -26,6 +26,11 @@ struct TetPoint {
   Vec4 b{0.0};
 };
 
+/// Corners of the face opposite each corner of a tetrahedron; counter-clockwise from outside where its volume
+/// is positive.
+inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFaces{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
 class TetMesh {
  public:
   using Tet = std::array<std::uint32_t, 4>;

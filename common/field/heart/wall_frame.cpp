@@ -47,10 +47,7 @@ SmoothNormals::SmoothNormals(std::shared_ptr<const ScalarField> layer) : layer_(
     for (const std::uint32_t p : mesh.cells()[c]) sum[p] += *gradient;
   }
   normals_.reserve(sum.size());
-  for (const Vec3& v : sum) {
-    const double length = glm::length(v);
-    normals_.emplace_back(length > 0.0 ? v / length : Vec3{0.0});
-  }
+  for (const Vec3& v : sum) normals_.emplace_back(unit_or_zero(v));
 }
 
 Vec3 SmoothNormals::at(const TetPoint& place) const noexcept {

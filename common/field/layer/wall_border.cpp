@@ -12,9 +12,6 @@
 namespace palpate {
 namespace {
 
-/// The corners opposite each vertex of a positively oriented tetrahedron, their normal outwards.
-constexpr std::array<std::array<std::size_t, 3>, 4> kFaces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 struct Edge {
   std::uint32_t low, high, triangle;
 };
@@ -76,7 +73,7 @@ WallBorder border_of(const TetMesh& mesh) {
     const TetMesh::Tet& tet = mesh.cells()[c];
     for (std::size_t f = 0; f < 4; ++f) {
       if (mesh.neighbors()[c][f] != kNoCell) continue;
-      const std::array<std::uint32_t, 3> t{tet[kFaces[f][0]], tet[kFaces[f][1]], tet[kFaces[f][2]]};
+      const std::array<std::uint32_t, 3> t{tet[kTetFaces[f][0]], tet[kTetFaces[f][1]], tet[kTetFaces[f][2]]};
       border.triangles.push_back(t);
       border.areas.push_back(0.5 * glm::cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]));
       border.cells.push_back(static_cast<CellIndex>(c));
@@ -153,8 +150,8 @@ std::size_t WallCrossing::from(std::size_t triangle) const {
     std::size_t leaves = 4;
     for (std::size_t f = 0; f < 4; ++f) {
       if (f == entered) continue;
-      const Vec3 &a = points[tet[kFaces[f][0]]], &b = points[tet[kFaces[f][1]]],
-                 &c = points[tet[kFaces[f][2]]];
+      const Vec3 &a = points[tet[kTetFaces[f][0]]], &b = points[tet[kTetFaces[f][1]]],
+                 &c = points[tet[kTetFaces[f][2]]];
       const Vec3 outward = glm::cross(b - a, c - a);
       const double along = glm::dot(outward, way);
       if (!(along > 0.0)) continue;

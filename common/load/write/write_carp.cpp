@@ -43,16 +43,6 @@ const CellWord* word_of(std::uint8_t type) {
   return found == kWords.end() ? nullptr : found;
 }
 
-std::string triple(const Vec3& v) {
-  return exact_number(v.x) + " " + exact_number(v.y) + " " + exact_number(v.z);
-}
-
-/// Of length one, or zeros.
-Vec3 direction(const Vec3& v) {
-  const double length = glm::length(v);
-  return length > 0.0 && std::isfinite(length) ? v / length : Vec3{0.0};
-}
-
 }  // namespace
 
 IgbTimes igb_times(const std::vector<double>& times, const std::string& file) {
@@ -183,8 +173,8 @@ void CarpOutput::write_mesh(const UnstructuredTopology& mesh, double micrometres
   OutputFile& pts = files_->at(0);
   pts.write(std::to_string(mesh.positions.tuples) + "\n");
   for (std::size_t p = 0; p < mesh.positions.tuples; ++p)
-    pts.write(triple(micrometres *
-                     Vec3{mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)}) +
+    pts.write(exact_row(micrometres *
+                        Vec3{mesh.positions.at(p, 0), mesh.positions.at(p, 1), mesh.positions.at(p, 2)}) +
               "\n");
   OutputFile& elem = files_->at(1);
   elem.write(std::to_string(mesh.types.size()) + "\n");
@@ -204,8 +194,8 @@ void CarpOutput::write_directions(std::span<const Vec3> fibres, std::span<const 
   OutputFile& lon = files_->at(2);
   lon.write(sheets.empty() ? "1\n" : "2\n");
   for (std::size_t c = 0; c < fibres.size(); ++c)
-    lon.write(triple(direction(fibres[c])) + (sheets.empty() ? "" : " " + triple(direction(sheets[c]))) +
-              "\n");
+    lon.write(exact_row(unit_or_zero(fibres[c])) +
+              (sheets.empty() ? "" : " " + exact_row(unit_or_zero(sheets[c]))) + "\n");
 }
 
 std::filesystem::path CarpOutput::result(const std::string& name, const char* ending) const {

@@ -12,25 +12,16 @@
 namespace palpate {
 namespace {
 
-std::string row(const Vec3& v) {
-  return exact_number(v.x) + " " + exact_number(v.y) + " " + exact_number(v.z);
-}
-
-/// Of length one, or zeros.
-Vec3 direction(const Vec3& v) {
-  const double length = glm::length(v);
-  return length > 0.0 && std::isfinite(length) ? v / length : Vec3{0.0};
-}
-
 /// The directions of an element as a row of .ortho.
 std::string frame(const Vec3& given_fibre, const Vec3& given_sheet) {
   constexpr double kParallel = 1e-6;
-  const Vec3 fibre = direction(given_fibre);
-  Vec3 across = direction(given_sheet);
+  const Vec3 fibre = unit_or_zero(given_fibre);
+  Vec3 across = unit_or_zero(given_sheet);
   across -= glm::dot(across, fibre) * fibre;
   const bool known = fibre != Vec3{0.0} && glm::length(across) > kParallel;
-  const Vec3 sheet = known ? direction(across) : Vec3{0.0};
-  return row(known ? fibre : Vec3{0.0}) + " " + row(sheet) + " " + row(glm::cross(fibre, sheet));
+  const Vec3 sheet = known ? unit_or_zero(across) : Vec3{0.0};
+  return exact_row(known ? fibre : Vec3{0.0}) + " " + exact_row(sheet) + " " +
+         exact_row(glm::cross(fibre, sheet));
 }
 
 }  // namespace
@@ -67,12 +58,12 @@ std::vector<std::filesystem::path> write_tetgen(const std::filesystem::path& ele
   OutputFile& nodes = open(".node");
   nodes.write(std::to_string(points.size()) + " 3 0 0\n");
   for (std::size_t p = 0; p < points.size(); ++p)
-    nodes.write(std::to_string(p) + " " + row(points[p]) + "\n");
+    nodes.write(std::to_string(p) + " " + exact_row(points[p]) + "\n");
   if (!of_directions.empty()) {
     OutputFile& out = open(of_directions);
     out.write(std::to_string(tets.size()) + "\n");
     for (std::size_t c = 0; c < tets.size(); ++c)
-      out.write((elements.sheets.empty() ? row(direction(elements.fibres[c]))
+      out.write((elements.sheets.empty() ? exact_row(unit_or_zero(elements.fibres[c]))
                                          : frame(elements.fibres[c], elements.sheets[c])) +
                 "\n");
   }

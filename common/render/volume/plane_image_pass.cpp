@@ -19,7 +19,7 @@ namespace {
 // Of shaders/volume/plane_image.frag.
 constexpr GLint kGrey = 1, kShown = 2, kLongestParts = 3, kLineWidth = 4, kContourCount = 5, kContours = 6;
 // Of lines, in thousandths of the picture's height.
-constexpr float kWidth = 1.8F;
+constexpr float kThickness = 1.8F;
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void PlaneImagePass::draw(const VolumeView& view, const SceneFrame& frame, const
               static_cast<float>(image.scale * unit / window.width));
   glUniform1i(kShown, view.planes.shown ? 1 : 0);
   glUniform1f(kLongestParts, static_cast<float>(opacity_length_of(view) / step_lengths(view).longest));
-  glUniform1f(kLineWidth, std::max(1.0F, kWidth * block.size.y / 1000.0F));
+  glUniform1f(kLineWidth, std::max(1.0F, kThickness * block.size.y / 1000.0F));
   std::array<float, kMostContours> contours{};
   std::transform(view.planes.contours.begin(), view.planes.contours.end(), contours.begin(),
                  [&](double value) { return static_cast<float>(number(value)); });

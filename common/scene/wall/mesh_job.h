@@ -28,11 +28,6 @@ inline constexpr const char* kMesherProgram = "palpate-mesh";
 
 enum class Mesher : std::uint8_t { kDelaunay, kTetgen };
 
-/// Corners of the face opposite each corner of a tetrahedron; counter-clockwise from outside where its volume
-/// is positive.
-inline constexpr std::array<std::array<std::size_t, 3>, 4> kTetFaces{
-    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
-
 /// A wall as its model was sampled: cells of any shape, each split into tetrahedra.
 struct SampledWall {
   std::vector<Vec3> points;                ///< data coordinates; no two at one place

@@ -79,8 +79,7 @@ class Triangles {
     IsosurfaceMesh mesh{.level = level, .points = std::move(points_), .triangles = std::move(triangles_)};
     mesh.normals.reserve(normals_.size());
     for (const Vec3& sum : normals_) {
-      const double length = glm::length(sum);
-      const Vec3 unit = length > 0.0 ? sum / length : Vec3{0.0};
+      const Vec3 unit = unit_or_zero(sum);
       mesh.normals.emplace_back(frame.rotated ? frame.rotation * unit : unit);
     }
     for (Vec3& x : mesh.points) x = frame.data_from_local(x);

@@ -21,6 +21,7 @@
 #include "loaders/cardiac/ex/ex_mesh.h"
 #include "loaders/cardiac/ex/ex_reader.h"
 #include "tests/support/project_folders.h"
+#include "tests/support/samples.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/temp_folder.h"
 
@@ -301,7 +302,7 @@ TEST(WallRule, NoTetrahedronLiesInTheCavitiesOfTheDog) {
   const FinishedMesh mesh = delaunay_of(wall);
   const CurvedModel curved(model);
   double farthest = 0.0;
-  for (std::size_t t = 0; t < mesh.tets.size(); t += 31) {
+  for (std::size_t t = 0; t < mesh.tets.size(); t += 124 / test::samples_of(4)) {
     Vec3 centroid{0.0};
     for (const std::uint32_t p : mesh.tets[t]) centroid += 0.25 * wall.points[p];
     farthest = std::max(farthest, curved.distance(centroid));

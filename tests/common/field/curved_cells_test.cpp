@@ -18,6 +18,7 @@
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/grid/tet_seams.h"
 #include "common/field/vector_field.h"
+#include "tests/support/samples.h"
 
 namespace palpate {
 namespace {
@@ -274,7 +275,7 @@ TEST(CurvedCells, AreOneMeshAndLinearFieldsAreExact) {
     EXPECT_EQ(find_seams(*field->tet_mesh(), 1).faces, 0U);
     std::uniform_real_distribution<double> one(0.1, 1.9);
     CellHint hint;
-    for (int n = 0; n < 50; ++n) {
+    for (int n = 0; n < test::samples_of(50); ++n) {
       const double x = one(random), y = one(random);
       const Vec3 at = bent({x, y, one(random)});
       const VectorSample sample = field->sample(at, hint);
@@ -308,7 +309,7 @@ TEST(CurvedCells, ValuesAreThoseOfThePolynomialWithinTheStatedError) {
     std::uniform_real_distribution<double> one(0.05, 1.95);
     CellHint hint;
     double most = 0.0;
-    for (int n = 0; n < 200; ++n) {
+    for (int n = 0; n < test::samples_of(200); ++n) {
       const double x = one(random), y = one(random);
       const Vec3 at{x, y, one(random)};
       const VectorSample sample = field->sample(at, hint);
@@ -347,7 +348,7 @@ TEST(CurvedCells, StatedErrorsIncludeThoseOfBentCells) {
   std::uniform_real_distribution<double> one(0.02, 0.98);
   CellHint hint;
   double most = 0.0;
-  for (int n = 0; n < 400; ++n) {
+  for (int n = 0; n < test::samples_of(400); ++n) {
     const double x = one(random), y = one(random);
     const Vec3 xi{x, y, one(random)};
     const VectorSample sample = field->sample(place(xi), hint);

@@ -9,6 +9,7 @@
 
 #include "tests/support/allocation_guard.h"
 #include "tests/support/lock_count.h"
+#include "tests/support/samples.h"
 
 namespace palpate::test {
 
@@ -49,7 +50,7 @@ Mat3 any_rotation(std::mt19937_64& random) {
 
 TEST_P(ConstraintContract, ItsPathHoldsIt) {
   const auto constraint = settled(GetParam());
-  constexpr int kSteps = 2000;
+  constexpr int kSteps = samples_of(2000);
   int held = 0;
   for (int n = 0; n <= kSteps; ++n) held += holds(updated(*constraint, GetParam().path(1.0 * n / kSteps)));
   EXPECT_GT(held, kSteps / 2) << "the other promises would be about nothing";
@@ -57,7 +58,7 @@ TEST_P(ConstraintContract, ItsPathHoldsIt) {
 
 TEST_P(ConstraintContract, StaysOnItsFeatureWithinTheReportedResidual) {
   const auto constraint = settled(GetParam());
-  constexpr int kSteps = 3000;
+  constexpr int kSteps = samples_of(3000);
   for (int n = 0; n <= kSteps; ++n) {
     const Vec3 probe = GetParam().path(1.0 * n / kSteps);
     const LinkUpdate link = updated(*constraint, probe);
@@ -81,7 +82,7 @@ TEST_P(ConstraintContract, ASecondUpdateDoesNotMoveTheProxy) {
 // At steps from 1e-2 to 1e-5 of the path: a leap that the coarse ones hide below their bound stands out in
 // the fine ones.
 TEST_P(ConstraintContract, TheForceIsContinuousWhereTheRuleIs) {
-  for (const int steps : {100, 3000, 100'000}) {
+  for (const int steps : {100, 3000, samples_of(100'000)}) {
     const auto constraint = settled(GetParam());
     Vec3 last = GetParam().path(0.0), last_pull = pull(updated(*constraint, last), last);
     for (int n = 1; n <= steps; ++n) {
@@ -191,7 +192,7 @@ TEST_P(ConstraintContract, BoundsItsWorkAndAllocatesLocksAndThrowsNothing) {
     Vec3 probe = subject.path(0.0);
     const AllocationGuard allocations;
     const LockCount locks;
-    for (int n = 0; n < 20'000; ++n) {
+    for (int n = 0; n < samples_of(20'000); ++n) {
       const double kind = unit(random);
       const Vec3 any{normal(random), normal(random), normal(random)};
       if (kind < 0.9) {

@@ -11,6 +11,7 @@
 
 #include "common/trace/trace.h"
 #include "lab/extremes/affine_field.h"
+#include "tests/support/samples.h"
 
 namespace palpate::test {
 namespace {
@@ -20,7 +21,7 @@ class ExactOnAffineFields : public testing::TestWithParam<int> {};
 // Rates up to 2^exponent: points lie on the curve within the error that they state, which says no more than it has to, and
 // lines end where the curve ends.
 TEST_P(ExactOnAffineFields, StatesItsErrorAndEndsWhereTheCurveEnds) {
-  constexpr int kFields = 60, kSeeds = 10, kSteps = 500;  // some 10^4 lines over all rates
+  constexpr int kFields = samples_of(60), kSeeds = 10, kSteps = 500;  // some 10^4 lines over all rates
   const int exponent = GetParam();
   std::size_t points = 0, understated = 0, bad = 0, lines = 0;
   std::vector<float> overstated;

@@ -12,6 +12,7 @@
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/grid/box_grid.h"
 #include "tests/common/trace/sampled_scalars.h"
+#include "tests/support/samples.h"
 #include "tests/support/torus_scalar.h"
 
 namespace palpate {
@@ -77,7 +78,7 @@ bool has_nearer_point(const ScalarField& field, const SurfacePoint& p, const Vec
     return field.jet(at, hint, jet) == SampleStatus::kOk ? jet.value - p.level : NAN;
   };
   const double distance = glm::distance(x, p.position);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::samples_of(200); ++i) {
     const Vec3 middle = p.position + radius * unit(random) * direction(random);
     const Vec3 along = direction(random) * (2.0 * radius);
     Vec3 low = middle - along, high = middle + along;
@@ -100,7 +101,7 @@ TEST(Isosurface, ClosestPointsOfASphereAndATorusAreTheFormulas) {
   const auto sphere = make_scalar_field(sphere_scalar());
   const auto torus = make_scalar_field(test::torus_scalar());
   const auto on_sphere = make_isosurface_search(sphere), on_torus = make_isosurface_search(torus);
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < test::samples_of(300); ++i) {
     const Vec3 x = random_in({Vec3{-1.2}, Vec3{1.2}}, random);
     const double r = glm::length(x);
     if (r < 0.2) continue;
@@ -157,7 +158,7 @@ TEST_P(OnGrids, SettlesAtLocalMinimaOfTheDistance) {
   std::mt19937_64 random(7);
   const double diagonal = scalar->diagonal() / scalar->frame().length_scale();
   int closest = 0;
-  constexpr int kTimes = 400;
+  constexpr int kTimes = test::samples_of(400);
   for (int i = 0; i < kTimes; ++i) {
     SurfacePoint point = point_on(*search, *scalar, level(), random);
     const Vec3 start = point.position;
@@ -192,7 +193,7 @@ TEST_P(OnGrids, PathsMissNoCrossing) {
   if (GetParam() == 3) levels.value = {0.05, 0.1, 0.4};
   for (int l = 0; l < 3; ++l) levels.value[static_cast<std::size_t>(l)] *= scalar->value_scale();
   int found = 0;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < test::samples_of(200); ++i) {
     const Vec3 from = random_in(*scalar, random), to = random_in(*scalar, random);
     constexpr int kSamples = 4000;
     std::array<int, 3> changes{};
