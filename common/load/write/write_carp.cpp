@@ -15,6 +15,7 @@
 #include "common/base/files/output_file.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {

@@ -1,13 +1,12 @@
 #include "common/load/write/write_tetgen.h"
 
-#include <cmath>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include "common/base/error.h"
 #include "common/base/files/output_file.h"
-#include "common/base/text.h"
+#include "common/math/vec_text.h"
 
 namespace palpate {
 namespace {
