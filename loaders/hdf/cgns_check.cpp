@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <hdf5.h>
@@ -44,17 +45,6 @@ std::optional<std::uint64_t> size_of_zone(const CgnsFile& file, const std::strin
 std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) {
   const std::string group = above(node);
   const std::string kind = file.label(group);
-  if (kind == "Elements_t" && node.substr(group.size() + 1) == "ElementConnectivity") {
-    const std::vector<std::int64_t> about = file.numbers(group),
-                                    range = file.numbers(group + "/ElementRange");
-    if (about.empty() || range.size() != 2 || range[1] < range[0]) return std::nullopt;
-    const std::uint64_t nodes = nodes_of_element(about[0]);
-    std::uint64_t count = 0;
-    if (nodes == 0 ||
-        __builtin_mul_overflow(static_cast<std::uint64_t>(range[1] - range[0]) + 1, nodes, &count))
-      return std::nullopt;
-    return count;
-  }
   if (kind != "GridCoordinates_t" && kind != "FlowSolution_t") return std::nullopt;
   for (const char* const other : {"/Rind", "/PointList", "/PointRange"}) {
     if (file.has(group + other)) return std::nullopt;
@@ -64,9 +54,34 @@ std::optional<std::uint64_t> due(const CgnsFile& file, const std::string& node) 
   return size_of_zone(file, above(group), place == "CellCenter");
 }
 
-herr_t check_node(hid_t, const char* name, const H5O_info_t* about, void* data) {
+/// Whether a word of a node has room where libcgns reads it, which does not ask.
+bool has_room(hid_t file, const std::string& node, const char* word, std::size_t room) {
+  if (H5Aexists_by_name(file, node.c_str(), word, H5P_DEFAULT) <= 0) return true;
+  const hid_t attribute = H5Aopen_by_name(file, node.c_str(), word, H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+  const bool fits = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) <= 0 &&
+                    H5Tget_size(type) <= room && H5Sget_simple_extent_npoints(space) == 1;
+  H5Sclose(space);
+  H5Tclose(type);
+  H5Aclose(attribute);
+  return fits;
+}
+
+herr_t check_node(hid_t file, const char* name, const H5O_info_t* about, void* data) {
   auto& walk = *static_cast<Walk*>(data);
   const std::string node(name);
+  if (about->type == H5O_TYPE_GROUP) {
+    // CGNS File Mapping Manual, "HDF5": names and labels of 32 characters, types of 2, and a zero behind.
+    constexpr std::array<std::pair<const char*, std::size_t>, 3> kWords{
+        {{"name", 33}, {"label", 33}, {"type", 3}}};
+    for (const auto& [word, room] : kWords) {
+      if (has_room(file, node, word, room)) continue;
+      walk.node = node;
+      walk.problem =
+          std::string("has a ") + word + " that is no text of " + std::to_string(room - 1) + " characters";
+      return 1;
+    }
+  }
   if (about->type != H5O_TYPE_GROUP || node.find('/') == std::string::npos ||
       walk.file.label(node) != "DataArray_t")
     return 0;
@@ -83,17 +98,18 @@ constexpr std::array kCurved{"CoordinateR", "CoordinateTheta", "CoordinatePhi"};
 
 /// Whether elements are of volumes: of three dimensions, or faces and cells without a kind.
 bool is_volume(std::int64_t kind) {
-  // ElementType_t: BAR_4 to QUAD_16 stand between volumes of two and three orders.
-  constexpr std::int64_t kFirst = 10, kBar4 = 24, kQuad16 = 28;
-  return kind >= kFirst && (kind < kBar4 || kind > kQuad16);
+  // ElementType_t: lines and surfaces stand between volumes of two, three and four orders.
+  constexpr std::int64_t kFirst = 10, kBar4 = 24, kQuad16 = 28, kBar5 = 40, kQuad25 = 44;
+  return kind >= kFirst && (kind < kBar4 || kind > kQuad16) && (kind < kBar5 || kind > kQuad25);
 }
 
 struct Zone {
   std::string node;
-  bool of_cells = false;                              ///< it has values of cells
-  std::map<std::string, int> arrays;                  ///< by place and name, how many solutions have them
-  bool has_pointers = false;                          ///< which say what belongs to which time
-  std::int64_t first_volume = -1, first_border = -1;  ///< number of the first element of each
+  bool of_cells = false;              ///< it has values of cells
+  std::map<std::string, int> arrays;  ///< by place and name, how many solutions have them
+  bool has_pointers = false;          ///< which say what belongs to which time
+  // VTK's reader takes as cells what has a number up to that of the zone's cells.
+  bool has_volume = false, border_within = false, volume_behind = false;
 };
 
 void look_at_solution(const CgnsFile& file, const std::string& node, Zone& zone) {
@@ -104,20 +120,25 @@ void look_at_solution(const CgnsFile& file, const std::string& node, Zone& zone)
   }
 }
 
-void look_at_elements(const CgnsFile& file, const std::string& node, Zone& zone) {
+void look_at_elements(const CgnsFile& file, const std::string& node, std::uint64_t cells, Zone& zone) {
   const std::vector<std::int64_t> about = file.numbers(node), range = file.numbers(node + "/ElementRange");
   if (about.empty() || range.empty()) return;
-  std::int64_t& first = is_volume(about[0]) ? zone.first_volume : zone.first_border;
-  if (first < 0 || range[0] < first) first = range[0];
+  constexpr std::int64_t kPolygons = 22, kPolyhedra = 23;  // in lists of their own
+  const bool volume = is_volume(about[0]), within = std::cmp_less_equal(range[0], cells);
+  zone.has_volume = zone.has_volume || volume;
+  zone.border_within = zone.border_within || (!volume && within);
+  zone.volume_behind =
+      zone.volume_behind || (volume && !within && about[0] != kPolygons && about[0] != kPolyhedra);
 }
 
 // @throws Error (bad input).
 Zone look_at_zone(const CgnsFile& file, const std::string& name, const std::string& node) {
   Zone zone{.node = node, .arrays = {}};
+  const std::uint64_t cells = size_of_zone(file, node, true).value_or(0);
   for (const std::string& child : file.children(node)) {
     const std::string at = node + "/" + child, kind = file.label(at);
     if (kind == "FlowSolution_t") look_at_solution(file, at, zone);
-    if (kind == "Elements_t") look_at_elements(file, at, zone);
+    if (kind == "Elements_t") look_at_elements(file, at, cells, zone);
     if (kind == "ZoneIterativeData_t" && file.has(at + "/FlowSolutionPointers")) zone.has_pointers = true;
     if (kind != "GridCoordinates_t") continue;
     for (const char* const curved : kCurved) {
@@ -127,7 +148,14 @@ Zone look_at_zone(const CgnsFile& file, const std::string& name, const std::stri
                          "convert them where the file was written"});
     }
   }
-  if (zone.of_cells && zone.first_border >= 0 && zone.first_border < zone.first_volume) {
+  if (zone.volume_behind) {
+    throw input_error(
+        {name, "'" + node + "'",
+         "numbers elements of its volume behind as many as it has cells, which VTK's reader leaves "
+         "out",
+         "volume elements first", "write the elements in the other order"});
+  }
+  if (zone.of_cells && zone.has_volume && zone.border_within) {
     throw input_error(
         {name, "'" + node + "'",
          "numbers elements of its border before those of its volume, behind which VTK's reader loses values "

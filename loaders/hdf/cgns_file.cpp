@@ -39,6 +39,17 @@ std::uint64_t CgnsFile::count(const std::string& node) const {
   return count < 0 ? 0 : static_cast<std::uint64_t>(count);
 }
 
+int CgnsFile::axes(const std::string& node) const {
+  if (!has(node + "/ data")) return 0;
+  const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
+  if (set < 0) return 0;
+  const hid_t space = H5Dget_space(set);
+  const int axes = H5Sget_simple_extent_ndims(space);
+  H5Sclose(space);
+  H5Dclose(set);
+  return axes;
+}
+
 std::vector<std::int64_t> CgnsFile::numbers(const std::string& node, std::uint64_t most) const {
   const std::uint64_t n = has(node + "/ data") ? count(node) : 0;
   if (n == 0 || n > most) return {};

@@ -22,6 +22,8 @@ class CgnsFile {
   [[nodiscard]] std::string label(const std::string& node) const;
   /// How many numbers a node holds.
   [[nodiscard]] std::uint64_t count(const std::string& node) const;
+  /// Along how many axes they stand; 0 where there are none.
+  [[nodiscard]] int axes(const std::string& node) const;
   /// The whole numbers of a node; empty where there are more than `most`.
   [[nodiscard]] std::vector<std::int64_t> numbers(const std::string& node, std::uint64_t most = 512) const;
   /// The names below a node, in alphabetical order.

@@ -14,7 +14,7 @@ struct CgnsProblem {
   std::string node, problem;
 };
 
-/// The number of nodes of an element by its kind (CGNS SIDS, ElementType_t), up to the second order; 0 where it is not known or not the
+/// The number of nodes of an element by its kind (CGNS SIDS, ElementType_t); 0 where it is not known or not the
 /// same for all.
 [[nodiscard]] std::uint64_t nodes_of_element(std::int64_t kind) noexcept;
 

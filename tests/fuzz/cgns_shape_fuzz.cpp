@@ -44,6 +44,7 @@ CgnsFile::~CgnsFile() = default;
 bool CgnsFile::has(const std::string& node) const { return !find(node).label.empty(); }
 std::string CgnsFile::label(const std::string& node) const { return find(node).label; }
 std::uint64_t CgnsFile::count(const std::string& node) const { return find(node).count; }
+int CgnsFile::axes(const std::string& node) const { return find(node).numbers.empty() ? 0 : 1; }
 std::string CgnsFile::word(const std::string& node) const { return find(node).word; }
 std::vector<std::int64_t> CgnsFile::numbers(const std::string& node, std::uint64_t most) const {
   const Node& found = find(node);

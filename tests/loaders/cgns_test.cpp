@@ -97,7 +97,8 @@ TEST(Cgns, DamagedFilesAreRefused) {
   EXPECT_NE(refusal(folder.write("short.cgns", structured_cgns(true))).find("has 12 numbers, expected 24"),
             std::string::npos);
   const CellKind& tet = cell_kinds().front();
-  EXPECT_NE(refusal(folder.write("cells.cgns", cgns_file(tet, true, 2))).find("has 4 numbers, expected 8"),
+  EXPECT_NE(refusal(folder.write("cells.cgns", cgns_file(tet, true, 2)))
+                .find("has 4 points of 2 elements, expected 4 each"),
             std::string::npos);
   std::string cut = structured_cgns();
   cut.resize(cut.size() * 2 / 3);
@@ -110,7 +111,10 @@ struct OneTetrahedron {
   std::vector<std::int32_t> base{3, 3}, zone{4, 1, 0}, about{10, 0}, range{1, 1}, corners{1, 2, 3, 4};
   std::string type = "Unstructured", place = "Vertex";
   std::vector<std::string> axes{"X", "Y", "Z"};
-  std::vector<std::int32_t> rind, offsets;
+  std::vector<std::int32_t> rind, offsets, place_rind;
+  std::vector<std::int32_t> second;  // numbers of more tetrahedra
+  std::vector<hsize_t> list_counts;
+  std::size_t label = 33;  // characters of one
 
   [[nodiscard]] std::string bytes() const {
     const CgnsTree tree;
@@ -126,7 +130,15 @@ struct OneTetrahedron {
     }
     tree.whole("/Base/Zone/Cells", "Elements_t", about);
     tree.whole("/Base/Zone/Cells/ElementRange", "IndexRange_t", range);
-    tree.whole("/Base/Zone/Cells/ElementConnectivity", "DataArray_t", corners);
+    tree.whole("/Base/Zone/Cells/ElementConnectivity", "DataArray_t", corners, list_counts);
+    tree.label("/Base/Zone/Cells", "Elements_t", label);
+    if (!place_rind.empty())
+      tree.whole("/Base/Zone/GridCoordinates/Rind", "\"int[2*IndexDimension]\"", place_rind);
+    if (!second.empty()) {
+      tree.whole("/Base/Zone/More", "Elements_t", {10, 0});
+      tree.whole("/Base/Zone/More/ElementRange", "IndexRange_t", second);
+      tree.whole("/Base/Zone/More/ElementConnectivity", "DataArray_t", {1, 2, 3, 4});
+    }
     if (!offsets.empty()) tree.whole("/Base/Zone/Cells/ElementStartOffset", "DataArray_t", offsets);
     tree.empty("/Base/Zone/Flow", "FlowSolution_t");
     tree.text("/Base/Zone/Flow/GridLocation", "GridLocation_t", place);
@@ -151,6 +163,12 @@ TEST(Cgns, WhatDoesNotFitTogetherIsRefusedByName) {
           .at(0)
           .cell_count(),
       1U);
+  EXPECT_EQ(Source::open(
+                {{folder.write("two.cgns", OneTetrahedron{.zone = {4, 2, 0}, .second = {2, 2}}.bytes())}, {}})
+                .read({})
+                .at(0)
+                .cell_count(),
+            2U);
   const std::vector<std::pair<OneTetrahedron, std::string>> kWrong{
       {{.base = {3, 5}}, "other dimensions"},
       {{.base = {0, 3}}, "other dimensions"},
@@ -169,7 +187,21 @@ TEST(Cgns, WhatDoesNotFitTogetherIsRefusedByName) {
       {{.about = {22, 0}, .corners = {1, 2, 3}, .offsets = {0, 4}}, "offsets that do not fit"},
       {{.about = {22, 0}, .corners = {1, 2, 9}, .offsets = {0, 3}}, "faces of points"},
       {{.place = "Nowhere"}, "no place that values can have"},
-      {{.rind = {1, 1, 1}}, "other layers"}};
+      {{.rind = {1, 1, 1}}, "other layers"},
+      {{.place_rind = {1, 1, 1, 1, 1, 1, 1, 1}}, "other layers"},
+      {{.about = {10}}, "elements of no kind"},
+      {{.about = {39, 0}}, "4 points of 1 elements, expected 64 each"},
+      {{.zone = {4, 1, 0}, .range = {1, 2}}, "4 points of 2 elements, expected 4 each"},
+      {{.zone = {4, 3, 0}, .second = {3, 3}}, "numbers from 3 on, expected 2"},
+      {{.zone = {4, 2, 0}, .second = {1, 1}}, "numbers from 1 on, expected 2"},
+      {{.zone = {4, 1, 0}, .second = {2, 2}}, "behind as many as it has cells"},
+      {{.list_counts = {2, 2}}, "no list of the points"},
+      {{.about = {22, 0}, .corners = {3, 1, 2, 9}}, "faces of points"},
+      {{.about = {22, 0}, .corners = {5, 1, 2, 3}}, "elements of no size"},
+      {{.about = {22, 0}, .range = {1, 2}, .corners = {3, 1, 2, 3}}, "1 elements, expected 2"},
+      {{.about = {23, 0}, .corners = {1, 2, 3, 4}, .offsets = {0, 4}}, "faces that are not there"},
+      {{.about = {23, 0}, .corners = {4, 1, 2, 3, 4}}, "faces that are not there"},
+      {{.label = 4000}, "has a label that is no text of 32 characters"}};
   for (const auto& [one, words] : kWrong)
     EXPECT_NE(line(one).find(words), std::string::npos) << words << ": " << line(one);
 }
@@ -239,10 +271,11 @@ TEST(Cgns, SolutionsThatNoTimeBelongsToAreWarnedOf) {
 }
 
 /// A cube with a square of its border, and the flow at its middle. @param border number of that square, 1 or 2.
-std::string bordered_cgns(std::int32_t border) {
+/// @param cells that the zone claims to have.
+std::string bordered_cgns(std::int32_t border, std::int32_t cells = 1) {
   const CgnsTree tree;
   tree.whole("/Base", "CGNSBase_t", {3, 3});
-  tree.whole("/Base/Zone", "Zone_t", {8, 1, 0}, {3, 1});
+  tree.whole("/Base/Zone", "Zone_t", {8, cells, 0}, {3, 1});
   tree.text("/Base/Zone/ZoneType", "ZoneType_t", "Unstructured");
   tree.empty("/Base/Zone/GridCoordinates", "GridCoordinates_t");
   const std::vector<Vec3> nodes{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
@@ -263,7 +296,8 @@ std::string bordered_cgns(std::int32_t border) {
   tree.empty("/Base/Zone/Solution", "FlowSolution_t");
   tree.text("/Base/Zone/Solution/GridLocation", "GridLocation_t", "CellCenter");
   for (const std::string axis : {"X", "Y", "Z"})
-    tree.real("/Base/Zone/Solution/Velocity" + axis, "DataArray_t", {0.5}, true);
+    tree.real("/Base/Zone/Solution/Velocity" + axis, "DataArray_t",
+              std::vector<double>(static_cast<std::size_t>(cells), 0.5), true);
   return tree.bytes();
 }
 
@@ -274,7 +308,9 @@ TEST(Cgns, BordersBehindTheVolumeAreLeftOutAndOthersRefused) {
   const DataArray* const v = blocks.at(0).find("Velocity", Association::kCell);
   ASSERT_NE(v, nullptr);
   EXPECT_EQ(v->at(0, 2), 0.5);
-  EXPECT_NE(refusal(folder.write("b.cgns", bordered_cgns(1))).find("elements of its border before"),
+  EXPECT_NE(refusal(folder.write("b.cgns", bordered_cgns(1))).find("behind as many as it has cells"),
+            std::string::npos);
+  EXPECT_NE(refusal(folder.write("c.cgns", bordered_cgns(1, 2))).find("elements of its border before"),
             std::string::npos);
 }
 

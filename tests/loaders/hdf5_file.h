@@ -83,9 +83,11 @@ class Hdf5File {
     H5Aclose(made);
     H5Sclose(space);
   }
-  /// Of so many characters, filled up with zeros.
+  /// Of so many characters, filled up with zeros; in place of one of that name.
   void word(const std::string& path, const std::string& name, std::string text, std::size_t length) const {
     text.resize(length);
+    if (H5Aexists_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+      H5Adelete_by_name(file_, path.c_str(), name.c_str(), H5P_DEFAULT);
     const hid_t space = H5Screate(H5S_SCALAR), type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, length);
     const hid_t made = H5Acreate_by_name(file_, path.c_str(), name.c_str(), type, space, H5P_DEFAULT,
@@ -134,6 +136,9 @@ class CgnsTree {
             const std::vector<hsize_t>& counts = {}) const {
     node(path, label, "C1");
     file_.set(path + "/ data", std::vector<char>(value.begin(), value.end()), counts);
+  }
+  void label(const std::string& path, const std::string& label, std::size_t length) const {
+    file_.word(path, "label", label, length);
   }
   [[nodiscard]] std::string bytes() const { return file_.bytes(); }
 
