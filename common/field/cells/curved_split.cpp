@@ -187,7 +187,8 @@ class CurvedSplitter {
     for (std::size_t i = 0; degrees != nullptr && degrees->components == 3 && i < 3; ++i) {
       constexpr double kMost = 1000.0;  // that CurvedCell knows none of
       const double order = degrees->at(c, static_cast<int>(i));
-      orders[i] = order >= 0.0 && order < kMost ? static_cast<int>(order) : static_cast<int>(kMost);
+      const bool whole = order >= 0.0 && order < kMost && order == std::floor(order);  // NaN is not
+      orders[i] = static_cast<int>(whole ? order : kMost);
     }
     auto [found, fresh] = shapes_.try_emplace({type, out.nodes.size(), orders});
     if (fresh) found->second.cell = CurvedCell::make(type, out.nodes.size(), orders);

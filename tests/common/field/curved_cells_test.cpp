@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -282,6 +283,29 @@ TEST(CurvedCells, AreOneMeshAndLinearFieldsAreExact) {
       ASSERT_EQ(sample.status, SampleStatus::kOk) << n;
       EXPECT_LE(glm::distance(sample.value, helix(at)), 1e-9);
     }
+  }
+}
+
+TEST(CurvedCells, OrdersThatAreNoneLeaveTheCorners) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Kind& kind =
+      *std::ranges::find_if(kKinds, [](const Kind& k) { return k.orders != CurvedCell::Orders{}; });
+  const auto straight = [](const Vec3& x) { return x; };
+  const DataSet right = cells_of(kind, straight, straight);
+  for (const double more : {std::nan(""), -10.0, 0.5, 1e300, kInfinity}) {
+    std::vector<double> degrees;
+    for (std::size_t i = 0; i < right.arrays.back().tuples * 3; ++i)
+      degrees.push_back(kind.orders[i % 3] + (i < 3 ? more : 0.0));
+    DataSet block = right;
+    block.arrays.back() =
+        make_array(kHigherOrderDegrees, Association::kCell, 3, std::span<const double>(degrees));
+    const auto field = field_of(block);
+    const bool said = std::ranges::any_of(field->notes().lines, [](const std::string& line) {
+      return line.find("1 higher-order cell taken through their corners alone") != std::string::npos;
+    });
+    EXPECT_TRUE(said) << more;
+    CellHint hint;
+    EXPECT_EQ(field->sample({0.4, 0.3, 0.6}, hint).status, SampleStatus::kOk) << more;
   }
 }
 
