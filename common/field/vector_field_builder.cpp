@@ -17,6 +17,7 @@
 #include "common/field/field_grid.h"
 #include "common/field/field_on_grid.h"
 #include "common/field/rest_speed.h"
+#include "common/field/value_rounding.h"
 #include "common/field/vector_field.h"
 
 namespace palpate {
@@ -337,6 +338,14 @@ class VectorFieldBuilder {
     field.notes_.bad_values = range.bad;
     if (choice.kind == VectorChoice::Kind::kMomentumOverDensity) {
       field.notes_.lines.emplace_back("velocity computed as momentum divided by density");
+    }
+    if (const double rounding = value_rounding(field.values_); rounding > 0.0) {
+      std::array<char, 160> text{};
+      std::snprintf(
+          text.data(), text.size(),
+          "values are of single precision: off by up to %.2g of themselves (counted into the errors of lines)",
+          rounding);
+      field.notes_.lines.emplace_back(text.data());
     }
     if (range.bad > 0) {
       field.notes_.lines.push_back(std::to_string(range.bad) + (range.bad == 1 ? " point" : " points") +

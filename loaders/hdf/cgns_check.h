@@ -9,7 +9,8 @@ namespace palpate {
 /// Coordinates and solutions have the size of their zone, lists of cells that of their range.
 /// Files of other kinds pass, and what has rinds, lists of points, or cells of several kinds. CGNS SIDS, "Zone structure
 /// definition", "Grid coordinates, elements and flow solutions".
-/// Coordinates are Cartesian, and elements of borders are numbered behind those of the volume where cells have values:
+/// Coordinates are Cartesian; where cells have values, elements of borders are numbered behind those of the volume, which is never behind
+/// as many as there are cells; and names, labels and types have the length that the format gives them:
 /// VTK's reader makes other things of them without a word.
 /// @param notes gets a WARNING where a zone has one array several times and nothing says at which time.
 /// @returns the units of the file ("coordinates in mm"), or empty.

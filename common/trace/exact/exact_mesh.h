@@ -27,6 +27,8 @@ class ExactMesh {
   [[nodiscard]] double rest_speed() const noexcept { return rest_speed_; }  ///< rest_speed.h
   /// By which velocities may be off everywhere, in frame L: curved cells are linear in parts.
   [[nodiscard]] double value_error() const noexcept { return value_error_; }
+  /// value_rounding.h
+  [[nodiscard]] double value_rounding() const noexcept { return value_rounding_; }
   /// Whether that vertex rests.
   [[nodiscard]] bool rests(std::size_t vertex) const noexcept;
 
@@ -35,7 +37,7 @@ class ExactMesh {
   void mark_resting();
 
   std::unique_ptr<PackedVertex[]> vertices_;
-  double rest_speed_ = 0.0, value_error_ = 0.0;
+  double rest_speed_ = 0.0, value_error_ = 0.0, value_rounding_ = 0.0;
   ExactMeshView view_;
 };
 

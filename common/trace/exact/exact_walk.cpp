@@ -179,7 +179,8 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
       return velocity(cell_, power[0] * d + (power[1] * first + power[2] * apply(cell_, first))).xyz();
     });
   }
-  error_.add(local_error + mesh_->value_error() * time, direction_);
+  const double of_values = mesh_->value_error() + mesh_->value_rounding() * (speed + cell_.norm * cell_.size);
+  error_.add(local_error + of_values * time, direction_);
   end_.position = position(cell_, b_).xyz();
   end_.time = begin_.time + time;
   end_.arc = begin_.arc + arc;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/ode/explicit_step.h"
+#include "common/ode/linear_step.h"
 #include "common/ode/tableau.h"
 
 namespace palpate {
@@ -231,7 +232,9 @@ void CarriedParticle::carry(const FlowInTime& flow, double age) {
     gradient *= sign;
     error_.advance([&](const Vec3& d) { return gradient * d; }, [&] { return gradient; },
                    [&](const Mat3& j, const Vec3& e) { return stability_step<Dp54>(j, e, h); }, h);
-    error_.add(local + kUlp * settings_.diagonal);
+    const double of_values =
+        flow.value_rounding() * (glm::length(last) + flow.cell_size() * LinearStep::row_sum(gradient));
+    error_.add(local + of_values * h + kUlp * settings_.diagonal);
     if (jumps) {
       // Where within the step the jump lies is not known; and a particle that is off meets it at another time, and has
       // the other velocity for so much longer.

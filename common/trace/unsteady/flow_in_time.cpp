@@ -9,6 +9,7 @@
 #include "common/base/index.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/box_grid.h"
+#include "common/field/value_rounding.h"
 #include "common/trace/walk/walk_factory.h"
 
 namespace palpate {
@@ -75,6 +76,8 @@ bool same_cells(const TetMesh& a, const TetMesh& b) {
 FlowInTime::FlowInTime(std::vector<Step> steps, std::size_t first) : steps_(std::move(steps)), first_(first) {
   const VectorField& field = *steps_[first_].field;
   cell_size_ = 2.0 * default_fixed_step(field) * field.frame().length_scale();
+  for (const Step& step : steps_)
+    value_rounding_ = std::max(value_rounding_, palpate::value_rounding(step.field->values()));
   compare_meshes();
 }
 

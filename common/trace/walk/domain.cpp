@@ -5,6 +5,7 @@
 
 #include "common/base/index.h"
 #include "common/field/rest_speed.h"
+#include "common/field/value_rounding.h"
 
 namespace palpate {
 
@@ -12,8 +13,13 @@ TetDomain::TetDomain(const ExactMesh& mesh, double sign) : mesh_(&mesh), sign_(s
 
 double TetDomain::value_error() const { return mesh_->value_error(); }
 
+double TetDomain::value_rounding() const { return mesh_->value_rounding(); }
+
 BoxDomain::BoxDomain(const VectorField& field, double sign)
-    : grid_(field.box_grid()), values_(&field.values()), sign_(sign) {
+    : grid_(field.box_grid()),
+      values_(&field.values()),
+      sign_(sign),
+      value_rounding_(palpate::value_rounding(field.values())) {
   rest_speed_ = std::visit(
       [&](const auto& stored) {
         return palpate::rest_speed(stored.size() / 3, [&](std::size_t i) {

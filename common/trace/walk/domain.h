@@ -117,6 +117,7 @@ class BoxDomain : public BoxFaces {
   [[nodiscard]] bool bad() const { return bad_; }
   /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests (exact_mesh.h), else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
+  [[nodiscard]] double value_rounding() const { return value_rounding_; }  ///< value_rounding.h
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double face_scale() const { return size_; }
 
@@ -214,7 +215,7 @@ class BoxDomain : public BoxFaces {
   const BoxGrid* grid_;
   const PointVectors* values_;
   double sign_;
-  double rest_speed_ = 0.0;
+  double rest_speed_ = 0.0, value_rounding_;
   Index3 index_{0};
   bool bad_ = false;
   double rest_here_ = 0.0;
@@ -269,7 +270,8 @@ class TetDomain {
     return first;
   }
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry);
-  [[nodiscard]] double value_error() const;  ///< exact_mesh.h
+  [[nodiscard]] double value_error() const;     ///< exact_mesh.h
+  [[nodiscard]] double value_rounding() const;  ///< exact_mesh.h
   /// The last cross() led to a cell that shares no points with the one before: the velocity may jump.
   [[nodiscard]] bool crossed_seam() const { return crossed_seam_; }
   /// What is known of that.

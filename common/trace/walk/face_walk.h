@@ -476,8 +476,14 @@ class FaceWalk final : public LineWalk {
     if constexpr (Method::kLookedAtTwice)
       local_ = std::max(local, two_steps_.add(y_, k_, y_end, k_end, length));
     double of_values = 0.0;
-    if constexpr (requires { domain_.value_error(); })
-      of_values = domain_.value_error() * std::abs(y_end[3] - y_[3]);
+    if constexpr (requires { domain_.value_error(); }) of_values = domain_.value_error();
+    if constexpr (requires { domain_.value_rounding(); }) {
+      if (const double rounding = domain_.value_rounding();
+          rounding > 0.0)  // of the fastest in the cell, or more
+        of_values +=
+            rounding * (1.0 / inverse_speed + domain_.size() * LinearStep::row_sum(gradient_.matrix()));
+    }
+    of_values *= std::abs(y_end[3] - y_[3]);
     error_.add(local_ + of_values + kUlp * domain_.size(), n);
     y_ = y_end;
     k_ = k_end;
