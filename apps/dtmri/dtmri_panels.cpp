@@ -9,6 +9,7 @@
 
 #include "apps/dtmri/bundle_panel.h"
 #include "apps/dtmri/dtmri_model.h"
+#include "apps/dtmri/region_text.h"
 #include "apps/dtmri/regions_panel.h"
 #include "apps/dtmri/slice_images.h"
 #include "common/base/text.h"
@@ -70,6 +71,7 @@ struct TractSeedChoice {
   bool at_crosshair = true;      ///< in a ball about it; else wherever FA is above `least_fa`
   std::optional<double> radius;  ///< of the ball [data units]; none: three voxels
   double least_fa = 0.4;
+  bool every_peak = false;  ///< of images with several directions a voxel
 };
 
 // A drop-down of an enumeration with `count` members.
@@ -161,10 +163,12 @@ double radius_of(const TractSeedChoice& choice, const TensorVoxels& voxels) {
 
 /// `choice` as --seeds says it.
 std::string tract_seed_text(const TractSeedChoice& choice, const TensorView& tensors) {
-  if (!choice.at_crosshair) return "fa:" + short_number(choice.least_fa);
   const Vec3& x = tensors.position;
-  return "sphere:" + short_number(x.x) + "," + short_number(x.y) + "," + short_number(x.z) + "," +
-         short_number(radius_of(choice, *tensors.image));
+  const std::string places = choice.at_crosshair ? "sphere:" + short_number(x.x) + "," + short_number(x.y) +
+                                                       "," + short_number(x.z) + "," +
+                                                       short_number(radius_of(choice, *tensors.image))
+                                                 : "fa:" + short_number(choice.least_fa);
+  return seeds_text(places, choice.every_peak);
 }
 
 void draw_tract_appearance(TractView& appearance) {
@@ -233,6 +237,13 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
     slider("FA above", choice.least_fa, 0.0, 1.0, "%.2f");
     hint("fractional anisotropy of the voxels at which tracts begin");
   }
+  if (tensors.image->field && tensors.image->field->peaks() != nullptr) {
+    std::string& seeds = document.tracts.seeds;
+    if (!seeds.empty()) choice.every_peak = from_every_peak(seeds);
+    if (checkbox("from every peak", &choice.every_peak) && !seeds.empty())
+      seeds = seeds_text(seed_places(seeds), choice.every_peak);
+    hint("of a seed's voxel; else from the longest. Tracts go on along the peak nearest to their way");
+  }
   edit_tracing(document.tracts, tensors);
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const ImVec2 size{0.5F * (ImGui::GetContentRegionAvail().x - gap), 0.0F};
@@ -260,7 +271,7 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
 void draw_tract_slab(TractView& look, const TensorVoxels& voxels) {
   constexpr double kUsual = 2.0;  // voxels, where none is said
   double thickness = look.slab_thickness.value_or(kUsual * shortest_edge(voxels));
-  if (slider("tracts over slices", thickness, 0.0, voxels.bounds().diagonal(), "%.3g",
+  if (slider("slab of tracts", thickness, 0.0, voxels.bounds().diagonal(), "%.3g",
              ImGuiSliderFlags_Logarithmic))
     look.slab_thickness = thickness;
   explain("tract-slab", false);

@@ -16,6 +16,7 @@
 namespace palpate {
 namespace {
 
+constexpr std::string_view kEveryPeak = "peaks:";
 constexpr std::array<std::string_view, 5> kKinds{"sphere:", "box:", "beyond:", "brush:", "mask:"};
 
 template <typename... Functions>
@@ -110,9 +111,20 @@ TractRegion tract_region(const RegionShape& shape) {
                     shape);
 }
 
+bool from_every_peak(std::string_view seeds) noexcept { return seeds.starts_with(kEveryPeak); }
+
+std::string_view seed_places(std::string_view seeds) noexcept {
+  return from_every_peak(seeds) ? seeds.substr(kEveryPeak.size()) : seeds;
+}
+
+std::string seeds_text(std::string_view places, bool every_peak) {
+  return (every_peak ? std::string(kEveryPeak) : std::string()).append(places);
+}
+
 std::vector<RegionEntry> regions_of(const TractTracingOptions& options) {
   std::vector<RegionEntry> all;
-  if (is_region(options.seeds)) all.push_back({RegionRole::kSeed, options.seeds});
+  if (const std::string_view places = seed_places(options.seeds); is_region(places))
+    all.push_back({RegionRole::kSeed, std::string(places)});
   const auto add = [&all](RegionRole role, const std::vector<std::string>& texts) {
     for (const std::string& text : texts) all.push_back({role, text});
   };
@@ -123,13 +135,14 @@ std::vector<RegionEntry> regions_of(const TractTracingOptions& options) {
 }
 
 void set_regions(const std::vector<RegionEntry>& regions, TractTracingOptions& options) {
-  if (is_region(options.seeds)) options.seeds.clear();
+  const bool every_peak = from_every_peak(options.seeds);
+  if (is_region(seed_places(options.seeds))) options.seeds.clear();
   options.include.clear();
   options.exclude.clear();
   options.stop.clear();
   for (const RegionEntry& region : regions) {
     if (region.role == RegionRole::kSeed) {
-      options.seeds = region.text;
+      options.seeds = seeds_text(region.text, every_peak);
     } else {
       list_of(region.role, options).push_back(region.text);
     }

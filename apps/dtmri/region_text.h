@@ -39,6 +39,14 @@ using RegionShape = std::variant<Sphere, Box, HalfSpace, BrushStroke, std::strin
 /// The inverse of parse_region(), to the last bit.
 [[nodiscard]] std::string region_text(const RegionShape& shape);
 
+// Seeds of images with several directions a voxel: from the longest, or from each ("peaks:" before the text).
+
+[[nodiscard]] bool from_every_peak(std::string_view seeds) noexcept;
+/// What is left without that word.
+[[nodiscard]] std::string_view seed_places(std::string_view seeds) noexcept;
+/// `places` with it or without.
+[[nodiscard]] std::string seeds_text(std::string_view places, bool every_peak);
+
 /// All regions of `options`, seeds first.
 struct RegionEntry {
   RegionRole role = RegionRole::kInclude;

@@ -21,7 +21,8 @@
 namespace palpate {
 namespace {
 
-std::vector<std::string> advice_for(const TractSummary& summary) {
+/// @param peaks lines followed these.
+std::vector<std::string> advice_for(const TractSummary& summary, bool peaks) {
   std::vector<std::string> advice;
   const TractResult& result = summary.result;
   const auto add = [&](End end, const std::string& what) {
@@ -29,7 +30,9 @@ std::vector<std::string> advice_for(const TractSummary& summary) {
     if (count > 0) advice.push_back(counted(count, "end") + " by " + std::string(name_of(end)) + ": " + what);
   };
   add(End::kMaxLength, "--max-length above " + short_number(result.max_length) + " follows them further");
-  add(End::kSharpTurn, "--max-angle above " + short_number(result.max_angle) + " lets them turn");
+  add(End::kSharpTurn, (peaks ? "where there are peaks, none within 45 degrees of the way; or " : "") +
+                           std::string("--max-angle above ") + short_number(result.max_angle) +
+                           " lets them turn");
   add(End::kMaxSteps,
       "--max-steps above " + std::to_string(summary.options.max_steps) + " follows them further");
   return advice;
@@ -161,7 +164,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   const bool controlled = summary.options.integrator == Integrator::kDp54;
   summary.errors = tract_errors(summary.result, field->bounds().diagonal(),
                                 controlled ? std::optional(summary.options.tolerance) : std::nullopt);
-  summary.advice = advice_for(summary);
+  summary.advice = advice_for(summary, field->peaks() != nullptr);
   summary.failure = failure_of(summary);
   if (!summary.failure.empty()) {
     summary.output.clear();

@@ -27,7 +27,7 @@ constexpr const char* kRegionGrammar =
     "a region is mask:FILE, sphere:x,y,z,r, box:x,y,z,x,y,z, beyond:nx,ny,nz,d or brush:r,x,y,z,x,y,z,…";
 constexpr const char* kSeedGrammar =
     "seeds are file.csv, file.vtp, point:x,y,z, line:x,y,z,x,y,z,n, plane:…, grid:nx,ny,nz, random:n, fa:T, "
-    "cl:T, or a region (mask:, sphere:, box:, beyond:, brush:)";
+    "cl:T, or a region (mask:, sphere:, box:, beyond:, brush:); peaks: before any of them";
 constexpr std::size_t kMostSeeds = 100'000'000;
 
 /// What stands behind "kind:", or empty where `text` is of another kind.
@@ -211,6 +211,7 @@ TractRequest tract_request(const TractTracingOptions& options, bool left_handed,
   tracts.max_length = options.max_length;
   tracts.sense = sense_from_name(options.direction);
   tracts.max_steps = options.max_steps;
+  tracts.every_peak = from_every_peak(options.seeds);
   check_tract_options(tracts);
   tracts.include = read_regions(options.include, "--include", left_handed, request.masks, progress);
   tracts.exclude = read_regions(options.exclude, "--exclude", left_handed, request.masks, progress);
@@ -247,7 +248,10 @@ std::string why_no_tract(const TractResult& result, const TractOptions& options)
 std::vector<Vec3> tract_seeds(const TractTracingOptions& options, bool left_handed, std::uint64_t random_seed,
                               const TensorField& field, const DataSet& image, std::vector<std::string>& notes,
                               Progress* progress) {
-  const std::string& text = options.seeds;
+  const std::string text(seed_places(options.seeds));
+  if (from_every_peak(options.seeds) && field.peaks() == nullptr)
+    throw usage_error("--seeds " + options.seeds +
+                      ": the image has one direction a voxel, no peaks: leave \"peaks:\" out");
   const auto seeds_in = [&](const UniformTopology& voxels, const std::function<bool(const Vec3&)>& wanted) {
     auto seeds = voxel_seeds(voxels, wanted, options.seeds_per_voxel, random_seed, kMostSeeds);
     if (seeds.empty()) throw usage_error("--seeds " + text + ": takes no voxel");

@@ -3,6 +3,7 @@
 ///   region    region_text.h
 ///   seeds     a region, or fa:T, cl:T: the voxels that it takes the centres of; of a mask its own voxels
 ///             grid:, random: between the outer centres of an image's voxels
+///             peaks: and any of these: from each peak of an image of several directions a voxel
 ///             whatever parse_seeds() knows that does not depend on a field: file.csv, point:, line:, plane:
 #pragma once
 

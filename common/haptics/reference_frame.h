@@ -32,6 +32,8 @@ class ReferenceFrame {
   /// The axes at `x` in the workspace [m], those that are open turned as little as possible from `last`.
   /// @rt Safe.
   [[nodiscard]] virtual FrameSample at(const Vec3& x, const Mat3& last) noexcept = 0;
+  /// What comes next does not go on from before: the next `last` says nothing. @rt Safe.
+  virtual void forget() noexcept {}
 };
 
 /// The frame `last`, turned the shortest way that takes its first axis to the unit vector `e`; the very same

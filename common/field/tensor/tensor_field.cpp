@@ -19,6 +19,7 @@
 #include "common/field/grid/block_join.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/tensor/eigenframe.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
 
@@ -218,7 +219,11 @@ class TensorFieldBuilder {
     field->notes_ = field->grid_->notes;
     field->notes_.lines.insert(field->notes_.lines.begin(), notes.begin(), notes.end());
     field->interpolation_ = choice.interpolation;
-    if (const auto* uniform = std::get_if<UniformTopology>(&image.topology)) field->voxels_ = *uniform;
+    if (const auto* uniform = std::get_if<UniformTopology>(&image.topology)) {
+      field->voxels_ = *uniform;
+      if (const DataArray* const peaks = image.find(choice.peaks, Association::kPoint))
+        field->peaks_ = std::make_shared<const PeakField>(*uniform, *peaks);
+    }
 
     const bool logarithms = choice.interpolation == TensorInterpolation::kLogEuclidean;
     const bool use_double =

@@ -23,6 +23,8 @@
 
 namespace palpate {
 
+class PeakField;
+
 /// What the numbers of a tuple are, in order.
 enum class TensorOrder : std::uint8_t {
   kRows,      ///< xx xy xz yy yz zz: FSL's dtifit, NRRD's 3D-symmetric-matrix
@@ -51,6 +53,8 @@ struct TensorChoice {
   Association association = Association::kPoint;
   /// Tensors of cells hold all over their cell instead, on tetrahedra; values() are the mean all the same.
   bool constant_cells = false;
+  /// Of points of a uniform image: an array of all its peaks (peak_field.h); empty: there are none.
+  std::string peaks = {};
 };
 
 /// A tensor sample; `value` is zero unless `status` is kOk, and never to be used then.
@@ -69,6 +73,9 @@ class TensorField {
   /// The tensor of one voxel alone: its neighbours may have none. Outside the image there is none either.
   /// @pre voxels(). @rt Safe.
   [[nodiscard]] TensorSample voxel(const Index3& at) const noexcept;
+  /// Where an image has several directions a voxel, all of them: lines follow these, and not the tensors, which are
+  /// those of the longest. Null where it has not.
+  [[nodiscard]] const PeakField* peaks() const noexcept { return peaks_.get(); }
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] const std::shared_ptr<const FieldGrid>& grid() const noexcept { return grid_; }
@@ -98,6 +105,7 @@ class TensorField {
   std::string name_;
   std::shared_ptr<const FieldGrid> grid_;
   std::optional<UniformTopology> voxels_;
+  std::shared_ptr<const PeakField> peaks_;
   FieldNotes notes_;
   TensorInterpolation interpolation_ = TensorInterpolation::kComponents;
   /// kRows, in X; of logarithms, where these are interpolated. NaN where there is no tensor.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/field/tensor/eigenframe.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/haptics/fade.h"
 #include "common/haptics/motion_rule.h"
 #include "common/math/symmetric3.h"
@@ -32,10 +33,26 @@ std::array<AxisMeasures, 3> measures_of(const std::shared_ptr<TensorReader>& ten
 TensorReader::TensorReader(std::shared_ptr<const TensorField> field, const Workspace& workspace)
     : field_(std::move(field)), workspace_(workspace), full_trace_(kFullPart * field_->typical_trace()) {}
 
+void TensorReader::go(const Vec3& toward) noexcept {
+  if (field_->peaks() == nullptr) return;
+  if (toward == toward_) return;
+  toward_ = toward;
+  place_ = Vec3{NAN};
+}
+
+TensorSample TensorReader::sample(const Vec3& x_data) noexcept {
+  const PeakField* const peaks = field_->peaks();
+  if (peaks == nullptr) return field_->sample(x_data, hint_);
+  if (toward_ != Vec3{0.0}) return peaks->sample(x_data, toward_);
+  const Vec3 longest = peaks->longest(x_data);
+  if (longest == Vec3{0.0}) return {.status = SampleStatus::kBadData};
+  return peaks->sample(x_data, glm::normalize(longest));
+}
+
 const TensorReader::Reading& TensorReader::at(const Vec3& x) noexcept {
   if (x == place_) return reading_;
   place_ = x;
-  const TensorSample sample = field_->sample(workspace_.data_from_workspace(x), hint_);
+  const TensorSample sample = this->sample(workspace_.data_from_workspace(x));
   reading_ = {.status = sample.status};
   if (sample.status == SampleStatus::kOk) {
     const SymmetricEigen eigen = symmetric_eigen(sample.value);
@@ -51,8 +68,10 @@ const TensorReader::Reading& TensorReader::at(const Vec3& x) noexcept {
 }
 
 FrameSample TensorFrame::at(const Vec3& x, const Mat3& last) noexcept {
+  tensors_->go(begun_ ? last[0] : Vec3{0.0});
   const TensorReader::Reading& reading = tensors_->at(x);
   if (reading.status != SampleStatus::kOk) return {.axes = last, .status = reading.status};
+  begun_ = true;
   return {.axes = carried_frame(reading.axes, last)};
 }
 

@@ -32,7 +32,8 @@ namespace palpate {
 /// Tensors in the workspace, taken apart. The measures do not depend on how much diffuses, and so jump where
 /// that goes to zero, at the border of a mask: here anisotropy fades to isotropy over the last quarter of the
 /// typical trace. Frame and measures ask for the same place one after the other,
-/// which is then worked out once. One thread.
+/// which is then worked out once. Of a field with peaks the one is read that is nearest to the way of the last frame,
+/// at first the longest. One thread.
 class TensorReader {
  public:
   struct Reading {
@@ -46,13 +47,18 @@ class TensorReader {
   TensorReader(std::shared_ptr<const TensorField> field, const Workspace& workspace);
   /// @param x [m]. @rt Safe.
   [[nodiscard]] const Reading& at(const Vec3& x) noexcept;
+  /// The way [workspace, unit] along which peaks are read from now on; zero: the longest.
+  void go(const Vec3& toward) noexcept;
 
  private:
+  [[nodiscard]] TensorSample sample(const Vec3& x_data) noexcept;
+
   std::shared_ptr<const TensorField> field_;
   Workspace workspace_;
   double full_trace_;  ///< from which on measures are as they are
   CellHint hint_;
   Vec3 place_{NAN};
+  Vec3 toward_{0.0};
   Reading reading_;
 };
 
@@ -62,9 +68,11 @@ class TensorFrame final : public ReferenceFrame {
  public:
   explicit TensorFrame(std::shared_ptr<TensorReader> tensors) : tensors_(std::move(tensors)) {}
   [[nodiscard]] FrameSample at(const Vec3& x, const Mat3& last) noexcept override;
+  void forget() noexcept override { begun_ = false; }
 
  private:
   std::shared_ptr<TensorReader> tensors_;
+  bool begun_ = false;  ///< the last frame is of the same touch
 };
 
 /// A sum of the barycentric measures of the tensor (diffusion_measures.h), faded as above, in [0, 1].

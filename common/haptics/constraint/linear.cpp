@@ -38,6 +38,7 @@ void LinearConstraint::reset() noexcept {
   caught_ = false;
   presence_ = 1.0;
   axes_ = {};
+  frame_->forget();
 }
 
 /// Nothing where the measure has no value at the proxy.

@@ -152,7 +152,8 @@ const Setting kTracingRows[] = {
      .help =
          "file.csv | file.vtp (its points) | point:x,y,z | line:x,y,z,x,y,z,n | plane:… | grid:nx,ny,nz | "
          "random:n | voxels: fa:T or cl:T (where the measure is above T), mask:FILE (where it is above 0.5), "
-         "sphere:x,y,z,r",
+         "sphere:x,y,z,r; peaks: before any of them: a line from each peak of a seed's voxel, not from the longest "
+         "alone",
      .value = "S",
      .heading = "Tracts",
      .groups = {Group::kLines},

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/base/index.h"
 #include "common/base/text.h"
 #include "common/field/tensor/gradient_table.h"
 #include "common/field/tensor/orientation_check.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/field/tensor/vector_frame.h"
 #include "common/math/symmetric3.h"
 
@@ -201,15 +203,6 @@ std::vector<float> from_eigen_set(const DataSet& image, const TensorSource& sour
   return tensors;
 }
 
-/// A mean diffusivity that white and grey matter have [mm^2/s].
-constexpr double kMeanDiffusivity = 0.7e-3;
-
-/// With eigenvalues MD (1 + 2 t), MD (1 - t) twice, FA = sqrt(3 t^2 / (1 + 2 t^2)). @pre `unit` is of length 1.
-Mat3 tensor_along(const Vec3& unit, double fa) {
-  const double t = fa / std::sqrt(3.0 - 2.0 * fa * fa);
-  return kMeanDiffusivity * (Mat3{1.0 - t} + 3.0 * t * glm::outerProduct(unit, unit));
-}
-
 std::vector<float> from_directions(const DataSet& image, const TensorSource& source) {
   const DataArray& directions = *image.find(source.arrays[0], Association::kPoint);
   const DataArray& anisotropies = *image.find(source.arrays[1], Association::kPoint);
@@ -219,16 +212,17 @@ std::vector<float> from_directions(const DataSet& image, const TensorSource& sou
     const double length = glm::length(v);
     Mat3 tensor{0.0};
     if (length > 0.0 && std::isfinite(length)) {
-      tensor = tensor_along(v / length, std::clamp(anisotropies.at(p), 0.0, 1.0));
+      tensor = fibre_tensor(v / length, std::clamp(anisotropies.at(p), 0.0, 1.0));
     }
     store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
   }
   return tensors;
 }
 
-/// The longest of the peaks of each voxel, and of how many voxels others are left aside.
+/// Tensors along the longest of the peaks of each voxel. @param all become the peaks, as PeakField takes them.
 /// @throws Error (bad input) where the numbers are no directions.
-std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, std::string& what) {
+std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, std::string& what,
+                              std::vector<float>& all) {
   std::vector<Vec3> longest(peaks.tuples, Vec3{0.0});
   std::vector<double> lengths;
   std::size_t several = 0, numbers = 0, negative = 0;
@@ -262,13 +256,18 @@ std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, s
   const auto usual = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 99 / 100);
   std::ranges::nth_element(lengths, usual);
   constexpr double kAnisotropy = 0.8;
+  const auto anisotropy = [&](double length) { return kAnisotropy * std::min(1.0, length / *usual); };
   std::vector<float> tensors(6 * peaks.tuples);
   for (std::size_t p = 0; p < peaks.tuples; ++p) {
     const double length = glm::length(longest[p]);
-    const Mat3 tensor = length > 0.0
-                            ? tensor_along(longest[p] / length, kAnisotropy * std::min(1.0, length / *usual))
-                            : Mat3{0.0};
+    const Mat3 tensor = length > 0.0 ? fibre_tensor(longest[p] / length, anisotropy(length)) : Mat3{0.0};
     store(six_numbers(tensor), Mat3{1.0}, &tensors[6 * p]);
+    for (int c = 0; c < peaks.components; c += 3) {
+      Vec3 v{peaks.at(p, c), peaks.at(p, c + 1), peaks.at(p, c + 2)};
+      const double own = glm::length(v);
+      v = own > 0.0 && std::isfinite(own) ? v * (anisotropy(own) / own) : Vec3{0.0};
+      for (int axis = 0; axis < 3; ++axis) all.push_back(static_cast<float>(v[axis]));
+    }
   }
   const double share =
       std::round(1000.0 * static_cast<double>(several) / static_cast<double>(lengths.size())) / 10.0;
@@ -277,12 +276,22 @@ std::vector<float> from_peaks(const DataArray& peaks, const std::string& file, s
       " a voxel): tensors along the longest, with a mean diffusivity of 0.0007 mm^2/s and an FA of 0.8, less in "
       "proportion where it is shorter than in the upper hundredth";
   if (several > 0)
-    what += "; tracts follow it, others are left aside, in " + short_number(share) + " % of the voxels";
+    what +=
+        "; tracts and the hand follow the peak nearest to their way, within 45 degrees, from the longest on "
+        "(--seeds peaks:… from each); " +
+        short_number(share) + " % of the voxels have several";
   what += "; ";
   return tensors;
 }
 
 }  // namespace
+
+void turn_vectors(const Mat3& turn, std::vector<float>& vectors) {
+  for (std::size_t at = 0; at + 3 <= vectors.size(); at += 3) {
+    const Vec3 v = turn * Vec3{vectors[at], vectors[at + 1], vectors[at + 2]};
+    for (int axis = 0; axis < 3; ++axis) vectors[at + as_size(axis)] = static_cast<float>(v[axis]);
+  }
+}
 
 TensorOrder order_of_size(int components) noexcept {
   if (components == 9) return TensorOrder::kFull;
@@ -292,7 +301,8 @@ TensorOrder order_of_size(int components) noexcept {
 std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
                                        const TensorSource& source, const DiffusionInfo& diffusion,
                                        const TensorReading& reading, int threads, VectorFrame& frame,
-                                       std::vector<std::string>& notes, const std::string& file) {
+                                       std::vector<std::string>& notes, const std::string& file,
+                                       std::vector<float>& all_peaks) {
   const OpenFrame open{.asked = reading.frame, .stated = diffusion.frame};
   if (source.kind == TensorSource::Kind::kEigenSet || source.kind == TensorSource::Kind::kDirections) {
     const bool set = source.kind == TensorSource::Kind::kEigenSet;
@@ -300,7 +310,7 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
     std::string what;
     std::vector<float> tensors =
         set     ? from_eigen_set(image, source)
-        : peaks ? from_peaks(*image.find(source.arrays.front(), Association::kPoint), file, what)
+        : peaks ? from_peaks(*image.find(source.arrays.front(), Association::kPoint), file, what, all_peaks)
                 : from_directions(image, source);
     // Peaks are MRtrix's, which has them along the scanner's axes.
     std::vector<VectorFrame> likely{VectorFrame::kImage, VectorFrame::kScanner, VectorFrame::kLps};
@@ -309,6 +319,7 @@ std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopolo
     frame = choice.frame;
     turn_stored(matrix_of(frame, topology.axes), tensors);
     if (peaks) {
+      turn_vectors(matrix_of(frame, topology.axes), all_peaks);
       notes.push_back(frame_note(what + "taken", choice));
       return tensors;
     }

@@ -24,11 +24,15 @@ namespace palpate {
 /// @throws Error (bad input) with `file` where kAuto finds no order in which half of the tensors are
 /// positive.
 /// @param source of any kind but kSignals, whose arrays `image` has. @param frame becomes what was taken.
+/// @param all_peaks of a peaks image become x y z of all of them, as PeakField takes them, in the same axes.
 [[nodiscard]] std::vector<float> read_stored_tensors(const DataSet& image, const UniformTopology& topology,
                                                      const TensorSource& source,
                                                      const DiffusionInfo& diffusion,
                                                      const TensorReading& reading, int threads,
                                                      VectorFrame& frame, std::vector<std::string>& notes,
-                                                     const std::string& file);
+                                                     const std::string& file, std::vector<float>& all_peaks);
+
+/// v becomes T v for every three numbers.
+void turn_vectors(const Mat3& turn, std::vector<float>& vectors);
 
 }  // namespace palpate

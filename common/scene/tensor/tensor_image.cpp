@@ -145,7 +145,7 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     return result;
   }
   const UniformTopology& grid = uniform(result.image, input);
-  std::vector<float> tensors;
+  std::vector<float> tensors, all_peaks;
   Orientation taken{.turn = reading.turn};
   bool doubtful = false;
   if (input.source.kind == TensorSource::Kind::kSignals) {
@@ -165,12 +165,14 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
     }
   } else {
     tensors = read_stored_tensors(result.image, grid, input.source, input.diffusion, reading, threads,
-                                  taken.frame, result.notes, input.file);
+                                  taken.frame, result.notes, input.file, all_peaks);
     count_negative(tensors, result.notes);
   }
   if (!reading.turn.is_identity()) {
     const Mat3 image = image_axes(grid.axes);
-    turn_tensors(image * reading.turn.matrix() * glm::transpose(image), tensors);
+    const Mat3 turn = image * reading.turn.matrix() * glm::transpose(image);
+    turn_tensors(turn, tensors);
+    turn_vectors(turn, all_peaks);
     result.notes.push_back(turn_text(reading.turn));
   }
   // Of directions that are noise nothing can be learnt.
@@ -193,6 +195,11 @@ TensorImage make_tensor_image(std::vector<DataSet> blocks, const TensorInput& in
                                              std::exchange(result.fit->baselines, {})));
   }
   result.choice = {"tensors", TensorOrder::kRows, reading.interpolation};
+  if (!all_peaks.empty()) {
+    const int numbers = static_cast<int>(all_peaks.size() / result.image.point_count());
+    result.image.arrays.push_back(make_array("peaks", Association::kPoint, numbers, std::move(all_peaks)));
+    result.choice.peaks = "peaks";
+  }
   return result;
 }
 

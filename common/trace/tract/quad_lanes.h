@@ -190,7 +190,7 @@ class QuadLanes {
     Lane& l = lanes_[lane];
     while (next_seed_ < seeds_.size()) {
       l.seed = next_seed_++;
-      if (!rules_.start(tensors_, seeds_[l.seed], l.start, part)) continue;
+      if (!rules_.start(tensors_, seeds_[l.seed], Vec3{0.0}, l.start, part)) continue;
       l.longest = rules_.limits().max_length;
       active_ |= bit(lane);
       start_side(lane, 1, part);

@@ -19,6 +19,7 @@
 #include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/trace/tract/peak_source.h"
 #include "common/trace/tract/quad_tracer.h"
 #include "common/trace/tract/tract_lines.h"
 #include "common/trace/tract/tract_walk.h"
@@ -44,18 +45,43 @@ class Tracer {
   template <class Check>
   void trace(std::span<const Vec3> seeds, std::size_t first, TractPart& part, const Check& check) {
     for (std::size_t i = 0; i < seeds.size(); ++i) {
-      check();
-      TractState start;
-      if (!rules_.start(walk_, seeds[i], start, part)) continue;
-      const double length = follow(start, rules_.limits().max_length, sides_[1]);
-      start.direction = -start.direction;
-      sides_[0].clear();
-      if (rules_.two_sided()) follow(start, rules_.limits().max_length - length, sides_[0]);
-      rules_.keep(seeds[i], static_cast<std::uint32_t>(first + i), sides_, part);
+      const auto index = static_cast<std::uint32_t>(first + i);
+      if constexpr (requires { walk_.tensors().start_count(true); }) {
+        const Tensors& tensors = walk_.tensors();
+        const bool every = rules_.options().every_peak;
+        for (std::size_t n = 0; n < tensors.start_count(every); ++n) {
+          const Vec3 way = tensors.start_way(seeds[i], n, every);
+          const double length = glm::length(way);
+          if (n > 0 && !(length > 0.0)) continue;
+          check();
+          trace(seeds[i], length > 0.0 ? way / length : way, index, part);
+        }
+      } else {
+        check();
+        trace(seeds[i], Vec3{0.0}, index, part);
+      }
     }
   }
 
  private:
+  void trace(const Vec3& seed, const Vec3& toward, std::uint32_t index, TractPart& part) {
+    TractState start;
+    if (!rules_.start(walk_, seed, toward, start, part)) return;
+    const double length = follow(start, rules_.limits().max_length, sides_[1]);
+    start.direction = -start.direction;
+    sides_[0].clear();
+    if (rules_.two_sided()) follow(start, rules_.limits().max_length - length, sides_[0]);
+    rules_.keep(seed, index, sides_, part);
+  }
+
+  /// Why a line ends where there is no tensor.
+  [[nodiscard]] End end_without(SampleStatus status) const noexcept {
+    if constexpr (requires { walk_.tensors().turned_away(); }) {
+      if (walk_.tensors().turned_away()) return End::kSharpTurn;
+    }
+    return end_of(status);
+  }
+
   /// Follows one side for at most `longest`; returns how far it went.
   double follow(const TractState& start, double longest, TractSide& side) {
     const TractLimits& limits = rules_.limits();
@@ -78,7 +104,7 @@ class Tracer {
       const SampleStatus status = walk_.advance_to(next, now);
       if (status != SampleStatus::kOk) {
         // The walk may have come farther than the last point.
-        side.end = end_of(status);
+        side.end = end_without(status);
         if (walk_.reached() > arc + TractRules::kBarely * limits.spacing &&
             rules_.reaches_cutoff(now.tensor)) {
           rules_.push(now.position, now.error, side);
@@ -137,8 +163,8 @@ class Joiner {
 
   /// Takes part number `p`.
   void add(std::size_t p, std::unique_ptr<TractPart> part) {
-    std::sort(part->lines.begin(), part->lines.end(),
-              [](const TractPart::Line& a, const TractPart::Line& b) { return a.seed < b.seed; });
+    std::stable_sort(part->lines.begin(), part->lines.end(),
+                     [](const TractPart::Line& a, const TractPart::Line& b) { return a.seed < b.seed; });
     std::unique_lock lock(mutex_);
     ready_[p] = std::move(part);
     if (joining_) return;
@@ -233,6 +259,11 @@ void trace_by(const AnyTensors& tensors, const TractRules& rules, std::span<cons
               TractResult& result, Progress* progress) {
   trace_parts<Tracer<AnyTensors, Tableau>>(tensors, rules, seeds, result, progress);
 }
+template <class Tableau>
+void trace_by(const PeakTensors& tensors, const TractRules& rules, std::span<const Vec3> seeds,
+              TractResult& result, Progress* progress) {
+  trace_parts<Tracer<PeakTensors, Tableau>>(tensors, rules, seeds, result, progress);
+}
 
 template <class Tensors>
 void trace_with(const Tensors& tensors, const TractRules& rules, std::span<const Vec3> seeds,
@@ -308,6 +339,11 @@ TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, 
   const FieldGrid& grid = *field.grid();
   const bool uniform =
       grid.box != nullptr && grid.box->uniform() && field.interpolation() == TensorInterpolation::kComponents;
+  if (field.peaks() != nullptr) {
+    trace_with(PeakTensors(field), rules, seeds, result, progress);
+    result.seconds = watch.seconds();
+    return result;
+  }
   std::visit(
       [&]<typename T>(std::span<const T> values) {
         return uniform ? trace_with(UniformTensors<T>(field, values), rules, seeds, result, progress)

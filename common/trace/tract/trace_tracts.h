@@ -1,4 +1,6 @@
-/// Tracts of a field of diffusion tensors: deterministic tensor lines, in parallel over the seeds.
+/// Tracts of a field of diffusion tensors: deterministic tensor lines, in parallel over the seeds. Through a field with
+/// peaks (peak_field.h) they follow the one that is nearest to the way they come, and end as at a sharp turn where
+/// there is none.
 #pragma once
 
 #include <array>
@@ -33,6 +35,8 @@ struct TractOptions {
   double min_length = 0.0;  ///< shorter lines are dropped
   double max_length = 0.0;  ///< 0: the diagonal of the field
   TractSense sense = TractSense::kBoth;
+  bool every_peak =
+      false;  ///< of a field with peaks: a line from each of the seed's voxel, not from the longest alone
   std::int64_t max_steps = 1'000'000;  ///< from point to point, to each side of a seed
   std::vector<TractRegion> include;    ///< lines that miss one of them are dropped
   std::vector<TractRegion> exclude;    ///< lines that enter one of them are dropped
@@ -53,7 +57,7 @@ struct TractsDropped {
 };
 
 struct TractResult {
-  /// By seed, a line each: from the end that lies against the main eigenvector at the seed, through the
+  /// By seed, a line each, or one for each of its peaks: from the end that lies against the main eigenvector at the seed, through the
   /// seed, to the other; of one way from the seed on. Points are `step` apart but for the first and the last. `error` of each point: the
   /// sum of the steps' error estimates from the seed on [mm], which says nothing of how the field spreads
   /// neighbouring lines.

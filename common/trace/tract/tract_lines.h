@@ -73,12 +73,14 @@ class TractRules {
   [[nodiscard]] bool out_of_steps(std::int64_t step) const noexcept { return step > options_->max_steps; }
 
   /// The state at a seed, looking the way of the first side; false where no line starts there.
+  /// @param toward of sample_along().
   template <class Tensors>
-  [[nodiscard]] bool start(Tensors& tensors, const Vec3& seed, TractState& at, TractPart& part) const {
+  [[nodiscard]] bool start(Tensors& tensors, const Vec3& seed, const Vec3& toward, TractState& at,
+                           TractPart& part) const {
     at = {};
     at.position = seed * from_data_;
     const SampleStatus status =
-        is_finite(seed) ? tensors.sample(at.position, at.tensor) : SampleStatus::kOutside;
+        is_finite(seed) ? sample_along(tensors, at.position, toward, at.tensor) : SampleStatus::kOutside;
     if (status != SampleStatus::kOk) {
       ++(status == SampleStatus::kOutside ? part.dropped.outside : part.dropped.bad_data);
       return false;
@@ -108,7 +110,7 @@ class TractRules {
     for (int n = 0; n < kBisections; ++n) {
       const double middle = 0.5 * (above + below);
       Tensor6 tensor;
-      const bool ok = tensors.sample(piece.at(middle), tensor) == SampleStatus::kOk;
+      const bool ok = sample_along(tensors, piece.at(middle), from.direction, tensor) == SampleStatus::kOk;
       (ok && reaches_cutoff(tensor) ? above : below) = middle;
     }
     if (above > kBarely * length) push(piece.at(above), to.error, side);

@@ -11,6 +11,7 @@
 #include "common/base/text.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -69,7 +70,12 @@ class Directions {
     const SymmetricEigen eigen = symmetric_eigen(sample.value);
     const double fa = std::min(1.0, fractional_anisotropy(eigen.values));
     if (!std::isfinite(fa)) return {};
-    return {.fa = fa, .cosine = std::min(1.0, std::abs(glm::dot(direction, eigen.vectors[0])))};
+    Vec3 along = eigen.vectors[0];
+    if (field_.peaks() != nullptr) {
+      const Vec3 peak = field_.peaks()->nearest(x, direction);
+      if (peak != Vec3{0.0}) along = glm::normalize(peak);
+    }
+    return {.fa = fa, .cosine = std::min(1.0, std::abs(glm::dot(direction, along)))};
   }
 
  private:

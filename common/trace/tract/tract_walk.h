@@ -27,6 +27,17 @@ struct TractState {
   double error = 0.0;  ///< sum of the steps' error estimates so far
 };
 
+/// A source that knows several tensors at a place is asked for the one along `toward`, of unit length.
+template <class Tensors>
+[[nodiscard]] SampleStatus sample_along(Tensors& tensors, const Vec3& x, const Vec3& toward,
+                                        Tensor6& out) noexcept {
+  if constexpr (requires { tensors.sample(x, toward, out); }) {
+    return tensors.sample(x, toward, out);
+  } else {
+    return tensors.sample(x, out);
+  }
+}
+
 /// Bounds of controlled steps, in spacings of the points.
 struct TractStep {
   static constexpr double kLongest = 8.0;
@@ -80,8 +91,11 @@ class TractWalk {
   }
   /// The arc length of the farthest point.
   [[nodiscard]] double reached() const noexcept { return arc_; }
-  /// The tensor anywhere.
-  [[nodiscard]] SampleStatus sample(const Vec3& x, Tensor6& out) noexcept { return tensors_.sample(x, out); }
+  /// The tensor anywhere, on the way `toward`.
+  [[nodiscard]] SampleStatus sample(const Vec3& x, const Vec3& toward, Tensor6& out) noexcept {
+    return sample_along(tensors_, x, toward, out);
+  }
+  [[nodiscard]] const Tensors& tensors() const noexcept { return tensors_; }
 
  private:
   static constexpr bool kControlled = Tableau::kEmbeddedOrder > 0;
@@ -93,7 +107,7 @@ class TractWalk {
     Vec3 last = here_.direction;
     const auto direction_at = [&](double, const Vec3& x) {
       if (status != SampleStatus::kOk) return last;
-      status = tensors_.sample(x, end_tensor_);
+      status = sample_along(tensors_, x, last, end_tensor_);
       if (status == SampleStatus::kOk) last = main_direction(end_tensor_, last);
       return last;
     };
@@ -161,10 +175,11 @@ class TractWalk {
       out.position += power * dense_[j];
     }
     out.error = piece_error_ + theta * (here_.error - piece_error_);
-    const SampleStatus status = tensors_.sample(out.position, out.tensor);
-    if (status != SampleStatus::kOk) return status;
     const double length = glm::length(toward);
-    out.direction = main_direction(out.tensor, length > 0.5 * rk_.step ? toward / length : here_.direction);
+    toward = length > 0.5 * rk_.step ? toward / length : here_.direction;
+    const SampleStatus status = sample_along(tensors_, out.position, toward, out.tensor);
+    if (status != SampleStatus::kOk) return status;
+    out.direction = main_direction(out.tensor, toward);
     return SampleStatus::kOk;
   }
 

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/field/tensor/peak_field.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpate {
@@ -187,6 +188,56 @@ TEST(AnisotropyDrag, FollowsABundleThatTurns) {
     farthest = std::max(farthest, std::abs(glm::distance(hand.at(probe).proxy, centre) - kRadius));
   }
   EXPECT_LT(farthest, 0.0008);
+}
+
+// Two bundles that cross everywhere, of which another is the longer from voxel to voxel: the hand stays in the one
+// that it begins in, the longer one there, however it strays, and begins in whichever is longer after it was let go.
+TEST(AnisotropyDrag, StaysInOneOfTwoBundlesThatCross) {
+  constexpr int kPoints = 9;
+  for (const double degrees : {60.0, 90.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    const std::array<Vec3, 2> ways{Vec3{1.0, 0.0, 0.0}, Vec3{std::cos(angle), std::sin(angle), 0.0}};
+    std::mt19937 random(7);
+    std::vector<float> tensors, peaks;
+    for (int p = 0; p < kPoints * kPoints * kPoints; ++p) {
+      const bool first = (random() & 1U) != 0, swap = (random() & 1U) != 0;
+      const Mat3 d = fibre_tensor(ways[first ? 0 : 1], 0.8);
+      for (const double x : {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]})
+        tensors.push_back(static_cast<float>(x));
+      std::array<Vec3, 2> both{(first ? 0.8 : 0.7) * ways[0], (first ? -0.7 : -0.8) * ways[1]};
+      if (swap) std::swap(both[0], both[1]);
+      for (const Vec3& peak : both) {
+        for (int axis = 0; axis < 3; ++axis) peaks.push_back(static_cast<float>(peak[axis]));
+      }
+    }
+    DataSet image;
+    image.topology = UniformTopology{Index3{kPoints}, Vec3{-0.2}, Mat3{0.05}};
+    image.arrays = {make_array("D", Association::kPoint, 6, std::span<const float>(tensors)),
+                    make_array("P", Association::kPoint, 6, std::span<const float>(peaks))};
+    const auto field = make_tensor_field(image, {.array = "D", .peaks = "P"}, "made");
+    Hand hand(field, IsotropicPlaces::kFree);
+    std::array<int, 2> begun{};
+    for (const double height : {-0.1, -0.05, 0.0, 0.05, 0.1}) {
+      const Vec3 start{0.0, 0.0, height};
+      const Vec3 way = glm::normalize(field->peaks()->longest(start)),
+                 aside = glm::cross(way, Vec3{0.0, 0.0, 1.0});
+      ++begun[std::abs(way.y) > 1e-3 ? 1 : 0];
+      hand.at(Vec3{1.0});  // outside
+      hand.at(start);
+      double farthest = 0.0, reached = 0.0;
+      for (int n = 0; n < 1500; ++n) {
+        const double along = n * 1e-4;
+        const Vec3 proxy =
+            hand.at(start + along * way + 0.001 * std::sin(40.0 * along) * aside).proxy - start;
+        reached = glm::dot(proxy, way);
+        farthest = std::max(farthest, glm::length(proxy - reached * way));
+      }
+      EXPECT_LT(farthest, 1e-6) << degrees << " degrees, height " << height;
+      EXPECT_GT(reached, 0.145);
+    }
+    EXPECT_GT(begun[0], 0);
+    EXPECT_GT(begun[1], 0);
+  }
 }
 
 // Round a bundle that closes on itself, whose eigenvectors the solver gives with any sign: all three axes

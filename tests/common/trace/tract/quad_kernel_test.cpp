@@ -149,7 +149,7 @@ std::vector<Vec3f> walked(const TensorField& field, const Vec3& seed, const Vec3
   TractWalk<AnyTensors, Tableau> walk(AnyTensors(field), step * to_s, 1e-4);
   TractState now;
   now.position = seed * to_s;
-  EXPECT_EQ(walk.sample(now.position, now.tensor), SampleStatus::kOk);
+  EXPECT_EQ(walk.sample(now.position, toward, now.tensor), SampleStatus::kOk);
   now.direction = symmetric_eigen(now.tensor.matrix()).vectors[0];
   if (glm::dot(now.direction, toward) < 0.0) now.direction = -now.direction;
   walk.start(now);
