@@ -74,6 +74,7 @@ std::vector<double> dicom_numbers(const DicomScope& scope, DicomTag tag, bool bi
   if (type == "UL") return binary_numbers<std::uint32_t>(*element);
   if (type == "SL") return binary_numbers<std::int32_t>(*element);
   const bool words = type == "DS" || type == "IS";
+  if (binary && !words && element->value.size() == sizeof(float)) return binary_numbers<float>(*element);
   if (binary && !words && element->value.size() % sizeof(double) == 0)
     return binary_numbers<double>(*element);
   return text_numbers(element->value);

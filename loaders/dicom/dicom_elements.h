@@ -20,7 +20,8 @@ using DicomScope = std::vector<const DicomSet*>;
 [[nodiscard]] std::string dicom_text(const DicomScope& scope, DicomTag tag);
 
 /// The numbers of an element, of whatever type it is; none where it is not there or holds something else.
-/// @param binary what the bytes are where neither the file nor the dictionary says their type: doubles, else text.
+/// @param binary what the bytes are where neither the file nor the dictionary says their type: doubles, or
+/// one float, else text.
 [[nodiscard]] std::vector<double> dicom_numbers(const DicomScope& scope, DicomTag tag, bool binary = false);
 
 /// The first of them, where it is finite.

@@ -16,7 +16,8 @@
 
 namespace palpate {
 
-/// A diffusion weighting: b [s/mm^2], and the direction in LPS, zero where there is none (a trace image).
+/// A diffusion weighting: b [s/mm^2], and the direction in LPS, of any length, zero where there is none (a trace
+/// image).
 struct DicomGradient {
   double weighting = 0.0;
   Vec3 direction{0.0};

@@ -361,26 +361,12 @@ class DicomLoader : public Loader {
       }
       return;
     }
-    volumes_.clear();
-    GradientTable table;
-    for (std::size_t v = 0; v < series_.volumes; ++v) {
-      if (std::find(series_.traces.begin(), series_.traces.end(), v) != series_.traces.end()) continue;
-      volumes_.push_back(v);
-      table.weightings.push_back(series_.gradients->weightings[v]);
-      table.directions.push_back(series_.gradients->directions[v]);
-    }
-    if (!series_.traces.empty())
-      info.notes.push_back(counted(series_.traces.size(), "weighted volume") +
-                           " without a direction left out; --leave-out counts the others from 0");
-    if (volumes_.empty()) {
-      throw input_error({series_.frames.front().file, "",
-                         "belongs to a series whose weighted volumes have no direction",
-                         "diffusion gradients", "trace images have no directions in them"});
-    }
+    volumes_.resize(series_.volumes);
+    std::iota(volumes_.begin(), volumes_.end(), std::size_t{0});
     signals_ = true;
     array_.name = kSignalArray;
     array_.components = static_cast<int>(volumes_.size());
-    info.diffusion.gradients = std::move(table);
+    info.diffusion.gradients = series_.gradients;
     info.diffusion.gradient_frame = VectorFrame::kLps;
   }
 

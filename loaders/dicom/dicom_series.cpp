@@ -141,6 +141,22 @@ std::vector<std::size_t> steps_of(const std::vector<double>& places, const Dicom
 
 Vec3 ras(const Vec3& lps) { return {-lps.x, -lps.y, lps.z}; }
 
+/// Whether all weighted volumes state one b, and the lengths of their directions which part of it they have: GE's way of
+/// several shells.
+bool lengths_are_shells(const GradientTable& table) {
+  const double largest = table.largest_weighting();
+  double longest = 0.0, shortest = HUGE_VAL;
+  for (std::size_t v = 0; v < table.weightings.size(); ++v) {
+    if (table.unweighted(v)) continue;
+    constexpr double kSame = 0.99;
+    if (table.weightings[v] < kSame * largest) return false;
+    longest = std::max(longest, glm::length(table.directions[v]));
+    shortest = std::min(shortest, glm::length(table.directions[v]));
+  }
+  constexpr double kAlike = 0.95;
+  return shortest < kAlike * longest;
+}
+
 void take_gradients(DicomSeries& series, std::size_t slices) {
   const auto stated = as_size(std::count_if(series.frames.begin(), series.frames.end(),
                                             [](const DicomFrame& f) { return f.gradient.has_value(); }));
@@ -167,14 +183,12 @@ void take_gradients(DicomSeries& series, std::size_t slices) {
     table.weightings.push_back(first.weighting);
     table.directions.push_back(ras(first.direction));
   }
-  const double largest = table.largest_weighting();
-  if (!(largest > 0.0)) return;
-  constexpr double kUnweighted = 0.05;  // as GradientTable::unweighted()
-  for (std::size_t v = 0; v < series.volumes; ++v) {
-    if (table.weightings[v] >= kUnweighted * largest && table.directions[v] == Vec3(0.0))
-      series.traces.push_back(v);
+  if (!lengths_are_shells(table)) {
+    for (Vec3& direction : table.directions) {
+      if (direction != Vec3(0.0)) direction = glm::normalize(direction);
+    }
   }
-  series.gradients = std::move(table);
+  if (table.largest_weighting() > 0.0) series.gradients = std::move(table);
 }
 
 /// Of each volume the value that all its images have, where volumes differ in it; nothing where one has several.

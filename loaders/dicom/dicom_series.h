@@ -22,7 +22,6 @@ struct DicomSeries {
   std::vector<double> times;               ///< one a volume, of several: what `times_are` says
   std::string times_are;                   ///< in words
   std::optional<GradientTable> gradients;  ///< of the volumes, in RAS+; none where no image states b-values
-  std::vector<std::size_t> traces;         ///< weighted volumes without a direction
   std::vector<std::string> notes;
 };
 

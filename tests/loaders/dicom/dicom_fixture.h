@@ -57,7 +57,7 @@ inline std::string decimals(std::initializer_list<double> values) {
   return text;
 }
 
-enum class DicomVendor { kNone, kStandard, kSiemens, kGe };
+enum class DicomVendor { kNone, kStandard, kSiemens, kGe, kPhilips };
 
 struct DicomImage {
   int columns = 4, rows = 3;
@@ -78,24 +78,30 @@ struct DicomImage {
   double weighting = 0.0;
   std::optional<Vec3> gradient;            ///< as the vendor's attribute says it
   std::string phase = "COL";               ///< GE
+  std::uint16_t block = 0x10;              ///< of the vendor's elements
+  bool standard_weighting = false;         ///< b in the standard's attribute, the direction in the vendor's
   std::optional<std::string> pixel_bytes;  ///< in place of `pixels`, already an element's value or fragments
 
+  [[nodiscard]] std::uint16_t own(int element) const {
+    return static_cast<std::uint16_t>(block * 0x100 + element);
+  }
   [[nodiscard]] std::string gradient_elements() const {
     std::string bytes;
     const Vec3 g = gradient.value_or(Vec3(0.0));
-    if (vendor == DicomVendor::kStandard) {
+    if (vendor == DicomVendor::kGe) bytes += dicom_element(0x0018, 0x1312, "CS", phase);
+    if (vendor == DicomVendor::kStandard || standard_weighting)
       bytes += dicom_element(0x0018, 0x9087, "FD", as_bytes_of({weighting}));
+    if (vendor == DicomVendor::kStandard) {
       if (gradient) bytes += dicom_element(0x0018, 0x9089, "FD", as_bytes_of({g.x, g.y, g.z}));
     } else if (vendor == DicomVendor::kSiemens) {
-      bytes += dicom_element(0x0019, 0x0010, "LO", "SIEMENS MR HEADER");
-      bytes += dicom_element(0x0019, 0x100c, "IS", decimals({weighting}));
-      if (gradient) bytes += dicom_element(0x0019, 0x100e, "FD", as_bytes_of({g.x, g.y, g.z}));
+      bytes += dicom_element(0x0019, block, "LO", "SIEMENS MR HEADER");
+      if (!standard_weighting) bytes += dicom_element(0x0019, own(0x0c), "IS", decimals({weighting}));
+      if (gradient) bytes += dicom_element(0x0019, own(0x0e), "FD", as_bytes_of({g.x, g.y, g.z}));
     } else if (vendor == DicomVendor::kGe) {
-      bytes += dicom_element(0x0018, 0x1312, "CS", phase);
-      bytes += dicom_element(0x0019, 0x0010, "LO", "GEMS_ACQU_01");
-      bytes += dicom_element(0x0019, 0x10bb, "DS", decimals({g.x}));
-      bytes += dicom_element(0x0019, 0x10bc, "DS", decimals({g.y}));
-      bytes += dicom_element(0x0019, 0x10bd, "DS", decimals({g.z}));
+      bytes += dicom_element(0x0019, block, "LO", "GEMS_ACQU_01");
+      bytes += dicom_element(0x0019, own(0xbb), "DS", decimals({g.x}));
+      bytes += dicom_element(0x0019, own(0xbc), "DS", decimals({g.y}));
+      bytes += dicom_element(0x0019, own(0xbd), "DS", decimals({g.z}));
     }
     return bytes;
   }
@@ -142,9 +148,20 @@ struct DicomImage {
     if (window) file += dicom_element(0x0028, 0x1051, "DS", decimals({(*window)[1]}));
     if (intercept) file += dicom_element(0x0028, 0x1052, "DS", decimals({*intercept}));
     if (slope) file += dicom_element(0x0028, 0x1053, "DS", decimals({*slope}));
-    if (vendor == DicomVendor::kGe) {
-      file += dicom_element(0x0043, 0x0010, "LO", "GEMS_PARM_01");
-      file += dicom_element(0x0043, 0x1039, "IS", decimals({weighting + 1e9, 8, 0, 0}));
+    if (vendor == DicomVendor::kGe && !standard_weighting) {
+      file += dicom_element(0x0043, block, "LO", "GEMS_PARM_01");
+      file += dicom_element(0x0043, own(0x39), "IS", decimals({weighting + 1e9, 8, 0, 0}));
+    }
+    if (vendor == DicomVendor::kPhilips) {
+      const auto single = [](double x) { return as_bytes_of({static_cast<float>(x)}); };
+      const Vec3 g = gradient.value_or(Vec3(0.0));
+      file += dicom_element(0x2001, block, "LO", "Philips Imaging DD 001");
+      if (!standard_weighting) file += dicom_element(0x2001, own(0x03), "FL", single(weighting));
+      file += dicom_element(0x2005, block, "LO", "Philips MR Imaging DD 001");
+      // As archives keep what they do not know.
+      file += dicom_element(0x2005, own(0xb0), "UN", single(g.x));
+      file += dicom_element(0x2005, own(0xb1), "FL", single(g.y));
+      file += dicom_element(0x2005, own(0xb2), "FL", single(g.z));
     }
     file += more;
     if (pixel_bytes) return file + *pixel_bytes;

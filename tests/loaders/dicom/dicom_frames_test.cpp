@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -132,44 +134,76 @@ TEST_F(DicomTest, ADoseIsPlacedByTheOffsetsOfItsFramesAndScaled) {
             std::string::npos);
 }
 
-// The three ways of saying it give one table in RAS+.
-TEST_F(DicomTest, GradientsOfVendorsAreThoseOfTheStandard) {
+// All ways of saying it give one table in RAS+.
+void check_gradients(DicomVendor vendor, const char* phase, std::uint16_t block, bool standard_weighting,
+                     const std::function<Source(const std::filesystem::path&)>& open) {
   const std::vector<Vec3> directions{{0, 0, 0}, {0.6, 0.8, 0.0}, {0.0, -0.6, 0.8}, {0.48, 0.64, 0.6}};
-  for (const DicomVendor vendor : {DicomVendor::kStandard, DicomVendor::kSiemens, DicomVendor::kGe}) {
-    for (const char* phase : {"COL", "ROW"}) {
-      const TempFolder folder;
-      int n = 0;
-      for (int k = 0; k < 4; ++k) {
-        for (int v = 0; v < 4; ++v) {
-          DicomImage image = slice(k, v);
-          const Vec3& g = directions[static_cast<std::size_t>(v)];
-          image.vendor = vendor;
-          image.phase = phase;
-          image.weighting = v == 0 ? 0.0 : 1000.0;
-          if (v > 0) image.gradient = g;
-          if (v > 0 && vendor == DicomVendor::kGe) {
-            // Along the encoded directions of the image; the slice's is turned around.
-            const double x = glm::dot(g, kRow), y = glm::dot(g, kColumn), z = -glm::dot(g, kNormal);
-            image.gradient = std::string(phase) == "COL" ? Vec3(x, y, z) : Vec3(-y, x, z);
-          }
-          folder.write(std::to_string(n++), image.bytes());
-        }
+  const TempFolder folder;
+  int n = 0;
+  for (int k = 0; k < 4; ++k) {
+    for (int v = 0; v < 4; ++v) {
+      DicomImage image = slice(k, v);
+      const Vec3& g = directions[static_cast<std::size_t>(v)];
+      image.vendor = vendor;
+      image.phase = phase;
+      image.block = block;
+      image.standard_weighting = standard_weighting;
+      image.weighting = v == 0 ? 0.0 : 1000.0;
+      if (v > 0) image.gradient = g;
+      if (v > 0 && vendor == DicomVendor::kGe) {
+        // Along the encoded directions of the image; the slice's is turned around.
+        const double x = glm::dot(g, kRow), y = glm::dot(g, kColumn), z = -glm::dot(g, kNormal);
+        image.gradient = std::string(phase) == "COL" ? Vec3(x, y, z) : Vec3(-y, x, z);
       }
-      Source source = open(folder.path(), true);
-      ASSERT_TRUE(source.info().diffusion.gradients);
-      const GradientTable& table = *source.info().diffusion.gradients;
-      ASSERT_EQ(table.weightings.size(), 4U);
-      for (std::size_t v = 0; v < 4; ++v) {
-        EXPECT_EQ(table.weightings[v], v == 0 ? 0.0 : 1000.0);
-        const Vec3& g = directions[v];
-        EXPECT_LT(glm::distance(table.directions[v], Vec3(-g.x, -g.y, g.z)), 1e-8)
-            << static_cast<int>(vendor);
-      }
-      const DataSet block = source.read({kSignalArray}).front();
-      const DataArray& signals = block.arrays.front();
-      ASSERT_EQ(signals.components, 4);
-      for (int v = 1; v < 4; ++v) EXPECT_EQ(signals.at(5, v) - signals.at(5, 0), 1000.0 * v);
+      folder.write(std::to_string(n++), image.bytes());
     }
+  }
+  Source source = open(folder.path());
+  ASSERT_TRUE(source.info().diffusion.gradients);
+  const GradientTable& table = *source.info().diffusion.gradients;
+  ASSERT_EQ(table.weightings.size(), 4U);
+  for (std::size_t v = 0; v < 4; ++v) {
+    EXPECT_EQ(table.weightings[v], v == 0 ? 0.0 : 1000.0);
+    const Vec3& g = directions[v];
+    EXPECT_LT(glm::distance(table.directions[v], Vec3(-g.x, -g.y, g.z)), 1e-6) << static_cast<int>(vendor);
+  }
+  const DataSet data = source.read({kSignalArray}).front();
+  const DataArray& signals = data.arrays.front();
+  ASSERT_EQ(signals.components, 4);
+  for (int v = 1; v < 4; ++v) EXPECT_EQ(signals.at(5, v) - signals.at(5, 0), 1000.0 * v);
+}
+
+TEST_F(DicomTest, GradientsOfVendorsAreThoseOfTheStandard) {
+  const auto diffusion = [](const std::filesystem::path& path) { return open(path, true); };
+  for (const DicomVendor vendor :
+       {DicomVendor::kStandard, DicomVendor::kSiemens, DicomVendor::kGe, DicomVendor::kPhilips}) {
+    for (const bool standard_weighting : {false, true})
+      check_gradients(vendor, "COL", 0x10, standard_weighting, diffusion);
+    check_gradients(vendor, "COL", 0x12, false, diffusion);
+  }
+  check_gradients(DicomVendor::kGe, "ROW", 0x10, false, diffusion);
+}
+
+// GE's way of several shells: one b for all, and lengths that say which part of it a direction has. Where b-values
+// differ lengths say nothing.
+TEST_F(DicomTest, LengthsOfDirectionsAreKeptWhereTheyCarryTheShells) {
+  for (const bool one_weighting : {true, false}) {
+    const TempFolder folder;
+    int n = 0;
+    for (int k = 0; k < 4; ++k) {
+      for (int v = 0; v < 4; ++v) {
+        DicomImage image = slice(k, v);
+        image.vendor = DicomVendor::kGe;
+        image.weighting = one_weighting ? 2000.0 : 500.0 * v;
+        image.gradient = v == 0 ? Vec3(0.0) : (v == 1 ? 0.5 : 1.0) * Vec3(0.0, 0.6, 0.8);
+        folder.write(std::to_string(n++), image.bytes());
+      }
+    }
+    const Source source = open(folder.path(), true);
+    const GradientTable& table = *source.info().diffusion.gradients;
+    EXPECT_NEAR(glm::length(table.directions[1]), one_weighting ? 0.5 : 1.0, 1e-8);
+    EXPECT_NEAR(glm::length(table.directions[2]), 1.0, 1e-8);
+    EXPECT_EQ(table.directions[0], Vec3(0.0)) << "unweighted, whatever b it states";
   }
 }
 
@@ -220,7 +254,7 @@ TEST_F(DicomTest, AnEnhancedImageIsTheSeriesOfItsFrames) {
   EXPECT_NE(refusal(other.write("cut", cut)).find("frame 5 has no place"), std::string::npos);
 }
 
-TEST_F(DicomTest, TraceImagesAreLeftOutAndMixedGradientsRefused) {
+TEST_F(DicomTest, TraceImagesHaveNoDirectionAndMixedGradientsAreRefused) {
   std::vector<DicomImage> images;
   for (int k = 0; k < 4; ++k) {
     for (int v = 0; v < 3; ++v) {
@@ -232,11 +266,9 @@ TEST_F(DicomTest, TraceImagesAreLeftOutAndMixedGradientsRefused) {
   }
   (void)write(images);
   const Source source = open(folder_.path(), true);
-  EXPECT_EQ(source.info().diffusion.gradients->weightings, (std::vector<double>{0.0, 1000.0}));
-  const auto& notes = source.info().notes;
-  EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
-    return note.find("without a direction left out") != std::string::npos;
-  }));
+  const GradientTable& table = *source.info().diffusion.gradients;
+  EXPECT_EQ(table.weightings, (std::vector<double>{0.0, 1000.0, 1000.0}));
+  EXPECT_EQ(table.directions[2], Vec3(0.0)) << "choose_gradients() leaves it out";
 
   const TempFolder mixed;
   images[4].gradient = Vec3(1, 0, 0);
