@@ -192,8 +192,11 @@ class TrkReader {
       }
     }
     if (turn != Mat3{1.0}) {
-      notes_.push_back("positions are stored along " + letters +
-                       ", other axes than those of the file's image: turned to them");
+      const bool exchanged = turn[0][0] == 0.0 || turn[1][1] == 0.0 || turn[2][2] == 0.0;
+      notes_.push_back(
+          "positions are stored along " + letters +
+          ", other axes than those of the file's image: turned to them" +
+          (exchanged ? " (the header contradicts itself; nibabel lays such tracts elsewhere)" : ""));
     }
     const Mat3 by_size{Vec3{1.0 / size.x, 0.0, 0.0}, Vec3{0.0, 1.0 / size.y, 0.0},
                        Vec3{0.0, 0.0, 1.0 / size.z}};

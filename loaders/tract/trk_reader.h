@@ -8,8 +8,10 @@
 /// image is
 ///   v_b = u_a, or n_a - 1 - u_a where the two run against one another                              (2)
 /// with a the axis of voxel_order that runs along the same axis of the head, as the axes of the matrix lie
-/// nearest to. Then x = vox_to_ras v (RAS+). nibabel's TrkFile does the same where the two orders differ by
-/// flips or one exchange; where all three axes are exchanged around, it takes the inverse exchange.
+/// nearest to. Then x = vox_to_ras v (RAS+). Where the two orders are one, as in files of nibabel, DIPY and
+/// TrackVis, that is what nibabel reads, too, in all 48 orders. Of files whose header contradicts itself in this,
+/// nibabel lays those with exchanged axes elsewhere: it counts n along the axes of the matrix, and turns by the
+/// inverse where all three are exchanged around. A note says so.
 ///
 /// Without a vox_to_ras (version 1, or programs that leave it zero) axes of the voxels' size along
 /// voxel_order are taken, with the centre of the first voxel at the origin; a note says so.

@@ -42,19 +42,35 @@ class ContextScope {
   ImGuiContext* before_;
 };
 
+// A line of words at the upper left.
+struct TitleLine {
+  float left, top;
+  const std::string* words;
+  Lettering lettering;
+};
+
+// Title and subtitle, those that are there.
+std::vector<TitleLine> title_lines(const OverlayPen& pen, const SceneView& view) {
+  const float em = pen.text_height(), left = view.slice ? em : 1.2F * em;
+  const auto big = view.slice ? Lettering::kText : Lettering::kTitle;
+  std::vector<TitleLine> lines;
+  if (!view.title.empty()) lines.push_back({left, em, &view.title, big});
+  if (!view.subtitle.empty()) {
+    const float below = view.slice ? 1.9F * em : view.title.empty() ? 0.0F : 1.75F * em;
+    lines.push_back({left, em + below, &view.subtitle, Lettering::kText});
+  }
+  return lines;
+}
+
 void draw_title(const OverlayPen& pen, const SceneView& view) {
-  const float em = pen.text_height();
-  float y = em;
-  if (view.slice) {  // which may be white there
-    if (!view.title.empty()) pen.label(y, y, view.title);
-    if (!view.subtitle.empty()) pen.label(y, 2.9F * em, view.subtitle);
-    return;
+  for (const TitleLine& line : title_lines(pen, view)) {
+    if (view.slice) {  // which may be white there
+      pen.label(line.left, line.top, *line.words);
+    } else {
+      pen.text(line.left, line.top, *line.words, line.words == &view.title ? pen.ink() : pen.faint_ink(),
+               0.0F, line.lettering);
+    }
   }
-  if (!view.title.empty()) {
-    pen.text(1.2F * em, y, view.title, pen.ink(), 0.0F, Lettering::kTitle);
-    y += 1.75F * em;
-  }
-  if (!view.subtitle.empty()) pen.text(1.2F * em, y, view.subtitle, pen.faint_ink());
 }
 
 // The three axes of the data as arrows in the lower left corner, the farthest one first.
@@ -180,7 +196,15 @@ void draw_sides(const OverlayPen& pen, const SceneView& view, int width, int hei
   const Vec3 right = view.camera.axes[0], up = view.camera.axes[1];
   pen.text(1.2F * em, 0.5F * h - 0.5F * em, side_of(-right), pen.ink());
   pen.text(w - 1.2F * em, 0.5F * h - 0.5F * em, side_of(right), pen.ink(), 1.0F);
-  pen.text(0.5F * w, 0.6F * em, side_of(up), pen.ink(), 0.5F);
+  // Below a title that reaches as far, as in narrow panes.
+  const std::string above = side_of(up);
+  const float left = 0.5F * (w - OverlayPen::size_of(above).x);
+  float top = 0.6F * em;
+  for (const TitleLine& line : title_lines(pen, view)) {
+    const ImVec2 size = OverlayPen::size_of(*line.words, line.lettering);
+    if (line.left + size.x + 0.5F * em > left) top = line.top + size.y + 0.3F * em;
+  }
+  pen.text(0.5F * w, top, above, pen.ink(), 0.5F);
   pen.text(0.5F * w, h - 1.8F * em, side_of(-up), pen.ink(), 0.5F);
 }
 
