@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/io.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 #include <sys/resource.h>
@@ -44,8 +45,8 @@ bool with_grid(const openvdb::GridBase& grid, F f) {
   return grid.apply<Read>(f);
 }
 
-// Walks over metadata and what stands before them: of noise OpenVDB would make thousands of millions of texts, each as long as
-// noise says.
+// Walks over names, metadata and what stands before them: of noise OpenVDB would make thousands of millions of texts, each as
+// long as noise says.
 class Walk {
  public:
   Walk(std::istream& in, std::int64_t end) : in_(in), end_(end) {}
@@ -72,20 +73,21 @@ class Walk {
  private:
   void check(std::uint32_t bytes) {
     if (!in_ || in_.tellg() + std::int64_t{bytes} > end_)
-      throw openvdb::IoError("has metadata that go on beyond their end");
+      throw openvdb::IoError("has names or metadata that go on beyond their end");
   }
 
   std::istream& in_;
   std::int64_t end_;
 };
 
-// Where the grids of a file end, which OpenVDB keeps to itself.
-class Ends : private openvdb::io::Archive {
+// The grids of a file, each read from where its own head says that it stands: OpenVDB's stream takes what follows a damaged grid
+// for the head of the next one.
+class Grids : private openvdb::io::Archive {
  public:
-  // Nothing where the file ends amid the head of a grid. @throws openvdb::Exception and others where heads
-  // make no sense.
-  static std::optional<std::int64_t> last(const std::string& file, std::uint64_t bytes) {
-    Ends archive;
+  // Where the last one ends; nothing where the file ends amid the head of one. @throws openvdb::Exception and others where
+  // heads make no sense.
+  static std::optional<std::int64_t> end(const std::string& file, std::uint64_t bytes) {
+    Grids archive;
     const auto all = static_cast<std::int64_t>(bytes);
     std::ifstream in(file, std::ios::binary);
     archive.readHeader(in);
@@ -94,6 +96,12 @@ class Ends : private openvdb::io::Archive {
     Walk(in, all).metadata();
     std::int64_t last = in.tellg();
     for (std::int32_t left = readGridCount(in); left > 0; --left) {
+      const std::istream::pos_type head = in.tellg();
+      Walk names(in, all);
+      names.text();  // its own
+      names.text();  // its type's
+      if (archive.fileVersion() >= openvdb::OPENVDB_FILE_VERSION_GRID_INSTANCING) names.text();
+      in.seekg(head);
       openvdb::io::GridDescriptor grid;
       (void)grid.read(in);
       if (!in) return {};
@@ -112,6 +120,33 @@ class Ends : private openvdb::io::Archive {
     if (!in) return {};
     return last;
   }
+
+  // All of them. @pre end() lies within the file. @throws openvdb::Exception and others where it is damaged.
+  static openvdb::GridPtrVec read(const std::string& file) {
+    Grids archive;
+    // Where the file ends early, each read fails at once, in place of as many as noise asks for.
+    std::ifstream in(file, std::ios::binary);
+    in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+    archive.readHeader(in);
+    openvdb::io::StreamMetadata::Ptr of_stream(new openvdb::io::StreamMetadata);
+    openvdb::io::setStreamMetadataPtr(in, of_stream, false);
+    archive.setFormatVersion(in);
+    archive.setLibraryVersion(in);
+    archive.setDataCompression(in);
+    openvdb::MetaMap().readMeta(in);
+    std::vector<openvdb::io::GridDescriptor> heads;
+    openvdb::GridPtrVec grids;
+    NamedGridMap by_name;
+    for (std::int32_t left = readGridCount(in); left > 0; --left) {
+      grids.push_back(heads.emplace_back().read(in));
+      heads.back().seekToGrid(in);
+      readGrid(grids.back(), heads.back(), in);
+      heads.back().seekToEnd(in);
+      by_name[heads.back().uniqueName()] = grids.back();
+    }
+    for (const auto& head : heads) archive.connectInstance(head, by_name);
+    return grids;
+  }
 };
 
 Vec3 vec(const openvdb::Vec3d& v) { return {v.x(), v.y(), v.z()}; }
@@ -125,12 +160,8 @@ class VdbLoader : public Loader {
     openvdb::initialize();
     FileInfo info;
     try {
-      check_ends();
-      // Where the file ends early, each read fails at once, in place of as many as noise asks for.
-      std::ifstream in(file_, std::ios::binary);
-      in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
-      const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(in, false).getGrids();
-      for (const openvdb::GridBase::Ptr& grid : *grids) take(grid, info.notes);
+      check_end();
+      for (const openvdb::GridBase::Ptr& grid : Grids::read(file_)) take(grid, info.notes);
     } catch (const Error&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -192,9 +223,9 @@ class VdbLoader : public Loader {
     return input_error({file_, "", "OpenVDB cannot read it: " + what, "", "the file may be damaged"});
   }
 
-  void check_ends() const {
+  void check_end() const {
     const std::uint64_t there = read_head(file_, 0).file_size;
-    const std::optional<std::int64_t> end = Ends::last(file_, there);
+    const std::optional<std::int64_t> end = Grids::end(file_, there);
     if (!end) throw input_error({file_, "", "ends amid the head of a grid", "", "the file may be truncated"});
     if (static_cast<std::uint64_t>(*end) > there) {
       throw input_error({file_, "", "has " + std::to_string(there) + " bytes",

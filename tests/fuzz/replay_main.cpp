@@ -1,5 +1,6 @@
 // Runs a fuzz target without a fuzzer: over its seeds and over a few thousand damaged copies of them, the
-// same ones every time. Where the compiler has libFuzzer, that takes this file's place.
+// same ones every time. Where the compiler has libFuzzer, that takes this file's place. For libraries that allocate
+// what a damaged file says, under a limit of memory, as helpers have one.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +9,8 @@
 #include <iterator>
 #include <random>
 #include <vector>
+
+#include <sys/resource.h>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -49,9 +52,13 @@ void damage(Input& input, std::mt19937& random) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: replay SEED_FOLDER DAMAGED_COPIES_OF_EACH\n", stderr);
+  if (argc != 3 && argc != 4) {
+    std::fputs("usage: replay SEED_FOLDER DAMAGED_COPIES_OF_EACH [MEMORY_IN_MIB]\n", stderr);
     return 2;
+  }
+  if (argc == 4) {
+    const rlimit memory{static_cast<rlim_t>(std::atoi(argv[3])) << 20U, RLIM_INFINITY};
+    if (::setrlimit(RLIMIT_AS, &memory) != 0) return 2;
   }
   std::vector<std::filesystem::path> seeds;
   for (const auto& entry : std::filesystem::directory_iterator(argv[1])) seeds.push_back(entry.path());

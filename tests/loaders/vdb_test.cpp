@@ -1,5 +1,7 @@
 // Files that OpenVDB itself has written, read through the helper program.
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -231,6 +233,38 @@ TEST(Vdb, WhatHasNoLinearPlaceOrNoVoxelIsRefused) {
             std::string::npos);
 }
 
+TEST(Vdb, GridsAreReadFromWhereTheirHeadsSayThatTheyStand) {
+  const test::TempFolder folder;
+  const auto second = ball();
+  second->setName("second");
+  std::string content = test::read_file(write(folder, "two.vdb", {ball(), second}));
+  // Bytes of nobody before the second head: where the first grid ends, and all of the second stands, moves by them.
+  const std::size_t head = content.find("second") - 4;
+  constexpr std::int64_t kMoved = 24;
+  const auto offset_at = [&](std::size_t name, std::size_t which) {
+    std::size_t at = name;
+    for (int text = 0; text < 3; ++text) {  // name, type, parent
+      std::uint32_t size = 0;
+      std::memcpy(&size, content.data() + at, sizeof(size));
+      at += sizeof(size) + size;
+    }
+    return at + which * sizeof(std::int64_t);
+  };
+  const auto move = [&](std::size_t at) {
+    std::int64_t offset = 0;
+    std::memcpy(&offset, content.data() + at, sizeof(offset));
+    offset += kMoved;
+    std::memcpy(content.data() + at, &offset, sizeof(offset));
+  };
+  move(offset_at(content.find("ball") - 4, 2));
+  for (const std::size_t which : {0, 1, 2}) move(offset_at(head, which));
+  content.insert(head, kMoved, '\x7f');
+  Source source = Source::open({{folder.write("moved.vdb", content)}, {}});
+  const DataSet block = source.read({"ball", "second"}).front();
+  ASSERT_EQ(block.arrays.size(), 2U);
+  for (const DataArray& array : block.arrays) EXPECT_EQ(array.tuples, std::size_t{kSide * kSide * kSide});
+}
+
 TEST(Vdb, FilesCutOffAreRefusedAndDamagedOnesDoNoMoreThanFail) {
   const test::TempFolder folder;
   const std::string whole = test::read_file(write(folder, "a.vdb", {ball()}));
@@ -240,6 +274,12 @@ TEST(Vdb, FilesCutOffAreRefusedAndDamagedOnesDoNoMoreThanFail) {
   for (const std::size_t size : {std::size_t{12}, std::size_t{30}, std::size_t{100}, whole.size() / 4,
                                  whole.size() / 2, whole.size() - 1})
     EXPECT_FALSE(damaged(whole.substr(0, size)).empty()) << size;
+  // A name as long as a file can say: nothing is made for it.
+  std::string long_name = whole;
+  const std::size_t name_at = whole.find("ball");
+  ASSERT_NE(name_at, std::string::npos);
+  long_name.replace(name_at - 4, 4, "\xff\xff\xff\x7f");
+  EXPECT_NE(damaged(long_name).find("go on beyond"), std::string::npos) << damaged(long_name);
   std::mt19937 random{7};
   for (int round = 0; round < 6; ++round) {
     std::string content = whole;
