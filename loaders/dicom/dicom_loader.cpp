@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gdcmTrace.h>
@@ -13,6 +14,7 @@
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/base/index.h"
+#include "common/base/parallel.h"
 #include "common/base/text.h"
 #include "common/load/dicom_mark.h"
 #include "common/load/series_list.h"
@@ -72,19 +74,35 @@ std::vector<ListedSeries> listed(const std::vector<Listed>& all) {
   return series;
 }
 
+/// What `read` makes of each file, or why it makes nothing: on all threads, since each file is waited for.
+template <typename T, typename Read>
+std::vector<std::variant<T, Error>> read_each(const std::vector<std::string>& files, const Read& read) {
+  std::vector<std::variant<T, Error>> made(files.size());
+  parallel_for(files.size(), 0, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      try {
+        made[i] = read(files[i]);
+      } catch (const Error& error) {
+        made[i] = error;
+      }
+    }
+  });
+  return made;
+}
+
 /// Series with images, in the order of their first files. A file that is damaged costs that file and a word in `lost`.
 std::vector<Listed> list_series(const Found& found, std::vector<std::string>& notes, std::string& lost) {
   std::vector<Listed> all;
   std::string damaged;
   std::size_t damaged_count = 0, without_image = 0;
-  for (const std::string& file : found.files) {
-    DicomLabel label;
-    try {
-      label = read_dicom_label(file);
-    } catch (const Error& error) {
-      if (damaged_count++ == 0) damaged = error.what();
+  auto labels = read_each<DicomLabel>(found.files, read_dicom_label);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::string& file = found.files[i];
+    if (const Error* const error = std::get_if<Error>(&labels[i])) {
+      if (damaged_count++ == 0) damaged = error->what();
       continue;
     }
+    auto& label = std::get<DicomLabel>(labels[i]);
     if (label.series.empty() && label.title.empty()) {
       if (label.listed.empty()) ++without_image;
       continue;
@@ -150,15 +168,15 @@ std::vector<DicomFrame> frames_of(const std::vector<std::string>& files, const s
   std::multimap<std::string, std::size_t> known;  // the first frame of each file by its name
   std::size_t copies = 0;
   std::string copy;
-  for (const std::string& file : files) {
-    std::vector<DicomFrame> of_file;
-    try {
-      of_file = read_dicom_frames(file);
-    } catch (const Error& error) {
-      if (file == named) throw;
-      if (refused_count++ == 0) refused = error.what();
+  const auto all = read_each<std::vector<DicomFrame>>(files, read_dicom_frames);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string& file = files[i];
+    if (const Error* const error = std::get_if<Error>(&all[i])) {
+      if (file == named) throw *error;
+      if (refused_count++ == 0) refused = error->what();
       continue;
     }
+    const auto& of_file = std::get<std::vector<DicomFrame>>(all[i]);
     const DicomFrame& first = of_file.front();
     const auto [from, to] = known.equal_range(first.image);
     const auto original = first.image.empty() ? to : std::find_if(from, to, [&](const auto& one) {

@@ -182,10 +182,10 @@ void put(const DicomFrame& frame, const Pixels& pixels, T* out, std::size_t stri
   }
 }
 
-/// Whether its numbers stand in the file as they are, 16 bits each, one a pixel.
+/// Whether its numbers stand in the file in 16 bits each, one a pixel; fewer of these bits may be stored.
 bool is_plain(const DicomFrame& frame) noexcept {
   return frame.pixels_at && !frame.table && frame.colors == DicomColors::kNone && frame.bits == 16 &&
-         frame.bits_stored == 16 && frame.high_bit == 15 && !frame.big_endian && frame.tiles_across == 1;
+         !frame.big_endian && frame.tiles_across == 1;
 }
 
 /// Its bytes in the mapped file. @pre is_plain(frame). @throws Error (bad input) where they are not all there.
@@ -193,6 +193,15 @@ std::string_view plain_bytes(const DicomFrame& frame, const MappedFile& mapped) 
   const std::uint64_t first = *frame.pixels_at + frame.number * frame.bytes();
   check_voxel_counts(frame.file, {.wanted = first + frame.bytes(), .found = mapped.text().size()});
   return mapped.text().substr(first, frame.bytes());
+}
+
+/// Hands `take` the numbers of a plain frame in one loop over them: many at once.
+template <typename T, typename Take>
+void for_each_plain(const DicomFrame& frame, std::string_view numbers, const Take& take) {
+  const int above = frame.bits - 1 - frame.high_bit, beside = frame.bits - frame.bits_stored;
+  const auto* const first = reinterpret_cast<const std::byte*>(numbers.data());
+  for (std::size_t i = 0; i < numbers.size() / sizeof(T); ++i)
+    take(i, stored_number<T>(first + i * sizeof(T), above, beside));
 }
 
 /// Numbers that only the intercept moves, from the file to where they belong. @return false, nothing done, where they
@@ -208,10 +217,13 @@ bool put_plain(const DicomFrame& frame, T* out) {
     const std::string_view from = plain_bytes(frame, mapped);
     // In 16 bits signed and unsigned ones are moved alike.
     const auto moved = static_cast<std::uint16_t>(static_cast<std::int32_t>(frame.intercept));
-    for (std::size_t i = 0; i < from.size() / sizeof(T); ++i) {
-      std::uint16_t number;
-      std::memcpy(&number, from.data() + i * sizeof(T), sizeof(T));
-      out[i] = static_cast<T>(static_cast<std::uint16_t>(number + moved));
+    const auto put_at = [out, moved](std::size_t i, auto number) {
+      out[i] = static_cast<T>(static_cast<std::uint16_t>(static_cast<std::uint16_t>(number) + moved));
+    };
+    if (frame.is_signed) {
+      for_each_plain<std::int16_t>(frame, from, put_at);
+    } else {
+      for_each_plain<std::uint16_t>(frame, from, put_at);
     }
     return true;
   }
@@ -306,8 +318,7 @@ struct DecodedFile {
   Pixels pixels;
 };
 
-/// The least and the largest number of a frame that is packed, of another byte order or with bits beside its numbers: it is
-/// decoded for it.
+/// The least and the largest number of a frame that is packed or of another byte order: it is decoded for it.
 std::pair<double, double> range_of_decoded(const DicomSeries& series, const DicomFrame& frame,
                                            DecodedFile& decoded) {
   if (decoded.file != frame.file) {
@@ -335,12 +346,10 @@ std::pair<double, double> range_within(const DicomSeries& series, const DicomFra
   const std::string_view numbers = plain_bytes(frame, mapped);
   const auto of = [&]<typename T>(T) {
     T least = std::numeric_limits<T>::max(), most = std::numeric_limits<T>::lowest();
-    for (std::size_t at = 0; at + sizeof(T) <= numbers.size(); at += sizeof(T)) {
-      T number;
-      std::memcpy(&number, numbers.data() + at, sizeof(T));
+    for_each_plain<T>(frame, numbers, [&](std::size_t, T number) {
       least = std::min(least, number);
       most = std::max(most, number);
-    }
+    });
     const double a = frame.slope * static_cast<double>(least) + frame.intercept,
                  b = frame.slope * static_cast<double>(most) + frame.intercept;
     return std::pair{std::min(a, b), std::max(a, b)};

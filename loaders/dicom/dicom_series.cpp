@@ -279,7 +279,10 @@ DicomSeries sort_dicom_series(std::vector<DicomFrame> frames, bool allow_gaps) {
   if (series.volumes > 1) take_times(series, slices);
 
   // A slice alone is as thick as it says.
-  Vec3 step = normal * (first.thickness > 0.0 && std::isfinite(first.thickness) ? first.thickness : 1.0);
+  const bool says = first.thickness > 0.0 && std::isfinite(first.thickness);
+  if (slices == 1 && !says)
+    series.notes.emplace_back("one slice, which does not say how thick it is: taken as 1 mm");
+  Vec3 step = normal * (says ? first.thickness : 1.0);
   if (slices > 1) {
     const Vec3 low = at.front().front().position, high = at.back().front().position;
     step = (high - low) / static_cast<double>(slices - 1);

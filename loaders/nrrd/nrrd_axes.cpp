@@ -257,7 +257,9 @@ NrrdPlace place_nrrd(const Nrrd& nrrd, const NrrdAxes& axes, const std::string& 
   }
   place.anatomical = signs.has_value();
   if (signs) {
+    const bool scanner = nrrd.space == nrrdSpaceScannerXYZ || nrrd.space == nrrdSpaceScannerXYZTime;
     place.notes.emplace_back(std::string("space ") + airEnumStr(nrrdSpace, nrrd.space) +
+                             (scanner ? ", which names no patient's sides: taken for LPS, as ITK does" : "") +
                              (*signs == Vec3{1.0} ? "" : ", turned into RAS"));
     if (!directed) place.notes.emplace_back("no space directions: axes taken along those of the space");
   } else {

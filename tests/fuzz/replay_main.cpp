@@ -1,6 +1,7 @@
 // Runs a fuzz target without a fuzzer: over its seeds and over a few thousand damaged copies of them, the
 // same ones every time. Where the compiler has libFuzzer, that takes this file's place. For libraries that allocate
-// what a damaged file says, under a limit of memory, as helpers have one.
+// what a damaged file says, under a limit of memory, as helpers have one; for those that lose some of it with each, in
+// several runs of other random numbers.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -52,11 +53,11 @@ void damage(Input& input, std::mt19937& random) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3 && argc != 4) {
-    std::fputs("usage: replay SEED_FOLDER DAMAGED_COPIES_OF_EACH [MEMORY_IN_MIB]\n", stderr);
+  if (argc < 3 || argc > 5) {
+    std::fputs("usage: replay SEED_FOLDER DAMAGED_COPIES_OF_EACH [MEMORY_IN_MIB [RANDOM_START]]\n", stderr);
     return 2;
   }
-  if (argc == 4) {
+  if (argc > 3) {
     const rlimit memory{static_cast<rlim_t>(std::atoi(argv[3])) << 20U, RLIM_INFINITY};
     if (::setrlimit(RLIMIT_AS, &memory) != 0) return 2;
   }
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
   for (const auto& entry : std::filesystem::directory_iterator(argv[1])) seeds.push_back(entry.path());
   std::sort(seeds.begin(), seeds.end());
   const int copies = std::atoi(argv[2]);
-  std::mt19937 random{1};
+  std::mt19937 random(argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 1U);
   long runs = 0;
   for (const auto& path : seeds) {
     const Input seed = read(path);

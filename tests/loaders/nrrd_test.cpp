@@ -200,6 +200,12 @@ TEST(Nrrd, LengthsOfAPatientBecomeMillimetres) {
   }
   const UniformTopology mixed = grid(open("spacings: 1 2 3\nunits: \"mm\" \"mm\" \"um\"\n"));
   EXPECT_LT(glm::distance(mixed.axes[2], Vec3(0, 0, 3e-3)), 1e-12);
+  // Which of a patient's sides the axes of a scanner lead to nobody has said.
+  std::string scanner = place;
+  scanner.replace(scanner.find("left-posterior-superior"), 23, "scanner-xyz");
+  const auto taken = open(scanner).info().notes;
+  EXPECT_TRUE(std::ranges::any_of(
+      taken, [](const std::string& note) { return note.find("taken for LPS") != std::string::npos; }));
   const auto odd = open(place + "space units: \"ell\" \"ell\" \"ell\"\n").info().notes;
   EXPECT_TRUE(std::any_of(odd.begin(), odd.end(), [](const std::string& note) {
     return note.find("WARNING: the header's unit of length, 'ell'") == 0;

@@ -61,6 +61,27 @@ TEST_F(DicomTest, NumbersThatFitStayWholeNumbers) {
   }
 }
 
+// Of 12 bits in 16 those above are none of the number's, with a sign or without.
+TEST_F(DicomTest, BitsBesideTheStoredOnesAreNoneOfWholeNumbers) {
+  for (const bool is_signed : {false, true}) {
+    const TempFolder folder;
+    for (int k : {2, 0, 3, 1}) {
+      DicomImage image = slice(k);
+      image.bits_stored = 12;
+      image.is_signed = is_signed;
+      image.slope = 1.0;
+      image.intercept = is_signed ? -24.0 : -1024.0;
+      for (auto& pixel : image.pixels)
+        pixel = static_cast<std::uint16_t>(((pixel - (is_signed ? 1000 : 0)) & 0x0FFF) | 0x5000);
+      (void)folder.write("im" + std::to_string(k), image.bytes());
+    }
+    Source source = open(folder.path());
+    const DataSet block = source.read({"scalars"}).front();
+    EXPECT_EQ(block.arrays.front().type, ScalarType::kInt16);
+    expect_truth(block, -1024.0);
+  }
+}
+
 // Types that the file does not say are those of the dictionary: "1 " and "-1024 " are words. Neither preamble nor
 // meta information is needed to see how a file is written.
 TEST_F(DicomTest, TypesFollowFromTheDictionaryWhereTheFileDoesNotSayThem) {

@@ -26,6 +26,20 @@ TEST_F(DicomTest, PlacesSlicesInRasWhateverTheOrderOfFiles) {
   }
 }
 
+TEST_F(DicomTest, OneSliceSaysThatItsThicknessIsAGuess) {
+  const auto is_said = [&](const std::string& more) {
+    DicomImage image = slice(0);
+    image.more = more;
+    const TempFolder folder;
+    Source source = open(folder.write("one", image.bytes()));
+    const auto& notes = source.info().notes;
+    return std::ranges::any_of(
+        notes, [](const std::string& note) { return note.find("how thick") != std::string::npos; });
+  };
+  EXPECT_TRUE(is_said(""));
+  EXPECT_FALSE(is_said(dicom_element(0x0018, 0x0050, "DS", "2.5 ")));
+}
+
 TEST_F(DicomTest, SeveralVolumesAreTimesOfOneSeries) {
   std::vector<DicomImage> images;
   for (int k = 0; k < 4; ++k) {
