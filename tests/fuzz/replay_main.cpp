@@ -13,6 +13,8 @@
 
 #include <sys/resource.h>
 
+#include "common/base/sanitizers.h"
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace {
@@ -61,6 +63,7 @@ int main(int argc, char** argv) {
     const rlimit memory{static_cast<rlim_t>(std::atoi(argv[3])) << 20U, RLIM_INFINITY};
     if (::setrlimit(RLIMIT_AS, &memory) != 0) return 2;
   }
+#endif
   std::vector<std::filesystem::path> seeds;
   for (const auto& entry : std::filesystem::directory_iterator(argv[1])) seeds.push_back(entry.path());
   std::sort(seeds.begin(), seeds.end());
