@@ -57,7 +57,26 @@ TEST_F(Dtmri, RefusesFilesWithoutTensorsAndUnknownFields) {
   EXPECT_NE(result.err.find("tensors"), std::string::npos) << result.err;
 }
 
+// Of the example's main directions as an image of peaks, one a voxel; tensors are none.
+TEST_F(Dtmri, StartsAlongPeaksWhereThereAreSome) {
+  ASSERT_EQ(run({"measure", "--example", "helix", "--measure", "v1", "--out", "v1.nii.gz"}).exit_code, 0);
+  const std::vector<std::string> rest{"--max-steps", "20", "--out", "t.tck", "-f"};
+  const auto lines = [&](const std::string& file, const std::string& seeds) {
+    std::vector<std::string> arguments{"trace", file, "--seeds", seeds};
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    return json(arguments)["lines"].get<int>();
+  };
+  const int longest = lines("v1.nii.gz", "grid:6,6,6");
+  EXPECT_GT(longest, 50);
+  EXPECT_EQ(lines("v1.nii.gz", "peaks:grid:6,6,6"), longest);
+  const ProgramResult refused =
+      run({"trace", "--example", "helix", "--seeds", "peaks:fa:0.6", "--out", "u.tck"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("no peaks"), std::string::npos) << refused.err;
+}
+
 TEST_F(Dtmri, RendersSlicesAndGlyphs) {
+  folder_.write("path.csv", "t,x,y,z\n0,0,0,0\n0.1,0,0,0.05\n0.2,5,0,0.1\n0.3,10,5,0.1\n");
   const Json made = json({"render", "--example", "helix", "--out", "a.png", "--size", "160x120"});
   EXPECT_EQ(made["voxels"], 41 * 41 * 41);
   EXPECT_GT(made["frame_ms"].get<double>(), 0.0);
@@ -65,6 +84,7 @@ TEST_F(Dtmri, RendersSlicesAndGlyphs) {
        {std::vector<std::string>{"--slices", "none"},
         {"--slices", "-,-,0"},
         {"--color", "fa", "--voxels", "linear"},
+        {"--path", "path.csv"},
         {"--glyphs", "superquadric", "--projection", "orthographic"}}) {
     std::vector<std::string> arguments{"render", "--example", "helix",   "--out",
                                        "b.png",  "--size",    "160x120", "-f"};
