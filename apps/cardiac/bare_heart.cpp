@@ -16,6 +16,7 @@
 #include "common/field/layer/wall_border.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/tensor/eigenframe.h"
+#include "common/load/stated_unit.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -383,6 +384,7 @@ BareScene make_bare_scene(Input& input, const BareHeart& heart, const HeartOptio
     const ScalarChoice choice =
         scalar ? choose_scalar(input.arrays(), options.angle, input.title()) : known.front();
     array->name = label_of(choice, input.arrays());
+    array->unit = stated_unit(input.file()->units, array->name);
     if (!scalar && !options.angle.empty() && options.angle != kDefaultAngle)
       scene.note = "--angle " + options.angle + " takes layers: coloured by " + array->name;
     values = corner_values(heart, input.read({choice.array}), choice, input.title(), threads);

@@ -22,6 +22,7 @@
 #include "common/field/grid/cell_split.h"
 #include "common/field/heart/heart.h"
 #include "common/field/heart/tissue.h"
+#include "common/load/stated_unit.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/load/write/write_tetgen.h"
@@ -240,7 +241,9 @@ CarpRegions regions_of(const Task& task, const DataSet& first, const WrittenCell
 std::vector<std::filesystem::path> write_carp(const Task& given, const Document& options,
                                               const VerbContext& context) {
   Task task = given;
-  const IgbTimes times = igb_times(task.times, task.input.title());
+  IgbTimes times = igb_times(task.times, task.input.title());
+  const std::string& units = task.input.file()->units;
+  times.unit = stated_unit(units, "times");
   keep_carp_inputs(options.input.files);
   CarpOutput out(options.output.file, options.common.force, task.heart.has_value());
   if (!task.heart)
@@ -280,12 +283,15 @@ std::vector<std::filesystem::path> write_carp(const Task& given, const Document&
     const DataArray& values = array_of(first, result.name, result.association);
     const std::size_t count = cells.count(result.association);
     if (changes[r]) {
-      series.emplace_back(r, out.begin_series(result.name, count, result.components, times));
+      series.emplace_back(
+          r, out.begin_series(result.name, count, result.components, times, stated_unit(units, result.name)));
     } else if (result.components == 1) {
       out.write_values(result.name, cells.values(values));
     } else {
-      const IgbTimes once{.first = times.first, .apart = 1.0, .count = 1};
-      out.write_step(out.begin_series(result.name, count, result.components, once), cells.values(values));
+      const IgbTimes once{.first = times.first, .apart = 1.0, .count = 1, .unit = times.unit};
+      out.write_step(
+          out.begin_series(result.name, count, result.components, once, stated_unit(units, result.name)),
+          cells.values(values));
     }
   }
   for (std::size_t step = 0; step < task.times.size() && !series.empty(); ++step) {

@@ -23,6 +23,7 @@
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/scalar_choice.h"
 #include "common/field/tensor/eigenframe.h"
+#include "common/load/stated_unit.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/seeds.h"
 #include "common/trace/isosurface/isosurface_mesh.h"
@@ -107,8 +108,6 @@ AngleProbe::AngleProbe(std::shared_ptr<const LayeredHeart> heart, const HeartOpt
   axis_ = axis_of(options, heart_->heart());
 }
 
-const char* AngleProbe::unit() const noexcept { return angle_ ? "degrees" : ""; }
-
 double AngleProbe::at(const Vec3& x, CellHint& hint) const {
   const LocalFrame& frame = heart_->frame();
   if (options_.angle == "depth") return sampled(*heart_->heart().layer, x, hint);
@@ -174,7 +173,8 @@ std::uint64_t fingerprint(Input& input, Progress* progress) {
 
 UnitNames units_of(const Input& input) {
   UnitNames units;
-  if (input.file()->units.find("mm") != std::string::npos) units.length = "mm";
+  if (stated_unit(input.file()->units, "coordinates") == "mm") units.length = "mm";
+  units.time = stated_unit(input.file()->units, "times");
   return units;
 }
 
@@ -245,7 +245,7 @@ LayerColors color_layer(Input& input, const std::shared_ptr<const LayeredHeart>&
   colors.probe = std::make_shared<const AngleProbe>(heart, options, value);
   const AngleProbe& probe = *colors.probe;
   array->name = probe.name();
-  array->unit = probe.unit();
+  array->unit = probe.is_angle() ? "degrees" : stated_unit(input.file()->units, probe.name());
   const std::vector<double> along = angles_along(probe, *layer.lines, threads);
   array->values.assign(along.begin(), along.end());
   if (probe.is_angle()) {
@@ -276,6 +276,7 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   SceneView& view = scene.view;
   const int threads = options.common.threads;
   LayerColors colors = color_layer(input, heart, scene.layer, options.heart, threads);
+  const bool is_angle = colors.probe->is_angle();
   view.surfaces = {surface_of(scene.layer, colors, options.heart.contours)};
   Document asked = options;
   if (asked.heart.walls == "auto")
@@ -297,10 +298,12 @@ LayerScene make_layer_scene(Input& input, const std::shared_ptr<const LayeredHea
   view.title = input.title();
   const std::string angle = angle_of(options.heart);
   view.subtitle = "fibres at depth " + short_number(scene.layer.depth) + ", " + angle +
-                  (view.style.array->unit.empty() ? "" : " angle (" + options.heart.convention + ")");
-  if (input.times().size() > 1) view.subtitle += ", time " + short_number(input.times()[input.time().step]);
-  if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
+                  (is_angle ? " angle (" + options.heart.convention + ")" : "");
   view.units = units_of(input);
+  if (input.times().size() > 1)
+    view.subtitle += ", time " + short_number(input.times()[input.time().step]) +
+                     (view.units.time.empty() ? "" : " " + view.units.time);
+  if (options.heart.contours > 0.0) view.subtitle += ", lines every " + short_number(options.heart.contours);
   view.camera = camera_of(options.view, view.bounds, aspect, view.camera.projection);
   return scene;
 }

@@ -65,8 +65,6 @@ class AngleProbe {
   /// @param x data coordinates.
   [[nodiscard]] double at(const Vec3& x, CellHint& hint) const;
   [[nodiscard]] const std::string& name() const noexcept { return options_.angle; }
-  /// Empty for what is no angle.
-  [[nodiscard]] const char* unit() const noexcept;
   /// Of the points of the heart's mesh.
   [[nodiscard]] std::vector<double> map() const;
   /// Zero where it is not asked for.

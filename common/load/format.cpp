@@ -296,7 +296,7 @@ bool is_carp_result(const FileHead& head) {
 /// Surfaces of openCARP's meshes, which are opened with one.
 bool is_carp_surface(const FileHead& head) {
   const std::string_view text = text_after_blanks(head);
-  return (head.ending == ".surf" || head.ending == ".vtx") && !text.empty() &&
+  return (head.ending == ".surf" || head.ending == ".vtx" || head.ending == ".neubc") && !text.empty() &&
          std::isdigit(static_cast<unsigned char>(text.front())) != 0;
 }
 bool looks_like_carp(const FileHead& head, const FormatRow& row) {

@@ -13,8 +13,11 @@
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/analytic/volume_examples.h"
 #include "common/field/field_on_grid.h"
+#include "common/field/grid/cell_faces.h"
 #include "common/field/heart/tissue.h"
+#include "common/field/layer/numbered_faces.h"
 #include "common/field/layer/paint_surfaces.h"
+#include "common/field/layer/wall_surfaces.h"
 #include "common/load/volume_block.h"
 #include "common/scene/raw_file.h"
 
@@ -30,6 +33,23 @@ std::string title_of(const InputOptions& spec) {
   if (title.empty()) title = spec.files.front().string();
   if (spec.files.size() > 1) title += " and " + std::to_string(spec.files.size() - 1) + " more";
   return title;
+}
+
+bool has_surfaces(const std::vector<ArrayInfo>& arrays) {
+  return std::ranges::any_of(arrays, [](const ArrayInfo& array) {
+    return array.name == kSurfaceArray && array.association == Association::kPoint && array.components == 1;
+  });
+}
+
+/// Of the cells that are volumes: triangles between them may be numbered in the same array.
+std::vector<double> numbers_of_volumes(const DataSet& block, const DataArray& numbers) {
+  const auto* const cells = std::get_if<UnstructuredTopology>(&block.topology);
+  std::vector<double> of;
+  of.reserve(numbers.tuples);
+  for (std::size_t c = 0; c < numbers.tuples; ++c)
+    if (cells == nullptr || c >= cells->types.size() || !is_flat(cells->types[c]))
+      of.push_back(numbers.at(c));
+  return of;
 }
 
 /// Whether a value of the field is not zero.
@@ -200,11 +220,45 @@ void Input::open_files(Progress* progress) {
   arrays_ = source_->arrays();
   const auto& blocks = source_->info().blocks;
   if (!blocks.empty()) not_volume_ = blocks.front().not_volume;
+  if (spec_.kind == FieldKind::kFibre && not_volume_.empty()) find_face_surfaces(progress);
+}
+
+// A mesh of the wall may hold the triangles of its border, too, with a number for each surface.
+void Input::find_face_surfaces(Progress* progress) {
+  const FileInfo& of_file = source_->info();
+  const std::string& asked = spec_.surface_markers;
+  // Those of TetGen's and Gmsh's files were asked for when they were read.
+  const bool has = has_surfaces(arrays_), read = of_file.format == "TetGen" || of_file.format == "Gmsh";
+  const std::string faces = face_array(arrays_);
+  FileInfo info = of_file;
+  if (!has && !faces.empty() && of_file.blocks.size() == 1) {
+    const std::vector<DataSet> blocks = source_->read({faces}, 0, progress);
+    const std::string by = read ? "" : asked;
+    if (!surfaces_of_cells(blocks.at(0), faces, file_name(), by, info.notes).empty())
+      arrays_.push_back(
+          {kSurfaceArray, Association::kPoint, 1, ScalarType::kFloat64, blocks.at(0).point_count()});
+  } else if (!read && !asked.empty()) {
+    throw usage_error("--surface-markers " + asked + ": " + file_name() +
+                      (has ? std::string(" names its surfaces in an array '") + kSurfaceArray + "'"
+                           : " has no array that numbers the faces of its border"));
+  }
+  const bool groups = std::ranges::any_of(of_file.notes, [](const std::string& note) {
+    return note.find("physical groups") != std::string::npos;
+  });
+  if (!has && read && groups)
+    info.notes.emplace_back(
+        "physical groups are taken for surfaces of the wall where their names have endo and epi, or with "
+        "--surface-markers INNER/OUTER, as 1,4/2");
+  if (!info.blocks.empty()) info.blocks.front().arrays = arrays_;
+  if (info.notes.size() > of_file.notes.size()) made_info_ = std::move(info);
 }
 
 void Input::open_example() {
   if (!spec_.tensor.bval.empty() || !spec_.tensor.bvec.empty())
     throw usage_error("--bval, --bvec: a built-in example has no volumes to which they could belong");
+  if (!spec_.surface_markers.empty())
+    throw usage_error("--surface-markers " + spec_.surface_markers +
+                      ": a built-in example has no numbered faces");
   const Work work("example " + spec_.example, "made on the fly");
   if (spec_.kind == FieldKind::kVector) {
     (void)example(spec_.example);  // throws for an unknown name
@@ -216,6 +270,8 @@ void Input::open_example() {
     made_heart_.emplace(spec_.example);
     arrays_ = made_heart_->arrays();
     made_info_ = FileInfo{.format = "made on the fly", .units = "coordinates in mm"};
+    if (!made_heart_->times().empty())
+      made_info_->units += ", potential in mV, activation in ms, times in ms";
     made_info_->times = made_heart_->times();
     made_info_->blocks.push_back(describe_mesh(made_heart_->mesh()));
     made_info_->blocks.back().arrays = arrays_;
@@ -377,7 +433,10 @@ const std::vector<RegionCount>& Input::regions(Progress* progress) {
   const std::vector<DataSet> blocks = read_whole({name}, progress);
   const DataArray* const numbers =
       blocks.size() == 1 ? blocks.front().find(name, Association::kCell) : nullptr;
-  if (numbers != nullptr) *regions_ = count_regions(*numbers);
+  if (numbers != nullptr) {
+    const std::vector<double> of = numbers_of_volumes(blocks.front(), *numbers);
+    *regions_ = count_regions(make_array(name, Association::kCell, 1, std::span<const double>(of)));
+  }
   return *regions_;
 }
 
@@ -423,7 +482,21 @@ std::vector<DataSet> Input::read_file(const std::vector<std::string>& names, Pro
       Ledger::enter("array " + array.name, "made on the fly", 0.0, array.stored_bytes());
     return blocks;
   }
-  return source_->read(names, time_.step, progress);
+  const bool of_faces = std::ranges::count(names, std::string_view(kSurfaceArray)) > 0 &&
+                        has_surfaces(arrays_) && !has_surfaces(source_->arrays());
+  if (!of_faces) return source_->read(names, time_.step, progress);
+  const std::string faces = face_array(source_->arrays());
+  std::vector<std::string> all = names;
+  if (std::ranges::count(names, faces) == 0) all.push_back(faces);
+  std::vector<DataSet> blocks = source_->read(all, time_.step, progress);
+  std::vector<std::string> said_at_opening;
+  const std::vector<double> tags =
+      surfaces_of_cells(blocks.at(0), faces, file_name(), spec_.surface_markers, said_at_opening);
+  if (all.size() > names.size())
+    std::erase_if(blocks[0].arrays, [&faces](const DataArray& array) { return array.name == faces; });
+  blocks[0].arrays.push_back(
+      make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(tags)));
+  return blocks;
 }
 
 std::vector<DataSet> Input::read_timed(const std::vector<std::string>& names, Progress* progress) {

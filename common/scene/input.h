@@ -125,6 +125,7 @@ class Input {
   void open_example();
   void offer_parts() const;
   void open_files(Progress* progress);
+  void find_face_surfaces(Progress* progress);
   void remesh(Progress* progress);
   [[nodiscard]] std::vector<DataSet> read_file(const std::vector<std::string>& names, Progress* progress);
   [[nodiscard]] std::vector<DataSet> read_whole(const std::vector<std::string>& names, Progress* progress);

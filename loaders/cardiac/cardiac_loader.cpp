@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "common/base/error.h"
@@ -33,6 +34,22 @@ constexpr int kQuadrature = 9;
 std::string result_name(const std::string& name, const std::string& pts) {
   const std::string start = std::filesystem::path(stem_of(pts)).filename().string() + ".";
   return name.starts_with(start) && name.size() > start.size() ? name.substr(start.size()) : name;
+}
+
+/// What results have by openCARP's convention, by their names: potentials in mV ("vm", "phie"), times at which something
+/// happened in ms ("activation", "init_acts_vm", "lat", "repol", "apd"); empty: others.
+const char* usual_unit(const std::string& name) {
+  const std::string low = lowered(name);
+  if (low == "potential" || low == "phi_e") return "mV";
+  const char* unit = "";
+  for (const std::string_view part : split(low, '_')) {
+    for (const std::string_view of : split(part, '.')) {
+      for (const char* word : {"act", "acts", "activation", "lat", "lats", "repol", "apd"})
+        if (of == word) return "ms";
+      if (of == "vm" || of == "phie") unit = "mV";
+    }
+  }
+  return unit;
 }
 
 /// "beside" files of an EX model: nodes and elements come as a pair.
@@ -62,17 +79,16 @@ class CardiacLoader : public Loader {
     std::vector<std::string> named;
     for (const auto& file : request.files) named.push_back(file.string());
     FileInfo info;
-    if (!request.surface_markers.empty() && (format == Format::kEx || format == Format::kCarp))
-      throw usage_error("--surface-markers " + request.surface_markers + ": " +
-                        std::string(row_of(format).name) +
-                        " has no .face file; markers are those of TetGen's");
+    if (!request.surface_markers.empty() && format == Format::kEx)
+      throw usage_error("--surface-markers " + request.surface_markers +
+                        ": surfaces of EX models are those that their groups name");
     switch (format) {
       case Format::kEx:
         open_ex(named, request.refine > 0 ? request.refine : kRefine, info);
         break;
       case Format::kCarp:
-        open_carp(find_carp_files(named), info);
         info.units = "coordinates in mm";
+        open_carp(find_carp_files(named), info);
         break;
       default:
         mesh_ = read_tetgen(find_tetgen_files(named), request.surface_markers, info.notes);
@@ -111,6 +127,7 @@ class CardiacLoader : public Loader {
       if (ending_of(file) == ".dat") {
         DataArray values = read_dat(file, mesh_.point_count(), mesh_.cell_count(), info.notes);
         if (const std::string name = result_name(values.name, files.pts); !taken(name)) values.name = name;
+        state_unit(values.name, "", info);
         mesh_.arrays.push_back(std::move(values));
         continue;
       }
@@ -118,7 +135,7 @@ class CardiacLoader : public Loader {
       if (const std::string name = result_name(series.info().name, files.pts); !taken(name))
         series.set_name(name);
       info.notes.insert(info.notes.end(), series.notes().begin(), series.notes().end());
-      if (!series.unit().empty()) info.notes.push_back(series.info().name + " in " + series.unit());
+      state_unit(series.info().name, series.unit(), info);
       series_.push_back(std::move(series));
     }
     if (series_.empty()) return;
@@ -143,7 +160,18 @@ class CardiacLoader : public Loader {
                              " of the other results: no "
                              "data there");
     }
-    if (!unit.empty()) info.notes.push_back("times in " + unit);
+    info.units += ", times in " + (unit.empty() ? "ms" : unit);
+    if (unit.empty())
+      info.notes.emplace_back("times in ms, by openCARP's convention: the file states no unit");
+  }
+
+  /// @param stated by the file; empty: not.
+  static void state_unit(const std::string& name, const std::string& stated, FileInfo& info) {
+    const std::string unit = stated.empty() ? usual_unit(name) : stated;
+    if (unit.empty()) return;
+    info.units += ", " + name + " in " + unit;
+    if (stated.empty())
+      info.notes.push_back(name + " in " + unit + ", by openCARP's convention: the file states no unit");
   }
 
   /// An array of an EX model as it is at a step.

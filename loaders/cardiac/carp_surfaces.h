@@ -1,4 +1,5 @@
-/// Surfaces of openCARP's meshes, as meshtool and others write them: .surf (triangles and quads) and .vtx (points).
+/// Surfaces of openCARP's meshes, as meshtool and others write them: .surf (triangles and quads), .neubc
+/// (triangles that carry loads) and .vtx (points).
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,8 @@ namespace palpate {
 /// @param stem the mesh's file without its ending.
 [[nodiscard]] std::vector<std::string> surfaces_beside(const std::string& stem);
 
-/// Makes the point array "surface" (wall_surfaces.h) of files that say in their name what they are: "epi"; "endo", with
-/// "lv" or without; "rv" with "endo" or alone; "sept", with "rv" or without; "base". A point of several is, in this
-/// order, of the left endocardium, the right one, the septum, the epicardium, the base. Without an inner and an outer
-/// surface there is no array.
+/// Makes the point array "surface" (wall_surfaces.h) of files that say in their name what they are (role_of_name()). A
+/// point of several is of one as in PointTags. Without an inner and an outer surface there is no array.
 /// @param stem that of the mesh, which says nothing. @param first 0 or 1: the number of the first point.
 /// @param notes gets what was taken, and what was left out.
 /// @throws Error (bad input) naming file and line.

@@ -4,14 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/numbered_faces.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/math/symmetric3.h"
 #include "common/math/vec.h"
@@ -121,95 +124,43 @@ std::map<std::int64_t, Part> parts_of(const std::vector<MarkedFace>& faces, cons
   return parts;
 }
 
-struct Meaning {
-  std::set<std::int64_t> inner, outer;
-};
-
-std::string list_of(const std::set<std::int64_t>& markers) {
-  std::string text;
-  for (const std::int64_t marker : markers) text += (text.empty() ? "" : ", ") + std::to_string(marker);
-  return text;
-}
-
-Meaning by_shape(const std::map<std::int64_t, Part>& parts) {
+/// None where the shapes leave it open.
+FaceRoles by_shape(const std::map<std::int64_t, Part>& parts) {
   double area = 0.0;
   for (const auto& [marker, part] : parts) area += part.area;
-  Meaning meaning;
+  FaceRoles roles;
   double largest = 0.0;
   for (const auto& [marker, part] : parts) {
     if (part.area < kSmallPart * area || part.flat()) continue;
-    if (part.bounds.diagonal() > largest) {
+    const bool outer = part.bounds.diagonal() > largest;
+    if (outer) {
+      for (auto& [other, role] : roles) role = BorderRole::kInner;
       largest = part.bounds.diagonal();
-      meaning.inner.merge(meaning.outer);
-      meaning.outer = {marker};
-    } else {
-      meaning.inner.insert(marker);
     }
+    roles[marker] = outer ? BorderRole::kOuter : BorderRole::kInner;
   }
-  return meaning;
+  // Of three one may be a base that is not flat, or another ventricle's.
+  return roles.size() == 2 ? roles : FaceRoles{};
 }
 
-/// `markers` of the option. @throws Error (usage).
-Meaning asked_for(const std::string& markers, const std::map<std::int64_t, Part>& parts,
-                  const std::string& file) {
-  std::set<std::int64_t> known;
-  for (const auto& [marker, part] : parts) known.insert(marker);
-  const auto refuse = [&](const std::string& why) {
-    throw usage_error("--surface-markers " + markers + ": " + why + "; " + file + " has the markers " +
-                      (known.empty() ? "none" : list_of(known)));
-  };
-  Meaning meaning;
-  const std::size_t stroke = markers.find('/');
-  if (stroke == std::string::npos) refuse("inner and outer ones are expected, as 1,4/2");
-  const auto take = [&](std::string_view text, std::set<std::int64_t>& to) {
-    while (true) {
-      const std::size_t comma = std::min(text.find(','), text.size());
-      const auto value = number(text.substr(0, comma));
-      const auto marker = value ? static_cast<std::int64_t>(std::clamp(*value, -2e9, 2e9)) : 0;
-      if (!value || static_cast<double>(marker) != *value || known.count(marker) == 0)
-        refuse("'" + std::string(text.substr(0, comma)) + "' is no marker of it");
-      to.insert(marker);
-      if (comma == text.size()) return;
-      text.remove_prefix(comma + 1);
-    }
-  };
-  take(std::string_view(markers).substr(0, stroke), meaning.inner);
-  take(std::string_view(markers).substr(stroke + 1), meaning.outer);
-  for (const std::int64_t marker : meaning.inner)
-    if (meaning.outer.count(marker) > 0) refuse("marker " + std::to_string(marker) + " is on both sides");
-  return meaning;
+std::string list_of(const FaceRoles& roles, BorderRole role) {
+  std::string text;
+  for (const auto& [marker, of] : roles)
+    if (of == role) text += (text.empty() ? "" : ", ") + std::to_string(marker);
+  return text;
 }
 
 /// Marks the nodes of a face of an element, those on its edges included.
-class NodeMarks {
- public:
-  explicit NodeMarks(std::size_t nodes) : inner_(nodes), outer_(nodes) {}
-
-  /// @param cell 4 or 10 nodes in VTK's order. @param opposite the corner that is not of the face.
-  void mark(std::span<const std::int64_t> cell, std::size_t opposite, bool inner) {
-    /// The edges that the fifth to tenth node halve.
-    constexpr std::array<std::array<std::size_t, 2>, 6> kHalved{
-        {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
-    std::vector<bool>& marks = inner ? inner_ : outer_;
-    for (std::size_t n = 0; n < 4; ++n)
-      if (n != opposite) marks[as_size(cell[n])] = true;
-    for (std::size_t e = 0; 4 + e < cell.size(); ++e)
-      if (kHalved[e][0] != opposite && kHalved[e][1] != opposite) marks[as_size(cell[4 + e])] = true;
-  }
-  /// The array "surface". @param both gets how many points are on both.
-  [[nodiscard]] std::vector<double> surface(std::size_t& both) const {
-    std::vector<double> tags(inner_.size());
-    for (std::size_t p = 0; p < tags.size(); ++p) {
-      const auto tag = inner_[p] ? WallSurface::kInner : outer_[p] ? WallSurface::kOuter : WallSurface::kNone;
-      tags[p] = static_cast<double>(tag);
-      both += inner_[p] && outer_[p] ? 1 : 0;
-    }
-    return tags;
-  }
-
- private:
-  std::vector<bool> inner_, outer_;
-};
+/// @param cell 4 or 10 nodes in VTK's order. @param opposite the corner that is not of the face.
+void mark(std::span<const std::int64_t> cell, std::size_t opposite, BorderRole role, PointTags& tags) {
+  /// The edges that the fifth to tenth node halve.
+  constexpr std::array<std::array<std::size_t, 2>, 6> kHalved{
+      {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}};
+  for (std::size_t n = 0; n < 4; ++n)
+    if (n != opposite) tags.mark(cell[n], role);
+  for (std::size_t e = 0; 4 + e < cell.size(); ++e)
+    if (kHalved[e][0] != opposite && kHalved[e][1] != opposite) tags.mark(cell[4 + e], role);
+}
 
 }  // namespace
 
@@ -226,10 +177,15 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
     notes.push_back(file + " has no markers that tell surfaces apart");
     return;
   }
-  const Meaning meaning = markers.empty() ? by_shape(parts) : asked_for(markers, parts, file);
-  if (meaning.inner.empty() || meaning.outer.empty()) {
-    notes.push_back("the markers of " + file +
-                    " tell no inner surface by their shape: --surface-markers names them");
+  std::set<std::int64_t> known;
+  for (const auto& [marker, part] : parts) known.insert(marker);
+  const FaceRoles roles = markers.empty() ? by_shape(parts) : parse_surface_markers(markers, known, file);
+  if (roles.empty()) {
+    std::string list;
+    for (const std::int64_t marker : known) list += (list.empty() ? "" : ", ") + std::to_string(marker);
+    notes.push_back("the markers " + list + " of " + file +
+                    " do not tell one inner and one outer surface by their shape: --surface-markers "
+                    "INNER/OUTER, as 1,4/2, takes them");
     return;
   }
 
@@ -237,7 +193,7 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
   std::sort(faces.begin(), faces.end(), [](const MarkedFace& a, const MarkedFace& b) {
     return a.corners != b.corners ? a.corners < b.corners : a.line < b.line;
   });
-  NodeMarks marks(nodes);
+  PointTags tags(nodes);
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
     const auto begin = as_size(cells.offsets[c]), end = as_size(cells.offsets[c + 1]);
     const std::span<const std::int64_t> cell(cells.connectivity.data() + begin, end - begin);
@@ -250,8 +206,8 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
                                    [](const MarkedFace& a, const Triple& b) { return a.corners < b; });
       for (; face != faces.end() && face->corners == corners; ++face) {
         face->found = true;
-        const bool inner = meaning.inner.count(face->marker) > 0;
-        if (inner || meaning.outer.count(face->marker) > 0) marks.mark(cell, opposite, inner);
+        if (const auto role = roles.find(face->marker); role != roles.end())
+          mark(cell, opposite, role->second, tags);
       }
     }
   }
@@ -265,13 +221,19 @@ void add_marked_surfaces(const std::string& file, std::int64_t first_node, const
     throw input_error({file, "line " + std::to_string(lost->line), "has a triangle of the nodes " + names,
                        "a face of an element"});
   }
-  std::size_t both = 0;
-  const std::vector<double> tags = marks.surface(both);
-  mesh.arrays.push_back(make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(tags)));
-  notes.push_back("of " + file + " marker " + list_of(meaning.inner) + " is the inner, marker " +
-                  list_of(meaning.outer) + " the outer surface" +
-                  (markers.empty() ? ", by their shape" : ""));
-  if (both > 0) notes.push_back(counted(both, "point") + " on both surfaces: taken as inner");
+  mesh.arrays.push_back(
+      make_array(kSurfaceArray, Association::kPoint, 1, std::span<const double>(tags.values())));
+  std::string sides;
+  for (const auto& [role, name] : std::initializer_list<std::pair<BorderRole, const char*>>{
+           {BorderRole::kInner, "the inner"},
+           {BorderRole::kOuter, "the outer surface"},
+           {BorderRole::kRight, "the right endocardium"},
+           {BorderRole::kBase, "the base"}})
+    if (const std::string list = list_of(roles, role); !list.empty())
+      sides += (sides.empty() ? "" : ", ") + ("marker " + list) + " is " + name;
+  notes.push_back("of " + file + " " + sides + (markers.empty() ? ", by their shape" : ""));
+  if (tags.points_of_both_sides() > 0)
+    notes.push_back(counted(tags.points_of_both_sides(), "point") + " on both surfaces: taken as inner");
 }
 
 }  // namespace palpate

@@ -15,11 +15,11 @@ namespace palpate {
 ///
 /// What the other markers mean is asked for, or taken from the shape of all triangles of one marker, as
 /// find_wall_surfaces() does with the smooth parts of a border: below 1 % of the area they are left out, flat
-/// ones are cuts, of the others that with the largest extent is the outer surface and the rest are inner
-/// ones. Points of both are inner ones. The point array "surface" says so: 1 inner, 2 outer. Without two
+/// ones are cuts, of the others that with the larger extent is the outer surface and the other the inner one; more than two
+/// mean nothing. Points of both are inner ones (PointTags). The point array "surface" says so. Without two
 /// markers that differ, or where their shapes tell no inner surface, there is none, and a note says that.
 /// @param first_node the number of the first node, 0 or 1.
-/// @param markers "1,4/2": inner ones before, outer ones behind the stroke; empty: by shape.
+/// @param markers as parse_surface_markers() takes them; empty: by shape.
 /// @param mesh tetrahedra of 4 or 10 nodes.
 /// @throws Error (bad input) naming file and line for what is no triangle of an element; (usage) for
 /// `markers` that are none, or that the file does not have.

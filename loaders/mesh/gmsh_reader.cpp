@@ -2,17 +2,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/numbered_faces.h"
+#include "common/field/layer/wall_surfaces.h"
 #include "loaders/mesh/gmsh_values.h"
 #include "loaders/mesh/mesh_file.h"
 #include "loaders/mesh/mesh_words.h"
@@ -78,7 +83,8 @@ const ElementType* element_type(int type) {
 
 class GmshReader {
  public:
-  GmshReader(std::string_view text, const std::string& file) : words_(text, file) {}
+  GmshReader(std::string_view text, const std::string& file, std::string surface_markers)
+      : words_(text, file), surface_markers_(std::move(surface_markers)) {}
 
   MeshFile read() {
     while (!words_.done()) {
@@ -88,13 +94,15 @@ class GmshReader {
       if (section != "$MeshFormat" && section != "$Comments" && version_ == 0.0)
         words_.refuse("'" + printable(section.substr(0, 40)) + "'", "$MeshFormat");
       if (section == "$MeshFormat") read_format();
+      if (section == "$PhysicalNames") read_names();
+      if (section == "$Entities" && version_ >= 4.0) read_entities();
       if (section == "$Nodes") version_ < 4.0 ? read_nodes_2() : read_nodes_4();
       if (section == "$Elements") version_ < 4.0 ? read_elements_2() : read_elements_4();
       if (section == "$NodeData") read_values(GmshValues::On::kNodes);
       if (section == "$ElementData") read_values(GmshValues::On::kElements);
       if (section == "$ElementNodeData") read_values(GmshValues::On::kElementNodes);
       if (section == "$InterpolationScheme") ++skipped_[section];
-      // Others may be binary: physical names, entities, periodic nodes.
+      // Others may be binary: periodic nodes, entities of partitions.
       words_.skip_behind("$End" + section.substr(1));
     }
     return made();
@@ -132,6 +140,38 @@ class GmshReader {
       words_.refuse("a count of " + std::to_string(count), "no more than the file can hold",
                     "the file may be truncated");
     return as_size(count);
+  }
+
+  void read_names() {
+    const std::size_t count = words_.count("a count of names", 5);
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::int64_t dimension = words_.integer("a dimension", 0, 3);
+      const std::int64_t group = words_.integer("the number of a physical group", -kMostTag, kMostTag);
+      const std::string name(words_.word());
+      if (dimension == kSurface) names_[group] = printable(name.substr(0, 60));
+    }
+  }
+
+  /// The physical groups of each surface; the rest says where entities lie and what bounds them.
+  void read_entities() {
+    if (binary_) words_.end_line();
+    const auto next = [&] { return binary_ ? size64() : words_.integer("a count", 0, kMostTag); };
+    const auto tag = [&] { return binary_ ? int32() : words_.integer("a tag", -kMostTag, kMostTag); };
+    std::array<std::int64_t, 4> counts{};
+    for (std::int64_t& count : counts) count = static_cast<std::int64_t>(believed(next(), 4));
+    for (int dimension = 0; dimension < 4; ++dimension) {
+      for (std::int64_t e = 0; e < counts[as_size(dimension)]; ++e) {
+        const std::int64_t entity = tag();
+        for (int i = 0, box = dimension == 0 && !is_40() ? 3 : 6; i < box; ++i)
+          (void)(binary_ ? real() : words_.number("a coordinate"));
+        for (std::size_t i = 0, groups = believed(next(), 1); i < groups; ++i) {
+          const std::int64_t group = tag();
+          if (dimension == kSurface) groups_of_[entity].push_back(group);
+        }
+        for (std::size_t i = 0, around = dimension == 0 ? 0 : believed(next(), 1); i < around; ++i)
+          (void)tag();
+      }
+    }
   }
 
   void add_node(std::int64_t tag, const Vec3& x) {
@@ -187,10 +227,14 @@ class GmshReader {
     expect_end("$EndNodes");
   }
 
-  /// @param nodes their tags, in Gmsh's order.
-  void add_element(const ElementType& type, std::int64_t tag, std::span<const std::int64_t> nodes) {
+  /// @param nodes their tags, in Gmsh's order. @param groups physical ones.
+  void add_element(const ElementType& type, std::int64_t tag, std::span<const std::int64_t> nodes,
+                   std::span<const std::int64_t> groups) {
     if (type.dimension < 3) {
       ++flat_;
+      // Those of the other orientation are negative.
+      for (const std::int64_t group : groups)
+        if (type.dimension == kSurface && group != 0) faces_.add(nodes, std::abs(group));
       return;
     }
     if (type.vtk == 0) {
@@ -228,11 +272,14 @@ class GmshReader {
       if (!binary_) {
         const std::int64_t tag = words_.integer("the number of an element", 0, kMostTag);
         const ElementType& type = known_type(words_.integer("a type", 0, kMostTag));
-        for (std::int64_t i = words_.integer("a count of tags", 0, 1000); i > 0; --i)
-          (void)words_.integer("a tag", -kMostTag, kMostTag);
+        std::int64_t group = 0;
+        for (std::int64_t i = 0, n = words_.integer("a count of tags", 0, 1000); i < n; ++i) {
+          const std::int64_t one = words_.integer("a tag", -kMostTag, kMostTag);
+          if (i == 0) group = one;
+        }
         nodes.resize(as_size(type.nodes));
         for (std::int64_t& node : nodes) node = words_.integer("a node", 0, kMostTag);
-        add_element(type, tag, nodes);
+        add_element(type, tag, nodes, {&group, 1});
         ++n;
         continue;
       }
@@ -244,9 +291,13 @@ class GmshReader {
       nodes.resize(as_size(type.nodes));
       for (std::size_t e = 0; e < here; ++e) {
         const std::int64_t tag = int32();
-        for (std::int64_t i = 0; i < tags; ++i) (void)int32();
+        std::int64_t group = 0;
+        for (std::int64_t i = 0; i < tags; ++i) {
+          const std::int64_t one = int32();
+          if (i == 0) group = one;
+        }
         for (std::int64_t& node : nodes) node = int32();
-        add_element(type, tag, nodes);
+        add_element(type, tag, nodes, {&group, 1});
       }
       n += here;
     }
@@ -262,8 +313,13 @@ class GmshReader {
     for (int i = 0; i < (is_40() ? 1 : 3); ++i) (void)next("a number of elements");
     std::vector<std::int64_t> nodes;
     for (std::size_t b = 0; b < blocks; ++b) {
-      for (int i = 0; i < 2; ++i)
-        (void)(binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag));
+      std::array<std::int64_t, 2> place{};  // dimension and entity; in 4.0 the other way round
+      for (std::int64_t& part : place)
+        part = binary_ ? int32() : words_.integer("an entity", -kMostTag, kMostTag);
+      static const std::vector<std::int64_t> kNone;
+      const auto known = groups_of_.find(place[is_40() ? 0 : 1]);
+      const bool surface = place[is_40() ? 1 : 0] == kSurface;
+      const std::vector<std::int64_t>& groups = known == groups_of_.end() || !surface ? kNone : known->second;
       const ElementType& type = known_type(binary_ ? int32() : words_.integer("a type", 0, kMostTag));
       const std::size_t count = believed(next("a count of elements"), 2);
       nodes.resize(as_size(type.nodes));
@@ -271,7 +327,7 @@ class GmshReader {
         const std::int64_t tag =
             is_40() ? tag_40("the number of an element") : next("the number of an element");
         for (std::int64_t& node : nodes) node = is_40() ? tag_40("a node") : next("a node");
-        add_element(type, tag, nodes);
+        add_element(type, tag, nodes, groups);
       }
     }
     expect_end("$EndElements");
@@ -339,7 +395,15 @@ class GmshReader {
                          unread_ > 0 ? "write it at a lower order: gmsh FILE -save -order 2"
                                      : "mesh the volume: gmsh FILE -3"});
     }
-    if (flat_ > 0) out.notes.push_back(counted(flat_, "element") + " of lower dimension left out");
+    std::set<std::int64_t> groups(faces_.numbers.begin(), faces_.numbers.end());
+    std::string of_groups;
+    for (const std::int64_t group : groups) {
+      const auto name = names_.find(group);
+      of_groups += (of_groups.empty() ? ", of the physical groups " : ", ") + std::to_string(group) +
+                   (name == names_.end() ? "" : " '" + name->second + "'");
+    }
+    if (flat_ > 0)
+      out.notes.push_back(counted(flat_, "element") + " of lower dimension left out" + of_groups);
     if (unread_ > 0) {
       out.notes.push_back(
           counted(unread_, "volume element") +
@@ -348,12 +412,48 @@ class GmshReader {
     for (const auto& [section, count] : skipped_)
       out.notes.push_back(counted(count, "section") + " " + section + " left out");
 
+    if (!faces_.numbers.empty() || !surface_markers_.empty()) add_surfaces(out.notes);
     cells_.take(mesh_.cells);
     add_gmsh_values(std::move(mesh_), std::move(values_), words_.file(), out);
     return out;
   }
 
+  /// As values of the nodes, which stand at all times.
+  void add_surfaces(std::vector<std::string>& notes) {
+    NumberedFaces faces;
+    std::vector<std::int64_t> points;
+    for (std::size_t f = 0; f < faces_.numbers.size(); ++f) {
+      points.clear();
+      for (std::int64_t i = faces_.offsets[f]; i < faces_.offsets[f + 1]; ++i) {
+        const auto found = mesh_.point_of.find(faces_.points[as_size(i)]);
+        if (found != mesh_.point_of.end()) points.push_back(static_cast<std::int64_t>(found->second));
+      }
+      faces.add(points, faces_.numbers[f]);
+    }
+    const FaceWords words{.file = words_.file(),
+                          .numbered_by = "the physical groups",
+                          .names = names_,
+                          .asked = surface_markers_};
+    std::vector<std::string> said;
+    const std::vector<double> tags = surfaces_of_faces(faces, mesh_.positions.size() / 3, words, said);
+    if (tags.empty()) return;  // a mesh of something else: groups are listed already
+    notes.insert(notes.end(), said.begin(), said.end());
+    GmshValues values;
+    values.name = kSurfaceArray;
+    for (const auto& [tag, point] : mesh_.point_of) {
+      values.tuples.push_back({tag, values.numbers.size(), 1});
+      values.numbers.push_back(tags[point]);
+    }
+    values_.push_back(std::move(values));
+  }
+
+  static constexpr int kSurface = 2;  // its dimension
+
   MeshWords words_;
+  std::string surface_markers_;
+  std::map<std::int64_t, std::string> names_;                              ///< of physical groups of surfaces
+  std::unordered_map<std::int64_t, std::vector<std::int64_t>> groups_of_;  ///< of surfaces; version 4
+  NumberedFaces faces_;                                                    ///< of nodes' tags
   double version_ = 0.0;
   bool binary_ = false, swapped_ = false;
   GmshMesh mesh_;
@@ -365,6 +465,8 @@ class GmshReader {
 
 }  // namespace
 
-MeshFile read_gmsh(std::string_view text, const std::string& file) { return GmshReader(text, file).read(); }
+MeshFile read_gmsh(std::string_view text, const std::string& file, const std::string& surface_markers) {
+  return GmshReader(text, file, surface_markers).read();
+}
 
 }  // namespace palpate

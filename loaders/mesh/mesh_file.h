@@ -33,9 +33,12 @@ class CellList {
 [[nodiscard]] DataArray mesh_array(const std::string& name, Association association, int components,
                                    const std::vector<double>& values);
 
-/// Gmsh's .msh, 2.2 and 4.1, text and binary ("MSH file format" of its manual): volumes with node and element data.
-/// @throws Error (bad input) with `file`, as the next.
-[[nodiscard]] MeshFile read_gmsh(std::string_view text, const std::string& file);
+/// Gmsh's .msh, 2.2 and 4.1, text and binary ("MSH file format" of its manual): volumes with node and element data. Where
+/// physical groups of surfaces name those of a heart's wall (surfaces_of_faces()), or `surface_markers` means them by their
+/// numbers, there is the point array "surface".
+/// @throws Error (bad input) with `file`, as the next; (usage) for `surface_markers` that are none.
+[[nodiscard]] MeshFile read_gmsh(std::string_view text, const std::string& file,
+                                 const std::string& surface_markers = {});
 /// SU2's native mesh ("Mesh File" of its documentation), which holds no values.
 [[nodiscard]] MeshFile read_su2(std::string_view text, const std::string& file);
 /// Tecplot's ASCII data ("ASCII Data", Tecplot 360 Data Format Guide): ordered and finite-element zones.

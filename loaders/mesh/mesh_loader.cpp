@@ -49,10 +49,13 @@ class MeshLoader : public Loader {
     if (request.files.size() > 1)
       throw input_error({request.files[1].string(), "",
                          "is a second " + std::string(row_of(format).name) + " file", "one file"});
+    if (!request.surface_markers.empty() && format != Format::kGmsh)
+      throw usage_error("--surface-markers " + request.surface_markers + ": " +
+                        std::string(row_of(format).name) + " files number no faces that are read");
     const MappedFile mapped(file);
     switch (format) {
       case Format::kGmsh:
-        mesh_ = read_gmsh(mapped.text(), file);
+        mesh_ = read_gmsh(mapped.text(), file, request.surface_markers);
         break;
       case Format::kSu2:
         mesh_ = read_su2(mapped.text(), file);

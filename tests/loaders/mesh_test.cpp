@@ -54,6 +54,71 @@ TEST_F(Meshes, GmshSaysWhatIsLeftOut) {
   EXPECT_TRUE(says(source.info().notes, "1 element of lower dimension left out"));
 }
 
+/// A tetrahedron with three of its faces, the surfaces 11, 12 and 13 of which two are of the physical groups 1 and 2, in
+/// all dialects.
+std::string gmsh_faces(double version, const std::string& names) {
+  const std::string nodes[4] = {"0 0 0", "1 0 0", "0 1 0", "0 0 1"};
+  const std::string head = "$MeshFormat\n" +
+                           std::string(version < 3      ? "2.2"
+                                       : version < 4.05 ? "4.0"
+                                                        : "4.1") +
+                           " 0 8\n$EndMeshFormat\n" + names;
+  std::string out = head;
+  if (version < 3) {
+    out += "$Nodes\n4\n";
+    for (int n = 0; n < 4; ++n) out += std::to_string(n + 1) + " " + nodes[n] + "\n";
+    return out +
+           "$EndNodes\n$Elements\n4\n1 2 2 1 11 1 2 3\n2 2 2 -2 12 1 2 4\n3 2 2 0 13 2 3 4\n4 4 2 5 1 1 2 3 4\n"
+           "$EndElements\n";
+  }
+  const bool v40 = version < 4.05;
+  out += "$Entities\n1 0 3 1\n1 0 0 0 " + std::string(v40 ? "0 0 0 " : "") + "0\n";
+  out +=
+      "11 0 0 0 1 1 0 2 9 1 0\n12 0 0 0 1 0 1 1 -2 1 3\n13 0 0 0 1 1 1 0 0\n1 0 0 0 1 1 1 1 5 3 11 12 13\n";
+  out += "$EndEntities\n";
+  if (v40) {
+    out += "$Nodes\n1 4\n1 3 0 4\n";
+    for (int n = 0; n < 4; ++n) out += std::to_string(n + 1) + " " + nodes[n] + "\n";
+    return out +
+           "$EndNodes\n$Elements\n4 4\n11 2 2 1\n1 1 2 3\n12 2 2 1\n2 1 2 4\n13 2 2 1\n3 2 3 4\n1 3 4 1\n4 1 2 3 4\n"
+           "$EndElements\n";
+  }
+  out += "$Nodes\n1 4 1 4\n3 1 0 4\n1\n2\n3\n4\n";
+  for (const std::string& node : nodes) out += node + "\n";
+  return out +
+         "$EndNodes\n$Elements\n4 4 1 4\n2 11 2 1\n1 1 2 3\n2 12 2 1\n2 1 2 4\n2 13 2 1\n3 2 3 4\n3 1 4 1\n4 1 2 3 4\n"
+         "$EndElements\n";
+}
+
+TEST_F(Meshes, PhysicalGroupsOfGmshNameSurfacesOfAWall) {
+  const std::string names =
+      "$PhysicalNames\n4\n2 1 \"endo lv\"\n2 2 \"Epicardium\"\n2 9 \"stim\"\n3 5 \"base\"\n$EndPhysicalNames\n";
+  const auto surface = [](Source& source) {
+    std::vector<double> values;
+    const auto blocks = source.read({"surface"});
+    const DataArray* const array = blocks.at(0).find("surface", Association::kPoint);
+    for (std::size_t p = 0; array != nullptr && p < array->tuples; ++p) values.push_back(array->at(p));
+    return values;
+  };
+  for (const double version : {2.2, 4.0, 4.1}) {
+    Source named = Source::open({{folder_.write("a.msh", gmsh_faces(version, names))}, {}});
+    EXPECT_EQ(surface(named), (std::vector<double>{1, 1, 1, 2})) << version;
+    EXPECT_TRUE(says(named.info().notes,
+                     "number 1 'endo lv' of the physical groups is the endocardium, by its name"));
+    EXPECT_TRUE(says(named.info().notes, "2 points on both surfaces: taken as inner"));
+    LoadRequest request{.files = {folder_.write("b.msh", gmsh_faces(version, ""))}};
+    Source bare = Source::open(request);
+    EXPECT_TRUE(surface(bare).empty());
+    EXPECT_TRUE(says(bare.info().notes, "left out, of the physical groups 1, 2"));
+    EXPECT_FALSE(says(bare.info().notes, "--surface-markers"));  // a hint for hearts alone
+    request.surface_markers = "2/1";
+    Source asked = Source::open(request);
+    EXPECT_EQ(surface(asked), (std::vector<double>{1, 1, 2, 1})) << version;
+    request.surface_markers = "2/3";
+    EXPECT_THROW((void)Source::open(request), Error);
+  }
+}
+
 TEST_F(Meshes, GmshHasTimesAndValuesOfElements) {
   std::string file = gmsh_file(cell_kinds().front(), false, false, false);
   file = replaced(file, "\n0.0\n3\n0\n", "\n0.5\n3\n0\n");

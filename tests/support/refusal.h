@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -21,6 +22,20 @@ namespace palpate::test {
   }
   ADD_FAILURE() << file << " was accepted";
   return {};
+}
+
+/// That `open` refuses bad input in a line that has all the words.
+template <typename Open>
+void expect_refused(const Open& open, std::initializer_list<std::string> words) {
+  const std::string first = words.size() > 0 ? *words.begin() : std::string();
+  try {
+    (void)open();
+    ADD_FAILURE() << first << " was accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+    for (const std::string& word : words)
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << word << ": " << error.what();
+  }
 }
 
 }  // namespace palpate::test

@@ -217,7 +217,7 @@ void CarpOutput::write_values(const std::string& name, std::span<const double> v
 }
 
 std::size_t CarpOutput::begin_series(const std::string& name, std::size_t tuples, int components,
-                                     const IgbTimes& times) {
+                                     const IgbTimes& times, const std::string& unit) {
   constexpr std::array<const char*, 4> kTypes{"float", "complex", "vec3f", "vec4f"};
   names_.push_back(result(name, ".igb"));
   OutputFile& file = files_->open(names_.back());
@@ -226,7 +226,9 @@ std::size_t CarpOutput::begin_series(const std::string& name, std::size_t tuples
                        " type:" + kTypes.at(as_size(components - 1)) +
                        " systeme:little_endian org_t:" + exact_number(times.first) +
                        " dim_t:" + exact_number((steps - 1.0) * times.apart) +
-                       " inc_t:" + exact_number(times.apart) + " facteur:1 zero:0\r\n";
+                       " inc_t:" + exact_number(times.apart) + " facteur:1 zero:0" +
+                       (times.unit.empty() ? "" : " unites_t:" + times.unit) +
+                       (unit.empty() ? "" : " unites:" + unit) + "\r\n";
   header.resize(kIgbHeader - 1, ' ');
   file.write(header + "\f");
   return files_->count() - 1;

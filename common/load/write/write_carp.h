@@ -19,6 +19,7 @@ namespace palpate {
 struct IgbTimes {
   double first = 0.0, apart = 1.0;
   std::size_t count = 1;
+  std::string unit{};  ///< empty: not known
 };
 
 /// @throws Error (bad input) with `file` where they are not rising and evenly apart to a thousandth.
@@ -62,9 +63,9 @@ class CarpOutput {
   /// that is taken gets a number.
   void write_values(const std::string& name, std::span<const double> values);
   /// STEM.NAME.igb, whose steps follow by write_step() in their order.
-  /// @param tuples points or cells. @param components 1 to 4. @return its number.
-  std::size_t begin_series(const std::string& name, std::size_t tuples, int components,
-                           const IgbTimes& times);
+  /// @param tuples points or cells. @param components 1 to 4. @param unit of values; empty: not known. @return its number.
+  std::size_t begin_series(const std::string& name, std::size_t tuples, int components, const IgbTimes& times,
+                           const std::string& unit = {});
   void write_step(std::size_t series, std::span<const double> values);
 
   void finish();

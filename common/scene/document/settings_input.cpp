@@ -236,12 +236,14 @@ const Setting kInputRows[] = {
      .words = "auto|always|off"},
     {.name = "surface-markers",
      .place = kInputAt<&InputOptions::surface_markers>,
-     .help = "markers of a .face file on the inner and on the outer surface, as 1,4/2",
+     .help =
+         "numbers of the faces on the inner and on the outer surface, as 1,4/2, and perhaps on the right endocardium and the "
+         "base, as 1/2/3/5: markers of a .face file, Gmsh's physical groups, arrays of cells",
      .value = "I,…/O,…",
      .heading = "Input",
      .groups = {Group::kInput},
      .kinds = kHearts,
-     .otherwise = "by the shape of what has one marker"},
+     .otherwise = "by names; of a .face file by shape"},
 
     {.name = "bval",
      .place = kTensorReadingAt<&TensorSpec::bval>,

@@ -1,24 +1,22 @@
 #include "loaders/cardiac/ex/ex_groups.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/layer/numbered_faces.h"
 #include "common/field/layer/wall_surfaces.h"
 
 namespace palpate::ex {
 namespace {
 
-/// What a group is by its name; kLeft: no surface.
+/// What a group is by its name; kLeft: no surface. "lv" alone may be a part of the wall.
 BorderRole role_of_group(const std::string& name) {
   const std::string low = lowered(name);
   const auto has = [&low](std::string_view word) { return low.find(word) != std::string::npos; };
-  if (has("epi")) return BorderRole::kOuter;
-  if (!has("endo")) return BorderRole::kLeft;
-  return has("right") || has("rv") ? BorderRole::kRight : BorderRole::kInner;
+  return has("epi") || has("endo") ? role_of_name(name) : BorderRole::kLeft;
 }
 
 /// Whether a face of a cube is in a group: by its number, or by its nodes.
@@ -39,9 +37,7 @@ bool has_face(const Group& group, const Element& element, std::size_t axis, std:
 
 std::vector<double> group_surfaces(const Model& model, const SampledPlaces& places,
                                    std::vector<std::string>& notes) {
-  /// The later one counts.
-  constexpr std::array<BorderRole, 3> kOrder{BorderRole::kOuter, BorderRole::kRight, BorderRole::kInner};
-  std::vector<double> tags(places.points, 0.0);
+  PointTags tags(places.points);
   std::vector<std::string> taken;
   bool inner = false, outer = false;
   const auto named = [](const auto& group) { return role_of_group(group.first) != BorderRole::kLeft; };
@@ -52,27 +48,26 @@ std::vector<double> group_surfaces(const Model& model, const SampledPlaces& plac
     notes.emplace_back("groups name surfaces, and elements are no cubes: surfaces are found by shape");
     return {};
   }
-  for (const BorderRole role : kOrder) {
-    for (const auto& [name, group] : model.groups) {
-      if (role_of_group(name) != role) continue;
-      std::size_t faces = 0;
-      for (std::size_t e = 0; e < model.elements.size(); ++e) {
-        const std::vector<Vec3>& xi = places.of_element[e]->xi;
-        for (int axis = 0; axis < 3; ++axis) {
-          for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
-            if (!has_face(group, model.elements[e], as_size(axis), end)) continue;
-            ++faces;
-            for (std::size_t p = 0; p < xi.size(); ++p)
-              if (xi[p][axis] == static_cast<double>(end))
-                tags[as_size(places.point_of[places.first[e] + p])] = tag_of(role);
-          }
+  for (const auto& [name, group] : model.groups) {
+    const BorderRole role = role_of_group(name);
+    if (role == BorderRole::kLeft) continue;
+    std::size_t faces = 0;
+    for (std::size_t e = 0; e < model.elements.size(); ++e) {
+      const std::vector<Vec3>& xi = places.of_element[e]->xi;
+      for (int axis = 0; axis < 3; ++axis) {
+        for (const std::size_t end : {std::size_t{0}, std::size_t{1}}) {
+          if (!has_face(group, model.elements[e], as_size(axis), end)) continue;
+          ++faces;
+          for (std::size_t p = 0; p < xi.size(); ++p)
+            if (xi[p][axis] == static_cast<double>(end))
+              tags.mark(places.point_of[places.first[e] + p], role);
         }
       }
-      if (faces == 0) continue;
-      (role == BorderRole::kOuter ? outer : inner) = true;
-      taken.push_back("group '" + name + "' is the " + name_of(role) +
-                      ", by its name: " + counted(faces, "face"));
     }
+    if (faces == 0) continue;
+    (role == BorderRole::kOuter ? outer : inner) = true;
+    taken.push_back("group '" + name + "' is the " + name_of(role) +
+                    ", by its name: " + counted(faces, "face"));
   }
   if (!inner || !outer) {
     notes.emplace_back(
@@ -81,7 +76,7 @@ std::vector<double> group_surfaces(const Model& model, const SampledPlaces& plac
     return {};
   }
   notes.insert(notes.end(), taken.begin(), taken.end());
-  return tags;
+  return tags.values();
 }
 
 }  // namespace palpate::ex

@@ -170,6 +170,25 @@ TEST_F(Cardiac, TakesSurfacesFromMarkedTriangles) {
   EXPECT_EQ(run({"info", "one.node", "--surface-markers", "4/8"}).exit_code, 2);
 }
 
+// The same in a mesh that holds the triangles of its border, numbered in the array that numbers regions.
+TEST_F(Cardiac, TakesSurfacesFromNumberedTrianglesOfAMesh) {
+  (void)folder_.write(
+      "one.vtk",
+      "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+      "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 3 13\n4 0 1 2 3\n3 0 1 2\n3 1 2 3\nCELL_TYPES 3\n10\n5\n5\n"
+      "CELL_DATA 3\nSCALARS tag int 1\nLOOKUP_TABLE default\n1\n4\n9\n"
+      "VECTORS fibre float\n1 0 0\n0 0 0\n0 0 0\n");
+  const Json unasked = json({"info", "one.vtk"});
+  EXPECT_TRUE(unasked["no_layers"].is_string());
+  EXPECT_NE(unasked["notes"].dump().find("2 faces of the border with the numbers 4, 9 of 'tag'"),
+            std::string::npos);
+  const Json asked = json({"info", "one.vtk", "--surface-markers", "4/9"});
+  EXPECT_EQ(asked["no_layers"], nullptr);
+  EXPECT_EQ(run({"info", "one.vtk", "--regions", "9"}).exit_code, 2);  // a number of triangles alone
+  EXPECT_EQ(run({"info", "one.vtk", "--surface-markers", "4/8"}).exit_code, 2);
+  EXPECT_EQ(run({"info", "--example", "ventricle", "--surface-markers", "4/8"}).exit_code, 2);
+}
+
 // A potential that rises with x and with time; the value at the tetrahedron's middle is known.
 TEST_F(Cardiac, ShowsAPotentialOverTimeAndOnTheWall) {
   (void)folder_.write("m.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");

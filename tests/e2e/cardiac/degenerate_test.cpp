@@ -178,7 +178,7 @@ TEST_F(CardiacDegenerate, OddOptionsAreNamed) {
           "--largest-volume -1: a number of 0 or more");
   refused({"map", file, "--angle", "vm", "--contour-spacing", "nan"}, "--contour-spacing");
   refused({"series", file, "--value", "nothing", "--at", "0,0,0"}, "there is no scalar nothing");
-  refused({"info", points, "--surface-markers", "1/2"}, "openCARP has no .face file");
+  refused({"info", points, "--surface-markers", "1/2"}, "has the markers none");
 }
 
 TEST_F(CardiacDegenerate, MissingFibresAndPotentials) {

@@ -239,8 +239,12 @@ TEST_F(CardiacSession, OpensAgainInTheProgramThatSavedIt) {
 }
 
 TEST_F(CardiacSession, KeepsWhichMarkersAreWhichSurface) {
+  (void)folder_.write("one.node", "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n");
+  (void)folder_.write("one.ele", "1 4 0\n0 0 1 2 3\n");
+  (void)folder_.write("one.axi", "1\n1 0 0\n");
+  (void)folder_.write("one.face", "3 1\n0 0 1 2 1\n1 1 2 3 2\n2 0 1 3 4\n");
   Document options;
-  options.input.example = "ventricle";
+  options.input.files = {folder_.path("one.node")};
   options.input.surface_markers = "1,4/2";
   CardiacModel model(options, "cardiac");
   Progress progress;

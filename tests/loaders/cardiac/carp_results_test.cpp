@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/load/load.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
@@ -42,14 +43,7 @@ class CarpResults : public testing::Test {
   void expect_result_refused(const std::string& name, const std::string& content,
                              const std::string& word) const {
     folder_.write(name, content);
-    try {
-      (void)together(name);
-      ADD_FAILURE() << word << " was accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kBadInput);
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
-    }
+    test::expect_refused([&] { return together(name); }, {word, name});
   }
   test::TempFolder folder_;
 };

@@ -7,6 +7,7 @@
 
 #include "common/base/error.h"
 #include "common/load/load.h"
+#include "tests/support/refusal.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
@@ -37,15 +38,6 @@ class CarpSurfaces : public testing::Test {
     for (const std::string& note : source.info().notes)
       if (note.find(word) != std::string::npos) return true;
     return false;
-  }
-  void expect_refused(const std::string& word) const {
-    try {
-      (void)open();
-      ADD_FAILURE() << word << " was accepted";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ExitCode::kBadInput);
-      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
-    }
   }
   test::TempFolder folder_;
 };
@@ -84,6 +76,20 @@ TEST_F(CarpSurfaces, CountFromOneWhereTheMeshDoes) {
   EXPECT_EQ(surface(), (std::vector<double>{1, 1, 1, 2, 2, 2}));
 }
 
+// Rows of meshtool: three points, the region of the element, its other point, its number.
+TEST_F(CarpSurfaces, TrianglesThatCarryLoadsAreSurfacesToo) {
+  folder_.write("m.endo.neubc", "1 # mesh elast 1 6 :\n0 1 2 1 3 0\n");
+  folder_.write("m.epi.neubc", "1 # mesh elast 1 6 :\n3 4 5 1 0 0\n");
+  EXPECT_EQ(surface(), (std::vector<double>{1, 1, 1, 2, 2, 2}));
+  EXPECT_TRUE(says("m.endo.neubc is the endocardium, by its name: 1 triangle"));
+  folder_.write("m.endo.surf", "1\nTr 0 1 2\n");
+  EXPECT_FALSE(says("m.endo.neubc"));  // the same triangles
+  folder_.write("m.epi.neubc", "1\n3 4 5 1 0\n");
+  test::expect_refused([this] { return open(); }, {"m.epi.neubc", "line 2: has a row of 5 numbers"});
+  folder_.write("m.epi.neubc", "1\n3 4 6 1 0 0\n");
+  test::expect_refused([this] { return open(); }, {"m.epi.neubc", "has \"6\""});
+}
+
 TEST_F(CarpSurfaces, TheNameOfTheMeshSaysNothing) {
   folder_.write("epi.pts", "4\n0 0 0\n1000 0 0\n0 1000 0\n0 0 1000\n");
   folder_.write("epi.elem", "1\nTt 0 1 2 3 1\n");
@@ -101,7 +107,7 @@ TEST_F(CarpSurfaces, WhatIsNoneOfTheMeshIsRefused) {
            {"2\nTr 0 1 2\n", "ends after 1 triangle"},
            {"1\nTr 0 1 2\nTr 0 1 2\n", "goes on after 1 triangle"}}) {
     folder_.write("m.endo.surf", text);
-    expect_refused(word);
+    test::expect_refused([this] { return open(); }, {word});
   }
 }
 
