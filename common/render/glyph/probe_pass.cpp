@@ -183,6 +183,11 @@ void ProbePass::upload_cached(const SceneView& view, const SceneFrame& frame) {
   }
 }
 
+Rgb ProbePass::kept_color(std::size_t i) const {
+  const DrawnLine& kept = (*shown_kept_)[i];
+  return kept.color.value_or(cached_color(kept.number));
+}
+
 void ProbePass::draw_path(LineProgram& program, const SceneView& view, float unit, std::size_t first,
                           std::size_t last) const {
   const DepthClamp clamp;
@@ -214,16 +219,23 @@ void ProbePass::draw_through(LineProgram& program, const SceneView& view, const 
   const auto see_through = static_cast<float>(std::clamp(view.probe->style.see_through, 0.0, 1.0));
   if (!(see_through > 0.0F)) return;
   const DepthClamp clamp;
+  LineDraw how = base;
+  how.fading = 0.0F;
+  how.min_width = 1.0F;
+  how.lift = kLineLift;
+  how.opacity = see_through;
+  how.seen_again = true;
+  how.width = static_cast<float>(view.probe->style.kept_width) * unit;
+  how.coloring = LineDraw::Coloring::kOneColor;
+  program.use(ColorMap::kSequential);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    how.color = kept_color(i);
+    kept_[i].draw(how);
+  }
   if (shown_followed_) {
-    LineDraw how = base;
-    how.fading = 0.0F;
-    how.min_width = 1.0F;
-    how.lift = kLineLift;
     how.width = static_cast<float>(view.probe->style.followed_width) * unit;
     how.coloring = coloring_of(view.style, followed_has_values_);
     how.color = palette_of(view.background).plain_line;
-    how.opacity = see_through;
-    how.seen_again = true;
     program.use(color_map_of(view.style));
     followed_.draw(how);
   }
@@ -246,14 +258,26 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
     how.halo_width = halo_of(how.width, unit);
   };
 
+  // What is hidden of a line shines through faintly, then the rest is drawn over it.
+  const auto draw_hidden = [&](LineSet& line) {
+    if (!(see_through > 0.0F)) return;
+    how.hidden_part = true;
+    how.lift = kHiddenLift;
+    how.opacity = see_through;
+    line.draw(how);
+    how.hidden_part = false;
+    how.lift = kLineLift;
+    how.opacity = 1.0F;
+  };
+
   // Kept lines, then the followed one: both opaque.
   how.opacity = 1.0F;
   set_width(probe.style.kept_width);
   how.coloring = LineDraw::Coloring::kOneColor;
   program.use(ColorMap::kSequential);
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    const DrawnLine& kept = (*shown_kept_)[i];
-    how.color = kept.color.value_or(cached_color(kept.number));
+    how.color = kept_color(i);
+    draw_hidden(kept_[i]);
     kept_[i].draw(how);
   }
   if (shown_followed_) {
@@ -261,15 +285,7 @@ void ProbePass::draw(LineProgram& program, const SceneView& view, const LineDraw
     set_width(probe.style.followed_width);
     how.coloring = coloring_of(view.style, followed_has_values_);
     how.color = colors.plain_line;
-    if (see_through > 0.0F) {
-      how.hidden_part = true;
-      how.lift = kHiddenLift;
-      how.opacity = see_through;
-      followed_.draw(how);
-      how.hidden_part = false;
-      how.lift = kLineLift;
-      how.opacity = 1.0F;
-    }
+    draw_hidden(followed_);
     how.halo_color = colors.ink;
     how.halo_width = std::max(1.0F, 1.6F * unit);
     followed_.draw(how);

@@ -86,6 +86,7 @@ class ProbePass {
                  std::size_t last) const;
   void upload_followed(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
   void upload_seeds(const SceneView& view, const SceneFrame& frame, const ValueRange& range);
+  [[nodiscard]] Rgb kept_color(std::size_t i) const;
   void upload_cached(const SceneView& view, const SceneFrame& frame);
 
   LineSet followed_, seeds_;

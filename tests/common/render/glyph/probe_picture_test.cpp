@@ -85,6 +85,35 @@ TEST(ProbePicture, HiddenBallShinesThrough) {
   EXPECT_EQ(test::at(render_image(view, kSize, kSize).image, 0.0, 0.0), hidden);
 }
 
+// A wall before a kept line, opaque or translucent, dims it and does not hide it.
+TEST(ProbePicture, KeptLineShinesThroughAWall) {
+  auto wall = std::make_shared<IsosurfaceMesh>();
+  for (const auto& [x, z] : {std::pair{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}})
+    wall->points.emplace_back(x, -0.5, z);
+  wall->normals.assign(4, Vec3f(0.0F, -1.0F, 0.0F));
+  wall->triangles = {{0, 1, 2}, {0, 2, 3}};
+  auto kept = std::make_shared<std::vector<DrawnLine>>();
+  kept->push_back({.line = std::make_shared<const Line>(test::polyline({{-0.7, 0.5, 0.0}, {0.7, 0.5, 0.0}})),
+                   .number = 0,
+                   .color = Rgb(0.1F, 0.9F, 0.1F)});
+  for (const double opacity : {1.0, 0.45}) {
+    SceneView view = test::front_view({test::polyline({{-0.8, 0.8, 0.8}, {0.8, 0.8, 0.8}})});
+    view.surfaces = {{.mesh = wall, .color = {0.88F, 0.3F, 0.3F}, .opacity = opacity}};
+    view.probe = ProbeView();
+    view.probe->style.kept_width = 40.0;
+    const auto green = [&view] {
+      const auto c = test::at(render_image(view, kSize, kSize).image, 0.0, 0.0);
+      return c[1] - c[0];
+    };
+    const int without = green();
+    view.probe->drawn_lines = kept;
+    const int dimmed = green();
+    view.probe->style.see_through = 0.0;
+    EXPECT_GT(dimmed, without + 80) << opacity;
+    EXPECT_GT(dimmed, green() + 50) << opacity;
+  }
+}
+
 // One bar means one thing: a rake has the colours that the scene's lines have for the same number, and where
 // that number is not known of it none of the bar's.
 TEST(ProbePicture, RakeIsColouredLikeTheLinesOfTheScene) {
