@@ -96,6 +96,7 @@ TEST(FibreRule, IsTheRuleOfBayerOnTheVentricleWithinOneDegree) {
   const Ruled fine = ruled({.wall = 10, .along = 48, .around = 120}, FibreRule::kBayer, kAngles, false);
   const auto rule = [](double d) { return linear(kAngles, d); };
   const Errors errors = errors_of(fine, kAngles, 0.2, rule);
+  RecordProperty("worst_degrees", std::to_string(errors.worst));
   EXPECT_LT(errors.worst, 1.0);
   EXPECT_LT(errors.p95, 0.35);
   EXPECT_LT(errors.sheet_worst, 1.5);
@@ -217,6 +218,7 @@ TEST(FibreRule, IsTheRuleOfDosteOnTheVentricleWithinOneDegree) {
     sheet_worst =
         std::max(sheet_worst, apart(fine.made.sheets[c], std::sin(beta) * along + std::cos(beta) * axes[2]));
   }
+  RecordProperty("worst_degrees", std::to_string(worst));
   EXPECT_LT(worst, 1.0);
   EXPECT_LT(sheet_worst, 1.0);
   EXPECT_EQ(fine.made.without, 0U);

@@ -99,6 +99,7 @@ TEST(WallSurfacesByShape, DepthsOfWallsWithAnyRimAreTheClosedForm) {
                          std::abs(layer.array.at(p) - (shape.potential(lambda) - inner) / (outer - inner)));
         if (p >= through) falls = std::max(falls, layer.array.at(p - through) - layer.array.at(p));
       }
+      RecordProperty("worst_" + name + "_" + std::to_string(size), std::to_string(worst));
       // Cells lean where the rim is jagged.
       EXPECT_LT(worst, 0.02 + 0.35 * size) << name << " " << size;
       EXPECT_LT(falls, 0.0) << name << " " << size << ": the depth rises through the wall everywhere";
@@ -298,6 +299,9 @@ TEST(WallSurfacesByShape, TheSeptumRunsFromOneVentricleToTheOther) {
         rising += heart.depth(layer, 0, i, j, 0) == 0.0 && heart.depth(layer, 0, i, j, 1) > 0.0 ? 1 : 0;
       }
     }
+    RecordProperty("rising_of_columns_at_" + std::to_string(degrees),
+                   std::to_string(rising) + " of " + std::to_string(columns) + ", behind the septum " +
+                       std::to_string(right_rising) + " of " + std::to_string(right));
     EXPECT_GT(septum, 40U) << degrees;
     EXPECT_EQ(rising, columns) << degrees;
     EXPECT_EQ(right_rising, right) << degrees;
