@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <optional>
@@ -113,37 +114,40 @@ std::vector<std::uint64_t> number_counts(const VolumeImage& image, int threads) 
   return counts;
 }
 
-/// As histogram_of() does, of numbers of which there are few: the voxels are gone through once.
+/// Counts the values between two bounds.
+using CountBetween = std::function<ValueHistogram(double lower, double upper)>;
+
+/// Of numbers of which there are few: the voxels are gone through once, whatever the bounds.
 template <typename T>
-ValueHistogram histogram_of_numbers(const VolumeImage& image, int threads) {
-  constexpr std::size_t kBins = 1024;
-  const std::vector<std::uint64_t> counts = number_counts<T>(image, threads);
-  return bulk_histogram(
-      [&](double lower, double upper) {
-        ValueHistogram histogram{
-            .lower = lower, .upper = upper, .counts = std::vector<std::uint64_t>(kBins, 0)};
-        const HistogramBins bins(lower, upper, kBins);
-        for (std::size_t bits = 0; bits < counts.size(); ++bits) {
-          const auto number = static_cast<T>(static_cast<T>(bits) ^ sign_bit<T>(image));
-          const auto bin = bins.of(image.offset + image.scale * static_cast<double>(number));
-          if (!bin) continue;
-          histogram.counts[*bin] += counts[bits];
-          histogram.total += counts[bits];
-        }
-        return histogram;
-      },
-      image.lowest, image.highest);
+CountBetween counter_of_numbers(const VolumeImage& image, int threads) {
+  return [&image, counts = number_counts<T>(image, threads)](double lower, double upper) {
+    constexpr std::size_t kBins = 1024;
+    ValueHistogram histogram{.lower = lower, .upper = upper, .counts = std::vector<std::uint64_t>(kBins, 0)};
+    const HistogramBins bins(lower, upper, kBins);
+    for (std::size_t bits = 0; bits < counts.size(); ++bits) {
+      const auto number = static_cast<T>(static_cast<T>(bits) ^ sign_bit<T>(image));
+      const auto bin = bins.of(image.offset + image.scale * static_cast<double>(number));
+      if (!bin) continue;
+      histogram.counts[*bin] += counts[bits];
+      histogram.total += counts[bits];
+    }
+    return histogram;
+  };
+}
+
+/// @pre the image outlives what is returned.
+CountBetween counter_of(const VolumeImage& image, int threads) {
+  if (!image.sparse && image.type == ScalarType::kUint8)
+    return counter_of_numbers<std::uint8_t>(image, threads);
+  if (!image.sparse && image.type == ScalarType::kUint16)
+    return counter_of_numbers<std::uint16_t>(image, threads);
+  return
+      [&image, threads](double lower, double upper) { return counted_between(image, lower, upper, threads); };
 }
 
 /// Where all values lie but a few far ones.
 ValueHistogram histogram_of(const VolumeImage& image, int threads) {
-  if (!image.sparse && image.type == ScalarType::kUint8)
-    return histogram_of_numbers<std::uint8_t>(image, threads);
-  if (!image.sparse && image.type == ScalarType::kUint16)
-    return histogram_of_numbers<std::uint16_t>(image, threads);
-  return bulk_histogram(
-      [&](double lower, double upper) { return counted_between(image, lower, upper, threads); }, image.lowest,
-      image.highest);
+  return bulk_histogram(counter_of(image, threads), image.lowest, image.highest);
 }
 
 /// The preset for densities from `lower` to the value that only the brightest of those from `threshold` on
@@ -235,9 +239,10 @@ ColorTransfer default_color_transfer(const VolumeImage& image, int threads) {
 ColorTransfer default_focus_transfer(const VolumeImage& image, int threads) {
   if (image.lowest > image.highest) return {};
   if (image.labels) return label_transfer(image);
-  const ValueHistogram all = histogram_of(image, threads);
+  const CountBetween count = counter_of(image, threads);
+  const ValueHistogram all = bulk_histogram(count, image.lowest, image.highest);
   const double threshold = otsu_threshold(all);
-  const ValueHistogram dense = counted_between(image, threshold, all.upper, threads);
+  const ValueHistogram dense = count(threshold, all.upper);
   const double denser = otsu_threshold(dense);
   return density_from(dense, denser, denser);
 }

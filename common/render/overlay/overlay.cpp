@@ -73,6 +73,16 @@ void draw_title(const OverlayPen& pen, const SceneView& view) {
   }
 }
 
+// Width and level of the grey values in the upper right corner, as radiologists read them; labels have colours of their own.
+void draw_window(const OverlayPen& pen, const SceneView& view, int width) {
+  if (!view.slice || view.slice->image->labels) return;
+  const ValueWindow& window = view.slice->window;
+  const std::string words = "W " + short_number(window.width) + "  L " + short_number(window.level);
+  const float em = pen.text_height(), left = static_cast<float>(width) - em - OverlayPen::size_of(words).x;
+  // Beside the title, or where there is no room, below what is under the mouse.
+  pen.label(left, left > 2.0F * em + OverlayPen::size_of(view.title).x ? em : 4.8F * em, words);
+}
+
 // The three axes of the data as arrows in the lower left corner, the farthest one first.
 void draw_axes(const OverlayPen& pen, const SceneView& view, int height) {
   struct Axis {
@@ -350,6 +360,7 @@ void Overlay::draw(const SceneView& view, const ColorLegend& legend, int width, 
   const OverlayPen pen(*ImGui::GetBackgroundDrawList(), text_height, view.background);
   if (view.slice) draw_traces(pen, view, width, height);
   draw_title(pen, view);
+  draw_window(pen, view, width);
   if (view.show_axes) draw_axes(pen, view, height);
   if (view.anatomical) draw_sides(pen, view, width, height);
   draw_notes(pen, view, width, height);

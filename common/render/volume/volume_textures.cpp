@@ -469,6 +469,8 @@ void VolumeTextures::fill_table(const VolumeView& view, const std::vector<Optica
     table_.resize(4 * count * count * lengths);
     preintegrate(entries, lengths, 0, table_, changed);
     upload_table(lengths, changed, count, first_layer);
+    // Kept where a transfer function is dragged alone: it takes as much as the texture.
+    if (changed == EntryRange{0, count - 1}) table_ = decltype(table_)();
   }
   if (choice_.timed()) glFinish();
   choice_.filled(1e3 * clock.seconds());

@@ -50,6 +50,7 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
   const bool of_panel = (begins && over_panel && !view_.dragging()) || (key && in_text);
   // A lens that follows the mouse is left where it is clicked, whatever the hand could take there.
   const bool leaves_lens = event.kind == InputKind::kPress && (lens_.followed() || color_lens_.followed());
+  const bool followed = lens_.followed().has_value();
   bool lens = false;
   const bool of_pane = !of_panel && view.volume && handle_pane(event, on);
   const bool picks = !of_panel && !of_pane && !touch_control_.grabbed() &&
@@ -65,7 +66,8 @@ std::optional<std::string> SceneControls::handle(const InputEvent& event, const 
     slice_.place(event.x, event.y);
   }
   // Where it is left, what was said of moving it is over.
-  return lens && event.kind == InputKind::kPress ? std::optional(std::string()) : std::nullopt;
+  const bool left = (lens && event.kind == InputKind::kPress) || (followed && !lens_.followed());
+  return left ? std::optional(std::string()) : std::nullopt;
 }
 
 /// What is marked, a region and a lens can be placed in slices as in the picture of the volume; else the event is for the

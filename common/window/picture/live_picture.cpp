@@ -12,6 +12,8 @@
 namespace palpate {
 namespace {
 
+// Of a volume of more the first picture is as coarse as there is: in all detail it takes over a second on processors.
+constexpr std::size_t kManyVoxels = std::size_t{1} << 24;
 // Pictures' worth of tracts that are added at once while nothing else happens.
 constexpr double kPatientPictures = 5.0;
 // A lens that has not moved for so long stands still: its picture is drawn sharp [s].
@@ -33,13 +35,15 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
   const double rest_time = moment.seconds - moved_;
   if (moment.editing && is_edited(view)) edited_ = moment.seconds;
   asked_ = view.volume;
-  const bool moving =
-      moment.moving || rest_time < kLensRest || (moment.editing && moment.seconds - edited_ < kLensRest);
   const bool volume = view.volume && view.volume->shown;
+  const bool unseen = volume && view.volume->image->point_count() > kManyVoxels &&
+                      !(shown_.volume && shown_.volume->image == view.volume->image);
+  const bool moving = unseen || moment.moving || rest_time < kLensRest ||
+                      (moment.editing && moment.seconds - edited_ < kLensRest);
   budget_.show(volume, volume && !view.volume->lenses.empty());
   if (moving && !std::exchange(moving_, moving)) budget_.begin();
   moving_ = moving;
-  const FrameQuality quality = moving ? budget_.quality() : FrameQuality{};
+  const FrameQuality quality = unseen ? budget_.levels().back() : moving ? budget_.quality() : FrameQuality{};
   view = with_quality(std::move(view), quality);
   if (view.volume) {
     view.volume->storage.upload = kBrickUpload;
@@ -99,6 +103,7 @@ void LivePicture::draw(SceneView view, int width, int height, const PictureMomen
     dirty_ = false;
   }
   preparing_ = refining_ = false;
+  left_ = unseen;
   if (moving) {
     estimating_ = saving_ = false;
   } else {

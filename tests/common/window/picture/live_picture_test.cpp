@@ -116,6 +116,23 @@ TEST(LivePicture, AtRestConvergesAndKnowsTheErrorOfWhatMoves) {
   }
 }
 
+// All detail of a large volume takes long: the first picture is one of little.
+TEST(LivePicture, OfALargeVolumeIsCoarseFirstAndWholeNext) {
+  const OffscreenContext context;
+  VolumeView volume = view_of(sampled_block(Index3(257), Vec3(0.01), ScalarType::kUint8, blobs));
+  volume.table_entries = 64;
+  SceneView view = scene_of(volume);
+  LivePicture picture(100.0);
+  picture.draw(view, kSize, kSize, {.seconds = 1.0});
+  EXPECT_FALSE(picture.complete());
+  EXPECT_NE(picture.figures().quality, FrameQuality{});
+  const Image first = picture.read();
+  picture.draw(view, kSize, kSize, {.seconds = 2.0});
+  EXPECT_TRUE(picture.complete());
+  EXPECT_EQ(picture.figures().quality, FrameQuality{});
+  EXPECT_GT(largest_difference(first, picture.read()), 8);
+}
+
 // Who comes up while the full picture of a volume is drawn waits for a part of it alone; what was shown stays.
 TEST(LivePicture, IsLeftWhereInputWaits) {
   const OffscreenContext context;
