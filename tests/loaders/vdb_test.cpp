@@ -233,6 +233,24 @@ TEST(Vdb, WhatHasNoLinearPlaceOrNoVoxelIsRefused) {
             std::string::npos);
 }
 
+// Its table has as many blocks as the box, and most of what NanoVDB parts space into lies beyond it.
+TEST(Vdb, ALongThinBoxTakesNoLongerThanItsBlocks) {
+  const test::TempFolder folder;
+  openvdb::initialize();
+  constexpr int kFar = 1 << 28;
+  const auto thin = openvdb::FloatGrid::create();
+  thin->setName("thin");
+  thin->tree().setValue(openvdb::Coord(0), 1.0F);
+  thin->tree().setValue(openvdb::Coord(kFar, 0, 0), 2.0F);
+  Source source = Source::open({{write(folder, "thin.vdb", {thin})}, {}});
+  const DataSet block = source.read({"thin"}).front();
+  const DataArray& array = block.arrays.front();
+  ASSERT_EQ(array.tuples, std::size_t{kFar} + 1);
+  EXPECT_EQ(array.at(0, 0), 1.0);
+  EXPECT_EQ(array.at(kFar / 2, 0), 0.0);
+  EXPECT_EQ(array.at(kFar, 0), 2.0);
+}
+
 TEST(Vdb, GridsAreReadFromWhereTheirHeadsSayThatTheyStand) {
   const test::TempFolder folder;
   const auto second = ball();

@@ -65,11 +65,12 @@ SparseBuilder::Content SparseBuilder::at(const Index3& b) const noexcept {
 SparseBuilder::Content SparseBuilder::common(const Index3& first, int side) const noexcept {
   const Content all = at(first);
   if (all >= 0) return kMixed;
-  if (glm::any(glm::greaterThanEqual(first, blocks_))) return kOne;  // beyond the box
-  for (int z = 0; z < side; ++z) {
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        if (at(first + Index3(x, y, z)) != all) return kMixed;
+  const Index3 end = glm::min(first + side, blocks_);
+  if (all != kOne && end != first + side) return kMixed;  // beyond the box is the background
+  for (int z = first.z; z < end.z; ++z) {
+    for (int y = first.y; y < end.y; ++y) {
+      for (int x = first.x; x < end.x; ++x) {
+        if (contents_[index_in(blocks_, {x, y, z})] != all) return kMixed;
       }
     }
   }
@@ -96,7 +97,9 @@ std::shared_ptr<const SparseNumbers> SparseBuilder::finish() {
   for_each_index((blocks_ + (kUpperBlocks - 1)) / kUpperBlocks, [&](const Index3& u) {
     const std::size_t before = lowers.size();
     bool other = false;  // than the background
-    for_each_index(Index3(kUpperLowers), [&](const Index3& l) {
+    // Those within the box: a long thin one has far more beyond it.
+    const Index3 inside = (blocks_ - kUpperBlocks * u + (kLowerBlocks - 1)) / kLowerBlocks;
+    for_each_index(glm::min(Index3(kUpperLowers), inside), [&](const Index3& l) {
       const Index3 first = kUpperBlocks * u + kLowerBlocks * l;
       const Content all = common(first, kLowerBlocks);
       if (all == kMixed) lowers.push_back(first);
