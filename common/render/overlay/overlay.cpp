@@ -79,8 +79,8 @@ void draw_window(const OverlayPen& pen, const SceneView& view, int width) {
   const ValueWindow& window = view.slice->window;
   const std::string words = "W " + short_number(window.width) + "  L " + short_number(window.level);
   const float em = pen.text_height(), left = static_cast<float>(width) - em - OverlayPen::size_of(words).x;
-  // Beside the title, or where there is no room, below what is under the mouse.
-  pen.label(left, left > 2.0F * em + OverlayPen::size_of(view.title).x ? em : 4.8F * em, words);
+  if (left > 2.0F * em + OverlayPen::size_of(view.title).x)
+    pen.label(left, em, words);  // small pictures have no room
 }
 
 // The three axes of the data as arrows in the lower left corner, the farthest one first.
