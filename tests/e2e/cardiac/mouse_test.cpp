@@ -132,7 +132,9 @@ class CardiacMouse : public ExplorerTest {
     press("mode");
     press("fibre");
     press("Grab");
-    move_to(across, down);
+    at({.kind = InputKind::kMove,
+        .x = area().left + across * area().width,
+        .y = area().top + down * area().height});
     at({.kind = InputKind::kPress});
     next_ += 20;
   }
@@ -183,41 +185,6 @@ class CardiacMouse : public ExplorerTest {
     return nearest;
   }
 
-  /// Opens the session that was saved, which is to give the picture that was saved, to 1 of 255. @return its name.
-  std::string reopened(const WindowResult& saved, WindowResult& again) {
-    std::string session, first;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) {
-      const std::string name = entry.path().filename().string();
-      if (name.ends_with(".palpate.toml")) session = name;
-      if (name.starts_with("cardiac-") && name.ends_with(".png")) first = name;
-    }
-    EXPECT_FALSE(session.empty()) << saved.log;
-    EXPECT_FALSE(first.empty()) << saved.log;
-    if (session.empty() || first.empty()) return session;
-    fs::rename(folder_.path(first), folder_.path("first.png"));
-    choose_file(session);
-    press("Save picture");
-    again = open({});
-    const Image a = picture("first.png"), b = picture(first);
-    EXPECT_EQ(a.rgba.size(), b.rgba.size());
-    int worst = 0;
-    for (std::size_t i = 0; i < std::min(a.rgba.size(), b.rgba.size()); ++i)
-      worst = std::max(worst, std::abs(a.rgba[i] - b.rgba[i]));
-    EXPECT_LE(worst, 1) << "of 255, a session later";
-    return session;
-  }
-  void save_session_and_picture() {
-    press("Save session");
-    press("Save");
-    press("Save picture");
-  }
-  /// A place of the picture, from its upper left corner to the lower right one, to which the mouse goes.
-  void move_to(double across, double down) {
-    at({.kind = InputKind::kMove,
-        .x = area().left + across * area().width,
-        .y = area().top + down * area().height});
-  }
-
   /// The whole way with one heart. @param heart as it is named on the command line. @param length of the fibre, and
   /// @param off how far what is felt may lie from it, in the data's unit.
   void follow_keep_and_save(const std::string& file, double across, double down, double length, double off,
@@ -249,7 +216,9 @@ class CardiacMouse : public ExplorerTest {
     press("Save lines");
     press("Let go");
     press("Clear path");
-    save_session_and_picture();
+    press("Save session");
+    press("Save");
+    press("Save picture");
     const WindowResult kept = open({});
     EXPECT_NE(kept.log.find("kept line 1"), std::string::npos) << kept.log;
     ASSERT_TRUE(kept.view.probe && kept.view.probe->drawn_lines) << kept.log;
@@ -263,10 +232,25 @@ class CardiacMouse : public ExplorerTest {
     EXPECT_LT(farthest, off);
     RecordProperty("farthest from the fibre", std::to_string(farthest));
 
-    WindowResult again;
-    const std::string session = reopened(kept, again);
+    std::string session, first;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename().string();
+      if (name.ends_with(".palpate.toml")) session = name;
+      if (name.starts_with("cardiac-") && name.ends_with(".png")) first = name;
+    }
+    ASSERT_FALSE(session.empty()) << kept.log;
+    ASSERT_FALSE(first.empty()) << kept.log;
+    fs::rename(folder_.path(first), folder_.path("first.png"));
+    choose_file(session);
+    press("Save picture");
+    const WindowResult again = open({});
     EXPECT_EQ(again.document.heart.layer, kept.document.heart.layer);
     ASSERT_TRUE(again.view.probe && again.view.probe->drawn_lines) << again.log;
+    const Image a = picture("first.png"), b = picture(first);
+    ASSERT_EQ(a.rgba.size(), b.rgba.size());
+    int worst = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) worst = std::max(worst, std::abs(a.rgba[i] - b.rgba[i]));
+    EXPECT_LE(worst, 1) << "of 255, a session later";
     if (page.empty() || std::getenv("PALPATE_WRITE_PAGES") == nullptr) return;
     height_ = 720;
     choose_file(session);
@@ -332,89 +316,6 @@ void write_in_bath(const fs::path& file) {
 TEST_F(CardiacMouse, FollowsAFibreOfAHeartInABath) {
   write_in_bath(folder_.path("bath.pts"));
   follow_keep_and_save("bath.pts", 0.45, 0.5, 15.0, 1.0, "cardiac_bath.png");
-}
-
-/// A small ventricle whose fibres are `sign` times as steep, with a potential that goes up to `highest`.
-void write_small(const fs::path& file, double sign, double highest) {
-  const Ventricle heart;
-  const DataSet mesh = ventricle_mesh(heart, {.wall = 4, .along = 10, .around = 24});
-  const auto& cells = std::get<UnstructuredTopology>(mesh.topology);
-  std::vector<Vec3> fibres;
-  std::vector<double> potential;
-  for (std::size_t c = 0; c < cells.types.size(); ++c) {
-    Vec3 middle{0.0};
-    const std::int64_t first = cells.offsets[c], end = cells.offsets[c + 1];
-    for (std::int64_t i = first; i < end; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        middle[axis] += cells.positions.at(as_size(cells.connectivity[as_size(i)]), axis) /
-                        static_cast<double>(end - first);
-    fibres.push_back(heart.fibre(heart.coordinates(middle)));
-    fibres.back().z *= sign;
-    potential.push_back(highest * static_cast<double>(c) / static_cast<double>(cells.types.size()));
-  }
-  CarpOutput out(file, false, true);
-  out.write_mesh(cells, 1000.0, std::vector<int>(cells.types.size(), 1));
-  out.write_directions(fibres, {});
-  out.write_values("vm", potential);
-  out.finish();
-}
-
-TEST_F(CardiacMouse, TwoHeartsAreTurnedAndColouredTogether) {
-  write_small(folder_.path("a.pts"), 1.0, 10.0);
-  write_small(folder_.path("b.pts"), -1.0, 30.0);
-  choose_file("a.pts");
-  press("by");
-  press("vm");
-  press("COMPARE");
-  press("from its folder");
-  press("b.pts");
-  next_ += 30;
-  move_to(0.25, 0.5);
-  at({.kind = InputKind::kPress});
-  move_to(0.35, 0.4);
-  at({.kind = InputKind::kRelease});
-  save_session_and_picture();
-  const WindowResult two = open({});
-  EXPECT_EQ(two.document.heart.beside.filename(), "b.pts");
-  ASSERT_TRUE(two.view.beside) << two.log;
-  ASSERT_TRUE(two.view.style.array && two.view.beside->style.array);
-  EXPECT_EQ(two.view.style.array->unit, "mV");
-  EXPECT_EQ(two.view.style.array->range, two.view.beside->style.array->range);
-  ASSERT_TRUE(two.view.style.array->range);
-  EXPECT_GT(two.view.style.array->range->upper, 25.0) << "of both";
-  WindowResult again;
-  (void)reopened(two, again);
-  EXPECT_TRUE(again.view.beside) << again.log;
-}
-
-// What the wall was taken for is corrected with the brush; the session has it, and so has a mesh that is written of it.
-TEST_F(CardiacMouse, PaintedSurfacesAreSavedAsTags) {
-  write_small(folder_.path("a.pts"), 1.0, 10.0);
-  const auto outer_area = [&](const std::vector<std::string>& words) {
-    double area = 0.0;
-    const Json info = json(words);
-    for (const Json& part : info["surfaces"]["parts"])
-      if (part["name"] == "epicardium") area = part["area"].get<double>();
-    return area;
-  };
-  choose_file("a.pts");
-  press("base");
-  move_to(0.45, 0.55);
-  at({.kind = InputKind::kPress});
-  move_to(0.5, 0.6);
-  at({.kind = InputKind::kRelease});
-  next_ += 30;
-  press("base");
-  save_session_and_picture();
-  const WindowResult painted = open({});
-  ASSERT_GE(painted.document.input.paint.size(), 2U) << painted.log;
-  WindowResult again;
-  const std::string session = reopened(painted, again);
-  EXPECT_EQ(again.document.input.paint, painted.document.input.paint);
-  const double plain = outer_area({"info", "a.pts", "--surfaces", "plain.vtu"});
-  const double tagged = outer_area({"info", "--session", session, "--surfaces", "tagged.vtu"});
-  EXPECT_LT(tagged, plain);
-  EXPECT_NEAR(outer_area({"info", "tagged.vtu", "--surfaces", "again.vtu"}), tagged, 0.5 * (plain - tagged));
 }
 
 }  // namespace
