@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
     std::fputs("usage: replay SEED_FOLDER DAMAGED_COPIES_OF_EACH [MEMORY_IN_MIB [RANDOM_START]]\n", stderr);
     return 2;
   }
+#if !PALPATE_UNDER_ASAN  // whose shadow of memory counts
   if (argc > 3) {
     const rlimit memory{static_cast<rlim_t>(std::atoi(argv[3])) << 20U, RLIM_INFINITY};
     if (::setrlimit(RLIMIT_AS, &memory) != 0) return 2;
