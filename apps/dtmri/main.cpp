@@ -35,7 +35,9 @@ int main(int argc, char** argv) {
                     "s.png",
                     "an axial slice with glyphs, seen from above"},
                    {"dtmri render tensors.nii.gz --color fa --voxels linear --out fa.png",
-                    "fractional anisotropy"}}),
+                    "fractional anisotropy"},
+                   {"dtmri render --example helix --path path.csv --out hand.png",
+                    "what a hand on a recorded path has drawn, coloured by the tension"}}),
               tensor_slice_verb(
                   {{"dtmri slice dwi.nii.gz --seeds fa:0.5 --out slices.png",
                     "three slices with tracts over them, and the scene"},

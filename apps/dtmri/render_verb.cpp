@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/dtmri/bundles.h"
 #include "apps/dtmri/dtmri_verbs.h"
@@ -15,7 +17,11 @@
 #include "common/cli/picture.h"
 #include "common/cli/verbs.h"
 #include "common/compose/text/slice_panes_text.h"
+#include "common/device/probe_path.h"
 #include "common/field/tensor/tensor_measure.h"
+#include "common/hand/mode/haptic_mode.h"
+#include "common/hand/probe_picture.h"
+#include "common/hand/touch_options.h"
 
 namespace palpate {
 namespace {
@@ -63,6 +69,27 @@ void add_bundles(const Document& options, const VerbContext& context, const Tens
   drawn.what += ", " + counted(set->bundles.size(), "bundle");
 }
 
+/// What a hand on the path has felt of the tensors (Ikits 2006, figure 8.4), and the fixtures that it meets.
+void show_touch(const Document& options, const VerbContext& context, DrawnScene& drawn) {
+  if (options.hand.path.empty() && options.touch.fixtures.list.empty()) return;
+  if (!drawn.view.tensors || !drawn.view.tensors->image->field)
+    throw usage_error("--path, --fixture: there are no tensors that a hand could feel");
+  const auto& field = drawn.view.tensors->image->field;
+  const Workspace workspace = touch_workspace(options.touch, field->bounds().diagonal(), field->frame());
+  HapticScene scene{
+      nullptr, workspace, touch_settings(options.touch, nullptr, workspace), options.common.threads,
+      nullptr, field};
+  for (const std::string& note :
+       take_fixtures(options.touch, field->bounds(), scene, drawn.view, &context.progress))
+    context.console.note(note);
+  if (options.hand.path.empty()) return;
+  const std::vector<HapticMode> modes = modes_of(FieldKind::kTensor);
+  show_hand(std::make_shared<PathHand>(read_probe_path(options.hand.path.string()),
+                                       make_chain(find_mode(modes, options.touch.mode), scene), scene,
+                                       options.touch, drawn.view.style),
+            options, drawn);
+}
+
 DrawnScene make_scene(Input& input, const Document& given, const VerbContext& context, double aspect) {
   Document options = with_input_role(given, input);
   // The scene is as large as the tracts of the input, whichever bundle takes them.
@@ -107,6 +134,7 @@ DrawnScene make_scene(Input& input, const Document& given, const VerbContext& co
   drawn.view = make_tensor_scene(input, std::move(parts), options, aspect);
   if (taken) drawn.lines = drawn.points = 0;
   add_bundles(options, context, made, taken, drawn);
+  show_touch(options, context, drawn);
   return drawn;
 }
 
@@ -116,6 +144,7 @@ ExitCode run_render(const Document& options, const VerbContext& context) {
                                  check_tensor_options(given);
                                  check_view_tracts(given.tracts, given.tract_appearance);
                                  (void)slice_panes_of(given.panes, Box());
+                                 check_hand(modes_of(FieldKind::kTensor), given);
                                },
                            .check_input = check_input,
                            .make = make_scene};
@@ -127,8 +156,8 @@ ExitCode run_render(const Document& options, const VerbContext& context) {
 Verb tensor_render_verb(std::vector<UsageExample> examples) {
   return {.name = "render",
           .summary = "draw a picture of the tensors, with or without a display",
-          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kOut, Group::kPicture,
-                     Group::kNotes},
+          .groups = {Group::kInput, Group::kLines, Group::kView, Group::kPanes, Group::kTouch, Group::kPath,
+                     Group::kOut, Group::kPicture, Group::kNotes},
           .examples = std::move(examples),
           .run = run_render};
 }

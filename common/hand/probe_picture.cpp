@@ -1,5 +1,6 @@
 #include "common/hand/probe_picture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -17,6 +18,11 @@ namespace palpate {
 double ball_interval(const VectorField& field, const Workspace& workspace) noexcept {
   constexpr double kTicks = 4.0;
   return kTicks * default_tick_interval(field, workspace);
+}
+
+std::optional<ValueRange> tension_range(const ChainSettings& settings, double force_cap) {
+  const double most = std::min(force_cap, settings.stiffness * settings.anisotropy.tau.highest());
+  return most > 0.0 ? std::optional(ValueRange{0.0, most}) : std::nullopt;
 }
 
 std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace) {
@@ -96,6 +102,13 @@ ProbeView PathHand::at(double part) {
     CellHint hint;
     const VectorSample sample = s.scene.field->sample(view.proxy, hint);
     if (sample.status == SampleStatus::kOk) view.velocity = sample.value;
+  }
+  // Of a heart the tensors are its fibres, which have no glyph.
+  if (s.scene.tensor && !s.scene.scalar) {
+    CellHint hint;
+    const TensorSample sample = s.scene.tensor->sample(view.proxy, hint);
+    if (sample.status == SampleStatus::kOk) view.tensor = sample.value;
+    view.path.range = tension_range(s.scene.settings, view.force_cap);
   }
   if (s.followed) {
     s.followed->update(s.options.stream_balls ? ball_interval(*s.scene.field, workspace) : 0.0, s.style);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace palpate {
 
 /// Time between stream balls [data units].
 [[nodiscard]] double ball_interval(const VectorField& field, const Workspace& workspace) noexcept;
+
+/// Over which forces the colours of a path through tensors spread: up to the most that their thresholds let the hand
+/// feel, which may be little of what the device could show. None where that is none.
+[[nodiscard]] std::optional<ValueRange> tension_range(const ChainSettings& settings, double force_cap);
 
 /// The proxies of all links [data units], in the order of the chain.
 [[nodiscard]] std::vector<Vec3> link_proxies(const ChainStep& step, const Workspace& workspace);
@@ -36,7 +41,8 @@ class PathHand {
   PathHand& operator=(const PathHand&) = delete;
 
   /// Goes on to where `part` of the path's time is over, and describes the hand there: probe and proxies, the line that
-  /// is followed then, and where the first proxy has been. A hand does not go back.
+  /// is followed then, the tensor at the proxy of an image of tensors, and where the first proxy has been. A hand does not
+  /// go back.
   /// @param part in [0, 1]; 1 is the last row, whatever its time.
   [[nodiscard]] ProbeView at(double part);
 

@@ -19,13 +19,6 @@ bool is_on_line(const HandStep& step) {
   return step.state == HoldState::kHeld || step.state == HoldState::kFellBack;
 }
 
-/// Of the path through tensors: up to the most that their thresholds let the hand feel, which may be little
-/// of what the device could show.
-std::optional<ValueRange> tension_range(const ChainSettings& settings, double force_cap) {
-  const double most = std::min(force_cap, settings.stiffness * settings.anisotropy.tau.highest());
-  return most > 0.0 ? std::optional(ValueRange{0.0, most}) : std::nullopt;
-}
-
 }  // namespace
 
 void ProbeTrail::open_data() {

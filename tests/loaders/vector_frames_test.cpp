@@ -14,6 +14,7 @@
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/tensor/diffusion_measures.h"
 #include "common/field/tensor/gradient_table.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/load/write/write_image.h"
 #include "common/math/symmetric3.h"
 #include "common/scene/input.h"
@@ -136,6 +137,25 @@ TEST(VectorFrames, OfPeaksAreFoundAndTheLongestIsTaken) {
         made.notes, [](const std::string& one) { return one.find("peaks, 3 a voxel") != std::string::npos; });
     ASSERT_NE(note, made.notes.end());
     EXPECT_NE(note->find("25 % of the voxels"), std::string::npos) << *note;
+    // All of them are kept in the same axes, the second ones too, wherever they stand.
+    const auto field = make_tensor_field(made.image, made.choice, "peaks.nii");
+    ASSERT_NE(field->peaks(), nullptr);
+    std::size_t at = 0, seconds = 0;
+    for (int k = 0; k < helix.topology.points.z; ++k) {
+      for (int j = 0; j < helix.topology.points.y; ++j) {
+        for (int i = 0; i < helix.topology.points.x; ++i, ++at) {
+          const SymmetricEigen found = along(at);
+          if (!(found.values[0] > 2.0 * found.values[1])) continue;
+          const Vec3 x = helix.topology.origin + helix.topology.axes * Vec3(i, j, k);
+          for (int e = 0; e < (crossing(at) ? 2 : 1); ++e) {
+            const Vec3 peak = field->peaks()->nearest(x, found.vectors[e]);
+            ASSERT_GT(std::abs(glm::dot(glm::normalize(peak), found.vectors[e])), 1.0 - 1e-6) << at;
+            seconds += e == 1 ? 1 : 0;
+          }
+        }
+      }
+    }
+    EXPECT_GT(seconds, 100U);
   }
   // All eigenvectors, as long as each other but for rounding.
   folder.write("peaks.nii", helix.image({9}, 0, [&](std::size_t p, int v) {
