@@ -77,7 +77,13 @@ void draw_title(const OverlayPen& pen, const SceneView& view) {
 void draw_window(const OverlayPen& pen, const SceneView& view, int width) {
   if (!view.slice || view.slice->image->labels) return;
   const ValueWindow& window = view.slice->window;
-  const std::string words = "W " + short_number(window.width) + "  L " + short_number(window.level);
+  // In steps that are not seen: a two-hundredth of the width or less, as 1, 0.1, 0.01.
+  const double step = std::pow(10.0, std::floor(std::log10(window.width / 200.0)));
+  const auto text = [step](double value) {
+    const double rounded = std::round(value / step) * step;
+    return short_number(std::isfinite(rounded) ? rounded + 0.0 : value);
+  };
+  const std::string words = "W " + text(window.width) + "  L " + text(window.level);
   const float em = pen.text_height(), left = static_cast<float>(width) - em - OverlayPen::size_of(words).x;
   if (left > 2.0F * em + OverlayPen::size_of(view.title).x)
     pen.label(left, em, words);  // small pictures have no room
