@@ -90,7 +90,7 @@ Reached reached_exactly(TractWalk<Tensors, Rk4>& walk, const Vec3& seed, double 
   Reached ends;
   TractState start;
   start.position = seed * to_s;
-  if (walk.sample(start.position, start.tensor) != SampleStatus::kOk) return ends;
+  if (walk.sample(start.position, Vec3(1.0, 0.0, 0.0), start.tensor) != SampleStatus::kOk) return ends;
   const Vec3 along = symmetric_eigen(start.tensor.matrix()).vectors[0];
   const int steps = static_cast<int>(std::lround(kReach / step));
   for (std::size_t side = 0; side < 2; ++side) {

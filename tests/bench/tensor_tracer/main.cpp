@@ -112,7 +112,8 @@ LinesBySeed signal_lines(const NiftiImage& signals, const std::vector<std::array
   for (const Vec3& seed : seeds) {
     TractState start;
     start.position = seed;
-    if (walk.sample(seed, start.tensor) != SampleStatus::kOk || fractional_anisotropy(start.tensor) < kCutoff)
+    if (walk.sample(seed, Vec3(1.0, 0.0, 0.0), start.tensor) != SampleStatus::kOk ||
+        fractional_anisotropy(start.tensor) < kCutoff)
       continue;
     const Vec3 along = symmetric_eigen(start.tensor.matrix()).vectors[0];
     std::vector<Vec3> line{seed};

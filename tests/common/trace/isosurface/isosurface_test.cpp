@@ -225,7 +225,7 @@ TEST_P(OnGrids, PathsMissNoCrossing) {
       EXPECT_EQ(path.side[l], above[l] ? 1 : -1);
     }
   }
-  EXPECT_GT(found, 300);
+  EXPECT_GT(found, test::samples_of(300));
 }
 
 // A plane on any lattice: its closest point is the foot of the perpendicular, in the world.
