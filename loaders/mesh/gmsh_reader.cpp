@@ -397,7 +397,13 @@ class GmshReader {
     }
     std::set<std::int64_t> groups(faces_.numbers.begin(), faces_.numbers.end());
     std::string of_groups;
+    constexpr std::size_t kMostListed = 12;
+    std::size_t listed = 0;
     for (const std::int64_t group : groups) {
+      if (listed++ == kMostListed) {
+        of_groups += ", … (" + std::to_string(groups.size()) + " in all)";
+        break;
+      }
       const auto name = names_.find(group);
       of_groups += (of_groups.empty() ? ", of the physical groups " : ", ") + std::to_string(group) +
                    (name == names_.end() ? "" : " '" + name->second + "'");

@@ -119,6 +119,19 @@ TEST_F(Meshes, PhysicalGroupsOfGmshNameSurfacesOfAWall) {
   }
 }
 
+TEST_F(Meshes, ManyPhysicalGroupsAreCounted) {
+  std::string elements;
+  for (int group = 1; group <= 500; ++group)
+    elements += std::to_string(group) + " 2 2 " + std::to_string(group) + " 1 1 2 3\n";
+  const auto file = folder_.write(
+      "a.msh",
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n"
+      "$Elements\n501\n" +
+          elements + "501 4 2 1 1 1 2 3 4\n$EndElements\n");
+  const Source source = Source::open({{file}, {}});
+  EXPECT_TRUE(says(source.info().notes, "12, … (500 in all)"));
+}
+
 TEST_F(Meshes, GmshHasTimesAndValuesOfElements) {
   std::string file = gmsh_file(cell_kinds().front(), false, false, false);
   file = replaced(file, "\n0.0\n3\n0\n", "\n0.5\n3\n0\n");
