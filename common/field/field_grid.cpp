@@ -98,7 +98,7 @@ void note_blanking(FieldGrid& grid, const DataSet& block) {
 }
 
 /// Null where the axes are all but in one plane.
-std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string& file) {
+std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string& file, FallingAxes falling) {
   const auto& topology = std::get<UniformTopology>(block.topology);
   const Index3& n = topology.points;
   refuse_flat(n, file);
@@ -121,7 +121,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   Vec3 spacing{0.0};
   Mat3 direction{1.0};
   Mat3 along_axes{1.0};  // B of box_grid.h
-  bool aligned = true, sheared = false;
+  bool aligned = true, sheared = false, turned = false;
   double skew = 0.0;  // the largest cosine between two axes
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3& a = axes[axis];
@@ -135,19 +135,26 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
   }
   if (aligned) {
     for (int axis = 0; axis < 3; ++axis) {
-      if (axes[axis][axis] < 0.0) reverse(axis);
-      spacing[axis] = axes[axis][axis];
+      const bool falls = axes[axis][axis] < 0.0;
+      spacing[axis] = std::abs(axes[axis][axis]);
+      if (falls && falling == FallingAxes::kReversed) reverse(axis);
+      if (falls && falling == FallingAxes::kMirrored) {
+        grid->frame.rotation[axis][axis] = -1.0;
+        grid->frame.rotated = true;
+      }
     }
   } else {
     skew = std::max({std::abs(glm::dot(direction[0], direction[1])),
                      std::abs(glm::dot(direction[1], direction[2])),
                      std::abs(glm::dot(direction[2], direction[0]))});
     sheared = skew > kRightAngle;
-    if (glm::determinant(direction) < 0.0) {
+    const bool left_handed = glm::determinant(direction) < 0.0;
+    if (left_handed && falling == FallingAxes::kReversed) {
       reverse(0);
       direction[0] = -direction[0];
     }
-    const double volume = glm::determinant(direction);
+    const double handed = left_handed && falling == FallingAxes::kMirrored ? -1.0 : 1.0;
+    const double volume = handed * glm::determinant(direction);
     if (sheared && !(volume > kNoVolume))
       refuse_data(file, "axes of the grid that lie in one plane", "three directions");
     if (sheared && volume <= kFlattest) return nullptr;
@@ -155,7 +162,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
     // A signed permutation is orthonormal as it is; other axes are made so, the first kept.
     if (skew > 0.0) {
       direction[1] = glm::normalize(direction[1] - glm::dot(direction[0], direction[1]) * direction[0]);
-      direction[2] = glm::cross(direction[0], direction[1]);
+      direction[2] = handed * glm::cross(direction[0], direction[1]);
     }
     if (sheared) {
       along_axes = glm::transpose(direction) * own;
@@ -163,7 +170,7 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
       along_axes[1].z = 0.0;
     }
     grid->frame.rotation = direction;
-    grid->frame.rotated = true;
+    grid->frame.rotated = turned = true;
     if (skew > 0x1p-40 && !sheared) {
       grid->notes.lines.push_back("the grid's axes are off a right angle by " + number_text(skew) +
                                   ": taken as right angles");
@@ -195,8 +202,8 @@ std::shared_ptr<FieldGrid> make_uniform(const DataSet& block, const std::string&
                               (sheared ? ", its axes off right angles by " +
                                              number_text(std::asin(std::min(1.0, skew)) * kDegreesARadian) +
                                              " degrees"
-                               : grid->frame.rotated ? ", turned against the axes"
-                                                     : "") +
+                               : turned ? ", turned against the axes"
+                                        : "") +
                               ": trilinear interpolation");
   note_blanking(*grid, block);
   return grid;
@@ -481,13 +488,13 @@ std::size_t FieldGrid::point_count() const noexcept {
 namespace {
 
 std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, const std::string& file,
-                                           int threads, const GridValue* value) {
+                                           int threads, FallingAxes falling, const GridValue* value) {
   std::shared_ptr<FieldGrid> grid;
   if (blocks.size() == 1) {
     const DataSet& block = blocks.front();
     check_block(block, 0, 1, file);
     if (std::holds_alternative<RectilinearTopology>(block.topology)) grid = make_rectilinear(block, file);
-    if (std::holds_alternative<UniformTopology>(block.topology)) grid = make_uniform(block, file);
+    if (std::holds_alternative<UniformTopology>(block.topology)) grid = make_uniform(block, file, falling);
   }
   if (!grid) grid = make_tetrahedra(blocks, file, threads, value);
   std::size_t loose = 0;
@@ -508,13 +515,13 @@ std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, cons
 }  // namespace
 
 std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
-                                                 int threads) {
-  return make_grid(blocks, file, threads, nullptr);
+                                                 int threads, FallingAxes falling) {
+  return make_grid(blocks, file, threads, falling, nullptr);
 }
 
 std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks, const std::string& file,
                                                  int threads, const GridValue& value) {
-  return make_grid(blocks, file, threads, &value);
+  return make_grid(blocks, file, threads, FallingAxes::kReversed, &value);
 }
 
 }  // namespace palpate

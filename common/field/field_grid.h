@@ -22,7 +22,7 @@ struct MadePoints;  // curved_split.h
 
 /// Exactly one of `box` and `tets` is not null.
 struct FieldGrid {
-  LocalFrame frame;  ///< lengths and rotation; its speed exponent is zero
+  LocalFrame frame;  ///< lengths and axes; its speed exponent is zero
   Box bounds;        ///< data coordinates
   std::shared_ptr<const BoxGrid> box;
   std::shared_ptr<const TetMesh> tets;
@@ -44,10 +44,19 @@ struct FieldGrid {
   }
 };
 
+/// How a box grid, whose coordinates rise, takes axes of the data that fall or that are left-handed.
+enum class FallingAxes {
+  kReversed,  ///< points in another order than the data's
+  /// The data's order of points, in a frame that is mirrored where need be: values of scalars stay where they lie. Of a
+  /// uniform block alone.
+  kMirrored,
+};
+
 /// One uniform or rectilinear block becomes a box grid, a sheared one, too; everything else is split into tetrahedra.
 /// @throws Error (bad input) with `file` for hostile or flat topologies.
 [[nodiscard]] std::shared_ptr<const FieldGrid> make_field_grid(std::span<const DataSet> blocks,
-                                                               const std::string& file, int threads);
+                                                               const std::string& file, int threads,
+                                                               FallingAxes falling = FallingAxes::kReversed);
 
 /// How cell values come to the points. Tensors and outer products take the mean: it is positive where they are.
 enum class CellRule {

@@ -4,6 +4,7 @@
 ///   x_X = 2^length_exponent  R x_L          v_X = 2^speed_exponent  R v_L
 ///   t_X = 2^(length_exponent - speed_exponent) t_L
 ///
+/// R is a rotation; of a field of scalars, which no hand of the axes changes, it may mirror (FallingAxes).
 /// With R = 1 (all but rotated images) every conversion is exact: a data set scaled by 2^k gives the
 /// same bits in L. Nothing is translated, since a translation would round.
 #pragma once

@@ -13,7 +13,6 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/parallel.h"
-#include "common/base/read_as.h"
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/cells/boundary_values.h"
 #include "common/field/cells/cell_values.h"
@@ -74,48 +73,6 @@ bool share_values(const FieldGrid& grid, const std::vector<DataSet>& used, const
       return share<std::int16_t>(array, values);
     case ScalarType::kUint16:
       return share<std::uint16_t>(array, values);
-    default:
-      return false;
-  }
-}
-
-template <typename T>
-void reorder(const FieldGrid& grid, const DataArray& array, int threads, PointScalars& values) {
-  const Index3& n = grid.box->points();
-  const auto row = as_size(n.x);
-  const std::shared_ptr<T[]> numbers(new T[array.tuples]);
-  parallel_for(as_size(n.y) * as_size(n.z), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const int y = static_cast<int>(i % as_size(n.y)), z = static_cast<int>(i / as_size(n.y));
-      const std::size_t from = grid.data_index(n, {0, y, z});
-      const bool falls = grid.data_index(n, {1, y, z}) < from;
-      T* const to = numbers.get() + i * row;
-      for (std::size_t x = 0; x < row; ++x) to[x] = read_as<T>(array.bytes, falls ? from - x : from + x);
-    }
-  });
-  values.values = std::span<const T>(numbers.get(), array.tuples);
-  values.owner = numbers;
-}
-
-/// Takes whole numbers of 8 or 16 bits in the order of a box grid whose axes run the other way than the data's: the axes of
-/// most medical images do. @return false, nothing done, for others.
-bool reorder_values(const FieldGrid& grid, const std::vector<DataSet>& used, const ScalarChoice& choice,
-                    int threads, PointScalars& values) {
-  if (!grid.box || grid.blanked || used.size() != 1 || choice.association != Association::kPoint ||
-      choice.component != 0)
-    return false;
-  const DataArray& array = *used.front().find(choice.array, Association::kPoint);
-  if (array.components != 1 || array.sparse || array.tuples != grid.point_count()) return false;
-  switch (array.type) {
-    case ScalarType::kUint8:
-      reorder<std::uint8_t>(grid, array, threads, values);
-      return true;
-    case ScalarType::kInt16:
-      reorder<std::int16_t>(grid, array, threads, values);
-      return true;
-    case ScalarType::kUint16:
-      reorder<std::uint16_t>(grid, array, threads, values);
-      return true;
     default:
       return false;
   }
@@ -193,9 +150,7 @@ class ScalarFieldBuilder {
                                                       int threads) {
     auto field = on_grid(std::move(grid), choice.array);
     field->notes_ = std::move(notes);
-    if (!share_values(*field->grid_, used, choice, field->values_) &&
-        !reorder_values(*field->grid_, used, choice, threads, field->values_))
-      gather(used, choice, threads, *field);
+    if (!share_values(*field->grid_, used, choice, field->values_)) gather(used, choice, threads, *field);
     take_range(*field, threads);
     return field;
   }
@@ -374,7 +329,8 @@ std::shared_ptr<const ScalarField> make_scalar_field(const std::vector<DataSet>&
     used.push_back(block);
   }
   if (used.empty()) refuse_missing(choice, file);
-  auto grid = keep_values(make_field_grid(used, file, threads), used, choice, file, threads, notes);
+  auto grid = keep_values(make_field_grid(used, file, threads, FallingAxes::kMirrored), used, choice, file,
+                          threads, notes);
   notes.zero_volume_cells = grid->notes.zero_volume_cells;
   notes.inverted_cells = grid->notes.inverted_cells;
   notes.lines.insert(notes.lines.end(), grid->notes.lines.begin(), grid->notes.lines.end());

@@ -197,6 +197,17 @@ Vec3 spacing_of(const std::string& text) {
   return spacing;
 }
 
+/// The axes of the data's lattice, right-handed; those along the axes of the data's space run as these do.
+Mat3 rising_axes(const LocalFrame& local) {
+  if (!local.rotated) return Mat3{1.0};
+  Mat3 axes = local.rotation;
+  bool aligned = true;
+  for (int a = 0; a < 3; ++a) aligned = aligned && std::abs(axes[a][a]) == 1.0;
+  if (aligned) return Mat3{1.0};
+  if (glm::determinant(axes) < 0.0) axes[0] = -axes[0];
+  return axes;
+}
+
 void check_read(const std::optional<std::string>& problem, const char* option) {
   if (problem) throw usage_error(std::string(option) + ": " + *problem);
 }
@@ -206,7 +217,7 @@ void check_read(const std::optional<std::string>& problem, const char* option) {
 Mat3 grid_axes(const GridFrame& frame, const LocalFrame& local) {
   switch (frame.kind) {
     case GridFrame::Kind::kData:
-      return local.rotated ? local.rotation : Mat3{1.0};
+      return rising_axes(local);
     case GridFrame::Kind::kWorld:
       break;
     case GridFrame::Kind::kPlane: {

@@ -83,6 +83,9 @@ class Triangles {
       mesh.normals.emplace_back(frame.rotated ? frame.rotation * unit : unit);
     }
     for (Vec3& x : mesh.points) x = frame.data_from_local(x);
+    if (frame.rotated && glm::determinant(frame.rotation) < 0.0) {  // a mirror turns triangles over
+      for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+    }
     return mesh;
   }
 

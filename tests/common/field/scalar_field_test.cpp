@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <span>
+#include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +73,53 @@ TEST(ScalarField, LinearFieldsAndTheirGradientsAreExactOnEveryGrid) {
     }
     EXPECT_NEAR(scalar->lowest(), -2.0, 1e-12);
     EXPECT_NEAR(scalar->highest(), 3.5, 1e-12);
+  }
+}
+
+/// Axes of medical images: along those of the world or turned, each rising or falling, right-handed or not.
+std::vector<Mat3> image_axes() {
+  const Mat3 turned{Vec3{0.6, 0.8, 0.0}, Vec3{-0.8, 0.6, 0.0}, Vec3{0.0, 0.0, 1.0}};
+  const Mat3 upright{Vec3{0.0, 0.0, 1.0}, Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}};
+  const Mat3 leaning{Vec3{1.0, 0.0, 0.0}, Vec3{0.2, 1.0, 0.0}, Vec3{0.1, -0.3, 1.0}};
+  std::vector<Mat3> out;
+  for (const Mat3& axes : {Mat3{1.0}, turned, upright, leaning}) {
+    for (int signs = 0; signs < 8; ++signs) {
+      Mat3 image = axes;
+      for (int axis = 0; axis < 3; ++axis) image[axis] *= ((signs >> axis) & 1 ? -1.0 : 1.0) * (0.5 + axis);
+      out.push_back(image);
+    }
+  }
+  return out;
+}
+
+// A copy of the voxels of a CT would double the memory that a window takes.
+TEST(ScalarField, VoxelsOfAnyAxesStayWhereTheyLie) {
+  std::mt19937_64 random(12);
+  for (const Mat3& axes : image_axes()) {
+    const Index3 points{4, 3, 5};
+    const Vec3 origin{7.0, -20.0, 3.0};
+    std::vector<std::int16_t> values;
+    for (int k = 0; k < points.z; ++k) {
+      for (int j = 0; j < points.y; ++j) {
+        for (int i = 0; i < points.x; ++i)
+          values.push_back(static_cast<std::int16_t>(1 + 2 * i - 30 * j + 5 * k));
+      }
+    }
+    DataSet block;
+    block.topology = UniformTopology{points, origin, axes};
+    block.arrays = {make_array("t", Association::kPoint, 1, std::span<const std::int16_t>(values))};
+    const auto field = make_scalar_field({block}, {"t"}, "test");
+    const auto* kept = std::get_if<std::span<const std::int16_t>>(&field->values().values);
+    ASSERT_NE(kept, nullptr);
+    EXPECT_EQ(static_cast<const void*>(kept->data()), block.arrays.front().bytes.data());
+    CellHint hint;
+    const Vec3 gradient = Vec3{2.0, -30.0, 5.0} * glm::inverse(axes);
+    for (int i = 0; i < 30; ++i) {
+      const Vec3 g = Vec3{unit(random), unit(random), unit(random)} * Vec3(points - 1), x = origin + axes * g;
+      ASSERT_EQ(field->sample(x, hint).status, SampleStatus::kOk);
+      EXPECT_NEAR(field->sample(x, hint).value, 1.0 + glm::dot(Vec3{2.0, -30.0, 5.0}, g), 1e-11);
+      EXPECT_LT(glm::distance(field->gradient(x, hint).value, gradient), 1e-10 * glm::length(gradient));
+    }
   }
 }
 

@@ -93,7 +93,8 @@ TEST(IsosurfaceMesh, IsClosedOnEveryKindOfGrid) {
   for (const auto& field :
        {on_uniform(sphere_scalar(), {20, 23, 26}), on_rectilinear(sphere_scalar(), {22, 20, 24}),
         on_lattice(sphere_scalar(), {38, 38, 32}, test::sheared_steps(0.1)),
-        on_tets(sphere_scalar(), {14, 15, 16}), make_scalar_field(sphere_scalar())}) {
+        on_lattice(sphere_scalar(), {22, 22, 22}, Mat3{-0.12}), on_tets(sphere_scalar(), {14, 15, 16}),
+        make_scalar_field(sphere_scalar())}) {
     const IsosurfaceMesh mesh = make_isosurface_mesh(*field, kLevel, kPlenty);
     expect_closed(mesh);
     expect_on_surface(mesh, *field);
