@@ -26,20 +26,6 @@ function(palpate_module folder)
   endif()
 endfunction()
 
-# palpate_join(target SOURCES a.cpp b.cpp … SOURCES c.cpp d.cpp …)
-# What a unity build joins of a target whose sources name their parts alike: those of each list. Others stay alone.
-function(palpate_join target)
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  set(list 0)
-  foreach(word ${ARGN})
-    if(word STREQUAL SOURCES)
-      math(EXPR list "${list} + 1")
-    else()
-      set_source_files_properties(${word} PROPERTIES UNITY_GROUP ${list})
-    endif()
-  endforeach()
-endfunction()
-
 # palpate_helper(name SOURCES … USES … COMPONENT palpate-mesh): a helper program, in lib/palpate beside bin/, and the
 # package that it is in: palpate-common, where nothing else is said.
 function(palpate_helper name)

@@ -22,7 +22,6 @@
 namespace palpate {
 namespace {
 
-constexpr Rgb kMuscle{0.55F, 0.30F, 0.27F};
 constexpr std::size_t kMostStrokes = 40'000;  // more are a hatching too fine to be seen
 /// Of a fibre's length, that a surface must show of it: one that stands on the surface has no stroke there.
 constexpr double kLeastAlong = 0.2;
@@ -122,7 +121,7 @@ void add_strokes(BareHeart& heart, const Direction& direction, Progress* progres
                         " along which a fibre lies");
 }
 
-const UnstructuredTopology& cells_of(const DataSet& block, const std::string& file) {
+const UnstructuredTopology& volume_cells(const DataSet& block, const std::string& file) {
   if (const auto* cells = std::get_if<UnstructuredTopology>(&block.topology)) return *cells;
   throw input_error({file, "", "is a flat image or grid", "a mesh of triangles or volume cells", ""});
 }
@@ -163,7 +162,7 @@ std::vector<std::array<std::size_t, 3>> triangles_in(std::uint8_t type, std::siz
 
 /// Triangles and lines of a mesh. @param shell whether its triangles are drawn.
 void add_flat_cells(BareHeart& heart, const DataSet& block, bool shell, const std::string& file) {
-  const UnstructuredTopology& cells = cells_of(block, file);
+  const UnstructuredTopology& cells = volume_cells(block, file);
   SurfaceMaker surface(heart);
   std::size_t curved = 0, unfit = 0;
   for (std::size_t c = 0; c < cells.types.size(); ++c) {

@@ -19,6 +19,7 @@
 namespace palpate {
 
 /// What colours a heart where nobody says.
+inline constexpr Rgb kMuscle{0.55F, 0.30F, 0.27F};  ///< a wall without colours of its own
 inline constexpr const char* kDefaultAngle = "helix";
 /// Whether it is one of cardiac's own words, which take layers, and no scalar of the file.
 [[nodiscard]] bool is_wall_word(std::string_view angle);

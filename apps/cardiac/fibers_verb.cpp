@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -20,12 +19,12 @@
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 #include "common/scene/wall/open_wall.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kRadian = std::numbers::pi / 180.0;
 constexpr double kMicrometre = 1000.0;  // of a millimetre
 
 FibreRule rule_of(const HeartOptions& options) {
@@ -227,14 +226,14 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
   const HeartOptions& heart = options.heart;
   context.progress.begin("making fibres", 0);
   const RuleFibres made = make_rule_fibres(*wall.grid, wall.surfaces, rule_of(heart),
-                                           {.endo = kRadian * heart.endo,
-                                            .epi = kRadian * heart.epi,
-                                            .sheet_endo = kRadian * heart.sheet_endo,
-                                            .sheet_epi = kRadian * heart.sheet_epi,
-                                            .right_endo = kRadian * heart.right_endo,
-                                            .right_epi = kRadian * heart.right_epi,
-                                            .transverse_endo = kRadian * heart.transverse_endo,
-                                            .transverse_epi = kRadian * heart.transverse_epi},
+                                           {.endo = kRadiansADegree * heart.endo,
+                                            .epi = kRadiansADegree * heart.epi,
+                                            .sheet_endo = kRadiansADegree * heart.sheet_endo,
+                                            .sheet_epi = kRadiansADegree * heart.sheet_epi,
+                                            .right_endo = kRadiansADegree * heart.right_endo,
+                                            .right_epi = kRadiansADegree * heart.right_epi,
+                                            .transverse_endo = kRadiansADegree * heart.transverse_endo,
+                                            .transverse_epi = kRadiansADegree * heart.transverse_epi},
                                            input.title(), options.common.threads);
   FibreRuleSummary summary{.input = input.title(),
                            .files = {},
@@ -252,8 +251,8 @@ ExitCode run_fibers(const Document& options, const VerbContext& context) {
                            .undefined = made.undefined,
                            .without = made.without,
                            .farthest = made.farthest,
-                           .median_turn = made.median_turn / kRadian,
-                           .most_turn = made.most_turn / kRadian,
+                           .median_turn = made.median_turn / kRadiansADegree,
+                           .most_turn = made.most_turn / kRadiansADegree,
                            .two = wall.surfaces.has(BorderRole::kRight),
                            .notes = wall.notes};
   if (summary.doste)

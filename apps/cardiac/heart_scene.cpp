@@ -25,6 +25,7 @@
 #include "common/field/tensor/eigenframe.h"
 #include "common/load/stated_unit.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 #include "common/scene/seeds.h"
 #include "common/trace/isosurface/isosurface_mesh.h"
 
@@ -32,9 +33,7 @@ namespace palpate {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 57.29577951308232;
 constexpr std::size_t kMostTriangles = 4'000'000;
-constexpr Rgb kMuscle{0.55F, 0.30F, 0.27F};
 
 /// Of a ball.
 double reach_along_x(const ConvexShape::Quadric& ball) { return 1.0 / glm::length(ball.unit_from_data[0]); }
@@ -126,7 +125,7 @@ double AngleProbe::at(const Vec3& x, CellHint& hint) const {
     at.sheet = eigen.vectors[0];
   }
   const auto found = wall_angle(*angle_, convention_, at);
-  return found ? kDegrees * *found : kNaN;
+  return found ? kDegreesARadian * *found : kNaN;
 }
 
 std::vector<double> AngleProbe::map() const {

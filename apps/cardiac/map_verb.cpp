@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,6 +26,7 @@
 #include "common/field/layer/wall_layer.h"
 #include "common/load/write/write_lines.h"
 #include "common/load/write/write_mesh.h"
+#include "common/math/units.h"
 #include "common/scene/wall/open_wall.h"
 #include "common/trace/isosurface/surface_contours.h"
 
@@ -129,7 +129,6 @@ LayerContours make_layer_contours(const LayeredHeart& heart, const AngleProbe& p
 }
 
 constexpr int kBands = 11;  // of the depth: the surfaces have half a band each
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 /// The values of a band.
 class BandMean {
@@ -140,8 +139,8 @@ class BandMean {
   void add(double value) {
     values_.push_back(value);
     if (angle_) {
-      cosine_ += std::cos(2.0 * kRadians * value);
-      sine_ += std::sin(2.0 * kRadians * value);
+      cosine_ += std::cos(2.0 * kRadiansADegree * value);
+      sine_ += std::sin(2.0 * kRadiansADegree * value);
     } else {
       cosine_ += value;
     }
@@ -151,7 +150,7 @@ class BandMean {
     MapSummary::Band band{.depth = depth, .points = values_.size()};
     if (values_.empty()) return band;
     const auto count = static_cast<double>(values_.size());
-    band.mean = angle_ ? 0.5 * std::atan2(sine_, cosine_) / kRadians : cosine_ / count;
+    band.mean = angle_ ? 0.5 * std::atan2(sine_, cosine_) / kRadiansADegree : cosine_ / count;
     double squares = 0.0;
     constexpr double kHalfTurn = 180.0;
     for (const double value : values_) {

@@ -29,11 +29,6 @@ namespace {
 
 using Bundles = std::vector<BundleText>;
 
-double shortest_edge(const TensorVoxels& voxels) {
-  const Mat3& a = voxels.axes;
-  return std::min({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
-}
-
 /// As the scene has made it; null while it is being made, or could not be.
 const BundleView* made_of(const BundleText& bundle, std::size_t i, const SceneState& scene) {
   if (!scene.bundles || i >= scene.bundles->bundles.size()) return nullptr;
@@ -99,7 +94,7 @@ void draw_sources(PanelContext& on, Bundles& bundles) {
     add_bundle("bundle " + std::to_string(bundles.size() + 1), steps_of(document.tracts), bundles);
     document.tracts.seeds.clear();
   }
-  if (draws) add_bundle("drawn", steps_of_drawn(*drawn, shortest_edge(*on.view.tensors->image)), bundles);
+  if (draws) add_bundle("drawn", steps_of_drawn(*drawn, on.view.tensors->image->shortest_edge()), bundles);
 }
 
 void edit_color(const std::string& number, const SceneView& view, std::size_t i, BundleText& bundle) {
@@ -324,7 +319,7 @@ void edit_chosen(BundlePanel& panel, const PanelContext& on, Bundles& bundles) {
   hint("the bundle that what follows is done to; every edit can be taken back by Ctrl+Z");
   std::vector<BundleStep>& steps = bundles[panel.chosen].steps;
   const BundleView* const made = made_of(bundles[panel.chosen], panel.chosen, on.scene);
-  const double edge = shortest_edge(*on.view.tensors->image);
+  const double edge = on.view.tensors->image->shortest_edge();
   constexpr double kMostEdges = 10.0;
   if (length_and_button("smoothing", panel.smooth, edge, kMostEdges * edge, "Smooth"))
     steps.push_back({"smooth", exact_number(panel.smooth.value_or(edge))});

@@ -150,15 +150,9 @@ bool draw_underlay_panel(TensorView& view, const std::string& file) {
   return removed;
 }
 
-/// The shortest edge of a voxel [data units].
-double shortest_edge(const TensorVoxels& voxels) {
-  const Mat3& a = voxels.axes;
-  return std::min({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
-}
-
 double radius_of(const TractSeedChoice& choice, const TensorVoxels& voxels) {
   constexpr double kVoxels = 3.0;
-  return choice.radius.value_or(kVoxels * shortest_edge(voxels));
+  return choice.radius.value_or(kVoxels * voxels.shortest_edge());
 }
 
 /// `choice` as --seeds says it.
@@ -185,7 +179,7 @@ void edit_length(const char* setting_name, double& value, double most) {
 /// Tracts that are shown are traced again with these, in the background.
 void edit_tracing(TractTracingOptions& tracts, const TensorView& tensors) {
   constexpr double kVoxels = 4.0;
-  const double edge = shortest_edge(*tensors.image), diagonal = tensors.image->bounds().diagonal();
+  const double edge = tensors.image->shortest_edge(), diagonal = tensors.image->bounds().diagonal();
   edit_setting("seeds-per-voxel", tracts.seeds_per_voxel);
   edit_word("measure", "cutoff measure", tracts.measure);
   edit_setting("cutoff", tracts.cutoff);
@@ -227,7 +221,7 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
   hint("where tracts begin; Trace takes it");
   if (choice.at_crosshair) {
     constexpr double kLeast = 0.5, kMost = 30.0;  // voxels
-    const double edge = shortest_edge(*tensors.image);
+    const double edge = tensors.image->shortest_edge();
     double radius = radius_of(choice, *tensors.image);
     const bool resized =
         slider("radius", radius, kLeast * edge, kMost * edge, "%.3g", ImGuiSliderFlags_Logarithmic);
@@ -270,7 +264,7 @@ void draw_tract_panel(TractSeedChoice& choice, Document& document, const TensorV
 /// Which tracts are drawn over slices, and with one slice of the scene.
 void draw_tract_slab(TractView& look, const TensorVoxels& voxels) {
   constexpr double kUsual = 2.0;  // voxels, where none is said
-  double thickness = look.slab_thickness.value_or(kUsual * shortest_edge(voxels));
+  double thickness = look.slab_thickness.value_or(kUsual * voxels.shortest_edge());
   if (slider("slab of tracts", thickness, 0.0, voxels.bounds().diagonal(), "%.3g",
              ImGuiSliderFlags_Logarithmic))
     look.slab_thickness = thickness;

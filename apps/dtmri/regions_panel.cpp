@@ -18,12 +18,6 @@
 namespace palpate {
 namespace {
 
-/// The shortest edge of a voxel [data units].
-double shortest_edge(const TensorVoxels& voxels) {
-  const Mat3& a = voxels.axes;
-  return std::min({glm::length(a[0]), glm::length(a[1]), glm::length(a[2])});
-}
-
 void choose_role(const char* label, RegionRole& role) {
   int chosen = static_cast<int>(role);
   if (combo(label, &chosen, kRegionRoleNames.data(), static_cast<int>(kRegionRoleNames.size())))
@@ -156,7 +150,7 @@ void add_region(RegionRole role, const RegionShape& shape, std::vector<RegionEnt
 /// @return the shape that was asked for, about the crosshair.
 std::optional<RegionShape> draw_shapes(const TensorView& tensors) {
   constexpr double kVoxels = 3.0;
-  const double reach = kVoxels * shortest_edge(*tensors.image);
+  const double reach = kVoxels * tensors.image->shortest_edge();
   const Vec3& x = tensors.position;
   std::optional<RegionShape> shape;
   if (button("Ball")) shape = Sphere{.center = x, .radius = reach};
@@ -177,7 +171,7 @@ std::optional<RegionShape> draw_shapes(const TensorView& tensors) {
 
 void draw_brush(BrushControl& brush, const TensorVoxels& voxels) {
   constexpr double kLeast = 0.5, kMost = 10.0, kUsual = 1.5;  // voxels
-  const double edge = shortest_edge(voxels);
+  const double edge = voxels.shortest_edge();
   if (brush.radius < kLeast * edge || brush.radius > kMost * edge) brush.radius = kUsual * edge;
   checkbox("brush", &brush.on);
   hint("a left drag over a slice paints a region there; slices are shown by S");

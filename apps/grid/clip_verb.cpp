@@ -30,7 +30,7 @@
 namespace palpate {
 namespace {
 
-void check_request(const Document& options) {
+void check_clip(const Document& options) {
   check_volume_options(options.volume);
   check_type(options.slice);
   if (!options.slice.box.empty()) (void)parse_box(options.slice.box, "--box");
@@ -196,11 +196,11 @@ ExitCode run_clip(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.output.file.empty())
     throw usage_error("clip needs an output: try --out part.png or --out part.nii.gz");
-  check_request(options);
+  check_clip(options);
   if (!is_picture(options.output.file)) return write_part(options, context);
   if (!options.slice.type.empty()) throw usage_error("--type is for voxels: write a .nii.gz, .nrrd or .vti");
   const PictureMaker maker{
-      .check = check_request,
+      .check = check_clip,
       .check_input = [](const Document&, const Input& input) { (void)input.scalar_choice(); },
       .make = make_scene};
   return draw_picture(maker, options, context);

@@ -39,7 +39,7 @@ namespace {
 
 constexpr int kMostPixels = 16384;  // an edge: more is a spacing that was not meant
 
-void check_request(const Document& options) {
+void check_slices(const Document& options) {
   if (options.output.file.empty()) throw usage_error("slice needs an output: try --out slice.png");
   if (!parse_contours(options.slice.contours).empty()) {
     check_line_output(options.output.file, options.common.force);
@@ -272,7 +272,7 @@ std::string nothing_there(const WrittenSlice& slice) {
 ExitCode run_slice(const Document& options, const VerbContext& context) {
   if (list_examples(options, context)) return ExitCode::kDone;
   if (options.panes.layout != PanesOptions{}.layout) return draw_panes(options, context);
-  check_request(options);
+  check_slices(options);
   for (const Setting& row : panes_settings()) {
     if (row.name != "slice-side" && !is_default(row, options))
       throw usage_error("--" + std::string(row.name) +

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "common/base/index.h"
@@ -16,6 +15,7 @@
 #include "common/field/grid/tet_seams.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
@@ -26,7 +26,6 @@ constexpr double kRightAngle = 0x1p-20;
 /// digits are left along the axes.
 constexpr double kFlattest = 0.05;
 constexpr double kNoVolume = 1e-6;
-constexpr double kDegreesARadian = 180.0 / std::numbers::pi;
 /// Cells thinner than this part of the grid, or than the rounding of its coordinates, cannot be told apart.
 constexpr double kLeastWidth = 0x1p-500;
 constexpr double kCoordinateRounding = 0x1p-50;

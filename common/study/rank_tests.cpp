@@ -15,7 +15,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 template <std::size_t N>
 double polynomial(const std::array<double, N>& c, double x) noexcept {
@@ -43,7 +43,7 @@ NormalityTest shapiro_wilk(std::span<const double> values) {
   std::vector<double> x(values.begin(), values.end());
   std::ranges::sort(x);
   const std::size_t n = x.size();
-  if (n < 3 || n > 5000 || !(x.back() > x.front())) return {kNone, kNone};
+  if (n < 3 || n > 5000 || !(x.back() > x.front())) return {kNotKnown, kNotKnown};
   const auto count = static_cast<double>(n);
   // Weights from the expected order statistics m, those at the ends by polynomials.
   std::vector<double> m(n), a(n);
@@ -105,7 +105,7 @@ SignedRankTest signed_rank_test(std::span<const double> a, std::span<const doubl
   std::vector<double> d = differences(a, b);
   std::erase(d, 0.0);
   SignedRankTest out{.count = d.size()};
-  if (d.empty()) return {0, kNone, kNone, kNone, false};
+  if (d.empty()) return {0, kNotKnown, kNotKnown, kNotKnown, false};
   std::ranges::sort(d, {}, [](double x) { return std::abs(x); });
   double plus = 0.0, ties = 0.0;
   for (std::size_t first = 0; first < d.size();) {
@@ -139,7 +139,7 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
     stimuli = std::max(stimuli, trial.stimulus + 1);
   }
   const std::size_t n = trials.size();
-  if (participants < 2) return {kNone, kNone, 0, false};
+  if (participants < 2) return {kNotKnown, kNotKnown, 0, false};
   // What participants and stimuli do not explain, by alternating projections: exact in one round where the
   // design is complete. beta is the same with the residuals of y as with y.
   const auto residual = [&](std::vector<double>& v) {
@@ -171,7 +171,7 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
   residual(y);
   std::vector<char> changed(as_size(participants), 0);
   struct Fit {
-    double beta = kNone;
+    double beta = kNotKnown;
     double strength = 0.0;  ///< |partial correlation| but for a factor that all changes share
   };
   const auto fit = [&]() -> Fit {
@@ -190,7 +190,7 @@ PermutationTest permutation_test(std::span<const TrialValue> trials, std::uint64
   };
   const Fit observed = fit();
   out.effect = observed.beta;
-  if (!std::isfinite(out.effect)) return {kNone, kNone, 0, false};
+  if (!std::isfinite(out.effect)) return {kNotKnown, kNotKnown, 0, false};
   constexpr int kMostExact = 14;
   out.exact = participants <= kMostExact;
   out.draws = out.exact ? std::size_t{1} << static_cast<unsigned>(participants) : draws;

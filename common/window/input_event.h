@@ -24,6 +24,13 @@ enum class InputKind : std::uint8_t {
 
 enum class MouseButton : std::uint8_t { kLeft = 0, kRight = 1, kMiddle = 2 };
 
+/// GLFW's numbers of keys that are no letters, as InputEvent::key has them.
+namespace key_code {
+inline constexpr int kEscape = 256, kEnter = 257, kTab = 258, kBackspace = 259, kInsert = 260, kRight = 262,
+                     kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267, kF2 = 291,
+                     kF5 = 294, kF6 = 295, kF7 = 296, kF12 = 301, kPadEnter = 335;
+}  // namespace key_code
+
 /// Bits of InputEvent::modifiers, as GLFW has them.
 inline constexpr int kModifierShift = 1, kModifierControl = 2, kModifierAlt = 4;
 
@@ -35,7 +42,7 @@ struct InputEvent {
   double x = 0.0;  ///< [pixels] from the left of the window
   double y = 0.0;  ///< [pixels] from its top
   MouseButton button = MouseButton::kLeft;
-  int key = 0;  ///< GLFW's key number: an ASCII capital for letters, 256 Esc, 257 Enter
+  int key = 0;  ///< GLFW's key number: an ASCII capital for letters, else of key_code
   int modifiers = 0;
   std::vector<std::filesystem::path> files;
 };

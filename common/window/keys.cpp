@@ -6,9 +6,6 @@
 namespace palpate {
 
 std::span<const KeyBinding> key_bindings() noexcept {
-  constexpr int kEscape = 256, kEnter = 257, kTab = 258, kF2 = 291, kF5 = 294, kF6 = 295, kF7 = 296,
-                kF12 = 301;
-  constexpr int kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267;
   static constexpr std::array kBindings = std::to_array<KeyBinding>({
       {'G', 0, Command::kGrab, "G", "grab the probe at the mouse, or let it go (or hold Shift)"},
       {'K', 0, Command::kKeepLine, "K, Space", "keep the followed line, or the tracts that are drawn"},
@@ -22,7 +19,7 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'Z', kModifierControl | kModifierShift, Command::kRedo, "Ctrl+Shift+Z", "and restore it (or Ctrl+Y)"},
       {'Y', kModifierControl, Command::kRedo, "", ""},
       {'Z', 0, Command::kLockZ, "Z", "to the z axis"},
-      {kF12, 0, Command::kForceOff, "F12", "force off, at once and anywhere"},
+      {key_code::kF12, 0, Command::kForceOff, "F12", "force off, at once and anywhere"},
       {'L', 0, Command::kLens, "L",
        "a lens that follows the mouse, or leave it there (or click); haptic surfaces give way"},
       {'[', 0, Command::kLensSmaller, "[  ]", "smaller and larger lens"},
@@ -30,26 +27,27 @@ std::span<const KeyBinding> key_bindings() noexcept {
       {'M', 0, Command::kMenu, "M", "a menu in space, for the mouse and a tracked stylus"},
       {'V', 0, Command::kVolume, "V", "volume"},
       {'S', 0, Command::kLayout, "S", "slices next to the volume: none, one, three"},
-      {kRight, 0, Command::kSliceRight, "Left, Right", "move the sagittal slice"},
-      {kLeft, 0, Command::kSliceLeft, "", ""},
-      {kPageUp, 0, Command::kSliceFront, "PgUp, PgDn", "the coronal slice"},
-      {kPageDown, 0, Command::kSliceBack, "", ""},
-      {kUp, 0, Command::kSliceUp, "Up, Down", "the axial slice"},
-      {kDown, 0, Command::kSliceDown, "", ""},
+      {key_code::kRight, 0, Command::kSliceRight, "Left, Right", "move the sagittal slice"},
+      {key_code::kLeft, 0, Command::kSliceLeft, "", ""},
+      {key_code::kPageUp, 0, Command::kSliceFront, "PgUp, PgDn", "the coronal slice"},
+      {key_code::kPageDown, 0, Command::kSliceBack, "", ""},
+      {key_code::kUp, 0, Command::kSliceUp, "Up, Down", "the axial slice"},
+      {key_code::kDown, 0, Command::kSliceDown, "", ""},
       {'H', 0, Command::kHelp, "H", "this list"},
       {'/', 0, Command::kSearch, "/, Ctrl+P", "find a setting, and go to it"},
       {'P', kModifierControl, Command::kSearch, "", ""},
-      {kTab, 0, Command::kPanel, "Tab", "hide the panel, or show it"},
-      {kF2, 0, Command::kMessages, "F2", "all messages since the start"},
+      {key_code::kTab, 0, Command::kPanel, "Tab", "hide the panel, or show it"},
+      {key_code::kF2, 0, Command::kMessages, "F2", "all messages since the start"},
       {'F', 0, Command::kFullScreen, "F", "full screen"},
-      {kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},
-      {kF5, 0, Command::kLookAlongX, "F5, F6, F7", "view along x, y, z; again: from the other side"},
-      {kF6, 0, Command::kLookAlongY, "", ""},
-      {kF7, 0, Command::kLookAlongZ, "", ""},
+      {key_code::kEnter, 0, Command::kResetCamera, "Enter", "reset the camera"},
+      {key_code::kF5, 0, Command::kLookAlongX, "F5, F6, F7",
+       "view along x, y, z; again: from the other side"},
+      {key_code::kF6, 0, Command::kLookAlongY, "", ""},
+      {key_code::kF7, 0, Command::kLookAlongZ, "", ""},
       {' ', 0, Command::kPlay, "Space", "play the time steps; with the probe grabbed, keep the line"},
       {',', 0, Command::kStepBack, ",  .", "one time step back, or on"},
       {'.', 0, Command::kStepOn, "", ""},
-      {kEscape, 0, Command::kLetGo, "Esc", "let go, cancel the job, close this list"},
+      {key_code::kEscape, 0, Command::kLetGo, "Esc", "let go, cancel the job, close this list"},
       {'B', 0, Command::kColorBar, "B", "colour bar"},
       {'A', 0, Command::kAxes, "A", "axes"},
       {'T', 0, Command::kRates, "T", "rates: time for a frame"},
@@ -93,8 +91,8 @@ std::optional<Command> command_of(const InputEvent& event) noexcept {
 }
 
 bool is_control_key(int key) noexcept {
-  constexpr int kLeft = 341, kRight = 345;  // GLFW's numbers
-  return key == kLeft || key == kRight;
+  constexpr int kLeftControl = 341, kRightControl = 345;  // GLFW's numbers
+  return key == kLeftControl || key == kRightControl;
 }
 
 }  // namespace palpate

@@ -10,11 +10,13 @@
 
 #include "common/base/clock.h"
 #include "common/base/index.h"
+#include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/field/tensor/tensor_fit.h"
 #include "common/field/tensor/tensor_source.h"
 #include "common/math/counter_random.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 #include "lab/page/html.h"
 #include "lab/page/plot.h"
 
@@ -25,7 +27,6 @@ constexpr double kAlong = 1.7e-3, kAcross = 0.3e-3;  ///< white matter's [mm^2/s
 constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896964);
 constexpr double kNoiseless = 1000.0;  ///< an SNR at which theory's proportionality must show
 constexpr int kRuns = 3;               ///< of which the fastest is told: others share the machine
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// Two numbers of mean 0 and standard deviation 1 (Box and Muller 1958).
 Vec2 normal_pair(std::uint64_t index) {
@@ -74,14 +75,10 @@ FitErrorRow measure(const GradientTable& table, double weighting, double snr, in
     const Vec3 found = symmetric_eigen(tensor / kAlong).vectors[0];
     const Vec3 e = spread_direction(n, tensors);
     const double angle = std::atan2(glm::length(glm::cross(found, e)), std::abs(glm::dot(found, e)));
-    angles.push_back(std::isfinite(angle) ? kDegrees * angle : 90.0);  // no tensor: no direction
+    angles.push_back(std::isfinite(angle) ? kDegreesARadian * angle : 90.0);  // no tensor: no direction
   }
-  std::ranges::sort(angles);
-  const auto quantile = [&](double q) {
-    return angles[floor_size(q * static_cast<double>(angles.size() - 1))];
-  };
-  row.median = quantile(0.5);
-  row.p95 = quantile(0.95);
+  row.median = quantile(angles, 0.5);
+  row.p95 = quantile(angles, 0.95);
   return row;
 }
 

@@ -9,6 +9,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/index.h"
+#include "common/base/quantile.h"
 #include "common/base/text.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/mesh_quality.h"
@@ -121,12 +122,6 @@ LineEnds trace(const LayeredHeart& heart, double depth, double step, const std::
   for (const Line& line : traced.lines)
     if (line.end == End::kMaxLength) ends.by_seed[line.seed] = {line.points.front(), line.points.back()};
   return ends;
-}
-
-double quantile(std::vector<double> values, double part) {
-  if (values.empty()) return std::nan("");
-  std::ranges::sort(values);
-  return values[floor_size(part * static_cast<double>(values.size() - 1))];
 }
 
 std::string cells_text(const VentricleCells& cells) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
 #include "common/base/index.h"
 
@@ -29,6 +30,12 @@ DataArray changed(const DataArray& array, const Change& change) {
 }
 
 }  // namespace
+
+FieldPtr made_field(DataSet data) {
+  std::vector<DataSet> blocks;
+  blocks.push_back(std::move(data));
+  return make_vector_field(blocks, {.arrays = {"velocity"}, .label = "velocity"}, "made data");
+}
 
 std::vector<double> even_coordinates(int n) {
   std::vector<double> x;

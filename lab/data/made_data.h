@@ -2,13 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/vector_field.h"
 #include "common/math/vec.h"
 
 namespace palpate {
 
+using FieldPtr = std::shared_ptr<const VectorField>;
 using VectorFormula = std::function<Vec3(const Vec3&)>;
 
 /// n x n x n points over `bounds` with the point array "velocity" in doubles. @pre n >= 2.
@@ -21,6 +24,9 @@ using VectorFormula = std::function<Vec3(const Vec3&)>;
 /// Six tetrahedra a box (Kuhn 1960) between the given coordinates, with "velocity" in doubles.
 [[nodiscard]] DataSet tetrahedral_data(const std::vector<double>& x, const std::vector<double>& y,
                                        const std::vector<double>& z, const VectorFormula& velocity);
+
+/// The field of one such data set.
+[[nodiscard]] FieldPtr made_field(DataSet data);
 
 /// n coordinates from -1 to 1.
 [[nodiscard]] std::vector<double> even_coordinates(int n);

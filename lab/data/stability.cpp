@@ -15,8 +15,6 @@ namespace {
 constexpr int kScalingExponent = 60;
 constexpr double kExtreme = 1e30;
 
-using FieldPtr = std::shared_ptr<const VectorField>;
-
 // Cases on the data at hand.
 
 class DataCases {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "common/field/analytic/tensor_examples.h"
 #include "common/field/tensor/tensor_field.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 #include "common/ode/explicit_step.h"
 #include "common/ode/tableau.h"
 #include "common/trace/tract/trace_tracts.h"
@@ -30,7 +30,6 @@ constexpr double kLength = 40.0;    ///< of the lines [mm]
 constexpr double kAside = 1.5;      ///< seeds lie no farther from the centre line [mm]
 constexpr double kRounding = 1e-5;  ///< [mm] points are single: errors below mean nothing
 constexpr double kTightest = 1e-9;  ///< tolerance of the reference
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double value_at_part(std::vector<double> values, double quantile = 0.5) {
   if (values.empty()) return std::nan("");
@@ -244,8 +243,8 @@ TractErrors run_bundle(const std::string& name, Effort effort, Progress* progres
         distances.push_back(ends[i] ? glm::distance(ends[i]->place, reference[i]) : kLength);
         excesses.push_back(distances.back() / ((ends[i] ? ends[i]->stated : 0.0) + kRounding));
         if (!ends[i]) continue;
-        angles.push_back(kDegrees * axis_angle(main_direction_at(*field, ends[i]->place),
-                                               main_direction_at(*field, reference[i])));
+        angles.push_back(kDegreesARadian * axis_angle(main_direction_at(*field, ends[i]->place),
+                                                      main_direction_at(*field, reference[i])));
       }
       row.end = value_at_part(distances);
       row.end_p95 = value_at_part(distances, 0.95);

@@ -14,7 +14,6 @@
 namespace palpate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSteps = 4000;
 
 /// Holds the hand to the origin.

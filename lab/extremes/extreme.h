@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@
 #include "common/base/work_precision.h"
 
 namespace palpate {
+
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 enum class ExtremeKind : std::uint8_t { kField, kMesh, kTensor, kVolume, kLens, kCamera, kWall, kDevice };
 inline constexpr int kExtremeKindCount = 8;

@@ -16,8 +16,6 @@
 namespace palpate {
 namespace {
 
-using FieldPtr = std::shared_ptr<const VectorField>;
-
 constexpr double kExcess = 10.0;  // true over stated error
 constexpr int kDraws = 3, kSeeds = 8;
 constexpr int kCertain = 40;  // beyond 2^40 slow rates beside fast ones are the last digits of the values
@@ -50,12 +48,6 @@ double excess_of(std::string_view kind, std::string_view mesh_name, int exponent
     }
   }
   return worst;
-}
-
-FieldPtr made_field(DataSet data) {
-  std::vector<DataSet> blocks;
-  blocks.push_back(std::move(data));
-  return make_vector_field(blocks, {.arrays = {"velocity"}, .label = "velocity"}, "made data");
 }
 
 // Linear fields v = R L R^T x with L = diag(l) and a fixed rotation R: x(t) = R exp(L t) R^T x_0.
@@ -121,7 +113,7 @@ Extreme oblique_row(ExtremeKind kind, const std::string& name, const std::string
 }
 
 // Of lines that are to come to rest.
-constexpr std::int64_t kMostSteps = 1000;
+constexpr std::int64_t kMostLineSteps = 1000;
 
 /// How far lines that are drawn onto c = (0.123, -0.234, 0.345) end from it.
 double sink_error() {
@@ -130,7 +122,7 @@ double sink_error() {
   const FieldPtr field = made_field(tetrahedral_data(even, even, even, [&](const Vec3& x) { return c - x; }));
   double worst = 0.0;
   for (const Line& line :
-       trace_lines(*field, seeds_within(0.8), {.max_steps = kMostSteps, .threads = 1}).lines) {
+       trace_lines(*field, seeds_within(0.8), {.max_steps = kMostLineSteps, .threads = 1}).lines) {
     if (line.end != End::kStagnation) return HUGE_VAL;
     worst = std::max(worst, glm::distance(line.points.back().position, c));
   }
@@ -149,7 +141,7 @@ double block_error() {
   const std::vector<Vec3> seeds{{-0.75, 0.125, 0.0625}, {-0.5, -0.375, 0.25}, {0.0, 0.0, 0.0}};
   const FieldPtr field = on_mesh(mesh, values);
   double worst = 0.0;
-  for (const Line& line : trace_lines(*field, seeds, {.max_steps = kMostSteps, .threads = 1}).lines) {
+  for (const Line& line : trace_lines(*field, seeds, {.max_steps = kMostLineSteps, .threads = 1}).lines) {
     if (line.end != End::kStagnation) return HUGE_VAL;
     worst = std::max(worst, std::abs(line.points.back().position.x - 0.25));
   }

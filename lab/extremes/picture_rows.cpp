@@ -20,8 +20,7 @@ namespace palpate {
 namespace {
 
 constexpr double kOpacity = 0.3;  // alpha
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStep = PictureStage::kStep;
+constexpr double kPictureStep = PictureStage::kStep;
 const char* const kUnit = "of full scale";
 
 /// A block of numbers; its longest side is 1 wide about the origin, unless `stretch` and `away` say otherwise.
@@ -99,7 +98,7 @@ double depth_error(PictureStage& stage, const Block& block, const Block& drawn) 
 
 void add_volumes(std::vector<Extreme>& rows, const Stage& stage) {
   const auto depth = [&](const std::string& name, const std::string& builder, const Block& block,
-                         double limit = kStep) {
+                         double limit = kPictureStep) {
     rows.push_back({ExtremeKind::kVolume, name, builder, "opacity against the closed form", limit, kUnit,
                     [stage, block] { return depth_error(*stage, block, block); }});
   };
@@ -196,7 +195,7 @@ double cut_error(PictureStage& stage, const ConvexShape& shape, const Chord& cho
 void add_lenses(std::vector<Extreme>& rows, const Stage& stage) {
   const auto lens = [&](const std::string& name, const ConvexShape& shape, const Chord& chord) {
     rows.push_back({ExtremeKind::kLens, name, "cuts away what it holds of 16^3 points of one value",
-                    "opacity of each pixel against the closed form", kStep, kUnit,
+                    "opacity of each pixel against the closed form", kPictureStep, kUnit,
                     [stage, shape, chord] { return cut_error(*stage, shape, chord); }});
   };
   const auto ball = [&](const std::string& name, const Vec3& center, double radius) {
@@ -238,7 +237,7 @@ void add_cameras(std::vector<Extreme>& rows, const Stage& stage) {
                          const std::function<void(Camera&)>& move) {
     rows.push_back({ExtremeKind::kCamera, name, builder,
                     "opacity next to the middle against the closed form; no number of the picture is none",
-                    kStep, kUnit, [stage, move] {
+                    kPictureStep, kUnit, [stage, move] {
                       constexpr double kLength = 0.5;
                       const VolumeView view = view_of({}, kLength);
                       Camera camera = make_camera(view.image->bounds(), {}, 1.0);
@@ -276,7 +275,7 @@ void add_cameras(std::vector<Extreme>& rows, const Stage& stage) {
   });
   rows.push_back({ExtremeKind::kCamera, "a thousand times too near",
                   "without perspective, on 16^3 points of one value", "opacity against the closed form",
-                  kStep, kUnit, [stage] {
+                  kPictureStep, kUnit, [stage] {
                     constexpr double kLength = 0.5;
                     const VolumeView view = view_of({}, kLength);
                     Camera camera = along_z(view);

@@ -14,14 +14,6 @@
 namespace palpate {
 namespace {
 
-using FieldPtr = std::shared_ptr<const VectorField>;
-
-FieldPtr made_field(DataSet data) {
-  std::vector<DataSet> blocks;
-  blocks.push_back(std::move(data));
-  return make_vector_field(blocks, {.arrays = {"velocity"}, .label = "velocity"}, "made data");
-}
-
 /// From `from` to `to`, each interval `growth` times the one before.
 std::vector<double> growing(double from, double to, int n, double growth) {
   std::vector<double> x{from};

@@ -16,7 +16,6 @@
 namespace palpate {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kRounding = 0x1p-53;
 
 /// A rotation that is aligned with nothing.

@@ -14,8 +14,6 @@
 namespace palpate {
 namespace {
 
-using FieldPtr = std::shared_ptr<const VectorField>;
-
 constexpr std::size_t kSteps = 3000;  // of each path
 constexpr std::size_t kPaths = 4;     // on each field
 constexpr int kScalingExponent = 20;

@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kStep = 1e-3;        // [s]
+constexpr double kPathStep = 1e-3;    // [s]
 constexpr double kHandSpeed = 0.2;    // [m/s] along the line, at most
 constexpr double kGuideLength = 0.5;  // diagonals on either side of the seed
 constexpr int kGuidePoints = 2048;    // per diagonal: chords so short that the path bends smoothly
@@ -69,7 +69,7 @@ class PathWriter {
     std::vector<PathRow> rows;
     rows.reserve(steps);
     for (std::size_t n = 0; n < steps; ++n) {
-      const double t = kStep * static_cast<double>(n);
+      const double t = kPathStep * static_cast<double>(n);
       Vec3 x = smooth(t);
       if (kind == PathKind::kTremor) x = trembling(x, t);
       if (kind == PathKind::kRough) x = rough(x, t);
@@ -129,7 +129,7 @@ class PathWriter {
       offset_ = 4.0 * release * in_cube();
     } else if (choice < 0.90) {  // a stroke across the lines
       stroke_steps_ = 20;
-      stroke_ = kStrokeSpeed * kStep * glm::normalize(in_cube() + Vec3{1e-3});
+      stroke_ = kStrokeSpeed * kPathStep * glm::normalize(in_cube() + Vec3{1e-3});
     } else if (choice < 0.97) {  // anywhere in the data, and a little beside it
       const Box& box = scene_.field.bounds();
       offset_ = scene_.workspace.workspace_from_data(box.center() + 0.6 * box.size() * in_cube()) - x;

@@ -17,7 +17,7 @@ constexpr double kLength = 0.06;  // [m] of every path
 constexpr int kPoints = 100;
 
 /// An image's bundles in the workspace.
-struct Bundles {
+struct ExampleBundles {
   double scale = 1.0;  ///< [m] for a millimetre
   Box bounds;
   std::vector<CenterLine> middles;
@@ -25,9 +25,9 @@ struct Bundles {
 };
 
 /// Each bundle as its middle with four lines beside it.
-Bundles bundles_of(const std::string& name) {
+ExampleBundles bundles_of(const std::string& name) {
   const auto formula = tensor_formula(name);
-  Bundles out;
+  ExampleBundles out;
   out.scale = kSize / formula->bounds().diagonal();
   out.bounds = {out.scale * formula->bounds().lower, out.scale * formula->bounds().upper};
   out.middles = formula->center_lines();
@@ -79,14 +79,14 @@ class BundleTask final : public DrawnPathTask {
              .cutoff_error = 100.0},
             32, "parts of bundles") {
     for (const ExampleInfo& example : tensor_examples()) {
-      Bundles bundles = bundles_of(example.name);
+      ExampleBundles bundles = bundles_of(example.name);
       if (!bundles.middles.empty()) images_.push_back(std::move(bundles));
     }
   }
 
  private:
   [[nodiscard]] std::shared_ptr<const PathStimulus> draw(RandomStream& random) const override {
-    const Bundles& image = images_[random.below(images_.size())];
+    const ExampleBundles& image = images_[random.below(images_.size())];
     const CenterLine& middle = image.middles[random.below(image.middles.size())];
     auto stimulus = std::make_shared<PathStimulus>();
     stimulus->path = evenly_spaced([&](double u) { return image.scale * middle.position(u); },
@@ -109,7 +109,7 @@ class BundleTask final : public DrawnPathTask {
     return stimulus;
   }
 
-  std::vector<Bundles> images_;
+  std::vector<ExampleBundles> images_;
 };
 
 }  // namespace

@@ -40,13 +40,13 @@ std::string value(const OptionView& option) {
 }
 
 /// An option or operand and the verbs that take it.
-struct Line {
+struct FishLine {
   std::string text;
   std::string verbs;
 };
 
-void add(std::vector<Line>& lines, std::string text, const std::string& verb) {
-  const auto known = std::ranges::find(lines, text, &Line::text);
+void add(std::vector<FishLine>& lines, std::string text, const std::string& verb) {
+  const auto known = std::ranges::find(lines, text, &FishLine::text);
   if (known == lines.end()) {
     lines.push_back({std::move(text), verb});
   } else {
@@ -59,7 +59,7 @@ void add(std::vector<Line>& lines, std::string text, const std::string& verb) {
 std::string fish_completion(const Explorer& explorer) {
   const std::string name = installed_name(explorer), helper = "__palpate_" + explorer.name;
   std::string verbs, proposals;
-  std::vector<Line> lines;
+  std::vector<FishLine> lines;
   for (const Verb& verb : explorer.verbs) {
     verbs += " " + verb.name;
     proposals += "    complete -c $program -n '" + helper + "_without_verb' -a " + verb.name + " -d " +
@@ -97,7 +97,7 @@ std::string fish_completion(const Explorer& explorer) {
             (words.empty() ? "" : " -x -a " + fish_quoted(words)) + " -d " + fish_quoted(option.help) + "\n";
   }
   text += proposals;
-  for (const Line& line : lines)
+  for (const FishLine& line : lines)
     text += "    complete -c $program -n '" + helper + "_takes " + line.verbs + "'" + line.text + "\n";
   return text + "end\n";
 }

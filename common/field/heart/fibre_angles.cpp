@@ -2,19 +2,18 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <variant>
 
 #include "common/field/field_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/tensor/eigenframe.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// Part of a unit vector below which a projection has no direction.
 constexpr double kNothingLeft = 1e-6;
 
@@ -107,7 +106,7 @@ std::vector<double> map_angle(const Heart& heart, const SmoothNormals& normals, 
       if (!(sheet.gap >= kLeastGap)) continue;
       at.sheet = sheet.along;
     }
-    if (const auto found = wall_angle(angle, convention, at)) map[p] = kDegrees * *found;
+    if (const auto found = wall_angle(angle, convention, at)) map[p] = kDegreesARadian * *found;
   }
   return map;
 }

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <span>
@@ -21,12 +20,12 @@
 #include "common/field/layer/tagged_surfaces.h"
 #include "common/field/layer/wall_border.h"
 #include "common/field/layer/wall_stairs.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kCreases[3] = {40.0 * kDegree, 30.0 * kDegree, 20.0 * kDegree};
+constexpr double kCreases[3] = {40.0 * kRadiansADegree, 30.0 * kRadiansADegree, 20.0 * kRadiansADegree};
 constexpr double kHasOpening = 0.05;   // mean normal of a surface that does not go all round
 constexpr double kLevel = 0.02;        // bulge of what is flat or a saddle; a half sphere has 0.13
 constexpr double kFacesUp = 0.3;       // mean of normal times axis of what does not lie along the wall
@@ -406,8 +405,8 @@ Attempt attempt(BorderReading& reading, FoundBy by, double crease, double step, 
   measure_surfaces(grid, border, surfaces);
   mark_points(grid, surfaces);
   if (crease < kCreases[0])
-    surfaces.doubts.push_back("its parts show only where it is parted at " + short_number(crease / kDegree) +
-                              " degrees in place of 40");
+    surfaces.doubts.push_back("its parts show only where it is parted at " +
+                              short_number(crease / kRadiansADegree) + " degrees in place of 40");
   if (!reading.has(BorderRole::kBase) && reading.open())
     surfaces.doubts.emplace_back("no base was found between the inner and the outer surface");
   if (surfaces.confidence < kLeastConfidence)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
@@ -11,6 +10,7 @@
 #include "common/field/tensor/gradient_table.h"
 #include "common/math/lattice.h"
 #include "common/math/symmetric3.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
@@ -90,7 +90,6 @@ DirectionMap::DirectionMap(std::span<const float> tensors, const UniformTopology
 
 double DirectionMap::median_turn(const Mat3& turn, const Mat3& others) const {
   constexpr int kEdge = 5;
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   struct Block {
     Mat3 sum{0.0};
     std::size_t voxels = 0;
@@ -115,7 +114,7 @@ double DirectionMap::median_turn(const Mat3& turn, const Mat3& others) const {
   for (const Block& block : means) {
     if (block.voxels == 0 || 2 * block.voxels < fullest) continue;
     const Vec3 e = symmetric_eigen(block.sum).vectors[0];
-    turns.push_back(kDegrees * axis_angle(turn * e, others * e));
+    turns.push_back(kDegreesARadian * axis_angle(turn * e, others * e));
   }
   if (turns.empty()) return 0.0;
   const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);

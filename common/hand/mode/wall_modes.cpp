@@ -11,9 +11,9 @@ namespace palpate {
 namespace {
 
 /// How many proxies: on the layer, in the groove, dragged along it.
-enum class Links : unsigned char { kLayer = 1, kGroove = 2, kFriction = 3 };
+enum class WallLinks : unsigned char { kLayer = 1, kGroove = 2, kFriction = 3 };
 
-HapticChain make_wall(const HapticScene& scene, Links links) {
+HapticChain make_wall(const HapticScene& scene, WallLinks links) {
   HapticChain made;
   made.surfaces_of = scene.scalar;
   made.isovalues = default_layers(*scene.scalar);
@@ -21,15 +21,15 @@ HapticChain make_wall(const HapticScene& scene, Links links) {
   const LayerConstraint& on = *layer;
   std::vector<std::unique_ptr<Constraint>> chain;
   chain.push_back(std::move(layer));
-  if (links == Links::kLayer && scene.settings.contact.rubs())
+  if (links == WallLinks::kLayer && scene.settings.contact.rubs())
     chain.push_back(std::make_unique<SurfaceFriction>(on.surface()));
-  if (links != Links::kLayer) {
+  if (links != WallLinks::kLayer) {
     const auto heart =
         std::make_shared<const LayeredHeart>(Heart{.fibres = scene.tensor, .layer = scene.scalar});
     auto groove = std::make_unique<FibreGroove>(heart, on);
     const FibreGroove& in = *groove;
     chain.push_back(std::move(groove));
-    if (links == Links::kFriction) chain.push_back(std::make_unique<FibreFriction>(heart, on, in));
+    if (links == WallLinks::kFriction) chain.push_back(std::make_unique<FibreFriction>(heart, on, in));
   }
   made.chain = std::make_unique<ProxyChain>(std::move(chain), scene.settings);
   return made;
@@ -37,8 +37,8 @@ HapticChain make_wall(const HapticScene& scene, Links links) {
 
 }  // namespace
 
-HapticChain make_fibre(const HapticScene& scene) { return make_wall(scene, Links::kGroove); }
-HapticChain make_layer(const HapticScene& scene) { return make_wall(scene, Links::kLayer); }
-HapticChain make_friction(const HapticScene& scene) { return make_wall(scene, Links::kFriction); }
+HapticChain make_fibre(const HapticScene& scene) { return make_wall(scene, WallLinks::kGroove); }
+HapticChain make_layer(const HapticScene& scene) { return make_wall(scene, WallLinks::kLayer); }
+HapticChain make_friction(const HapticScene& scene) { return make_wall(scene, WallLinks::kFriction); }
 
 }  // namespace palpate

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
@@ -12,14 +11,14 @@
 #include "common/haptics/chain_settings.h"
 #include "common/haptics/fade.h"
 #include "common/haptics/frame_along.h"
+#include "common/math/units.h"
 
 namespace palpate {
 namespace {
 
 using Quaternion = glm::dquat;
 
-constexpr double kDegrees = std::numbers::pi / 180.0;
-constexpr double kDetentReach = 3.0 * kDegrees;
+constexpr double kDetentReach = 3.0 * kRadiansADegree;
 constexpr double kSphereCore = 0.25;          // part of the radius within which the sphere lets go
 constexpr double kLeastSpherePart = 0x1p-20;  // of the radius, below which there is no direction
 constexpr unsigned kSphereBit = 8;
@@ -221,7 +220,7 @@ void PlaneWidget::turn(const Vec3& x, int about, Vec3& toward, double& tangentia
     const Vec3& axis = grip_axes_[about];
     const Vec3 from = unit_or(grip_ - glm::dot(grip_, axis) * axis, n);
     double angle = angle_about(axis, from, n);
-    const double step = settings_.detent * kDegrees;
+    const double step = settings_.detent * kRadiansADegree;
     if (detents) {
       const double reach = std::min(kDetentReach, 0.25 * step);
       const double tooth = std::round(angle / step), off = angle - tooth * step;

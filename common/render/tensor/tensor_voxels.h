@@ -1,6 +1,7 @@
 /// An image of diffusion tensors as slices and glyphs show it: the field, and a colour for each voxel.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,6 +42,10 @@ struct TensorVoxels {
   [[nodiscard]] bool contains(const Vec3& g) const noexcept;
   /// Whether a voxel has a tensor that shows. @pre it lies in the image.
   [[nodiscard]] bool shows(const Index3& voxel) const noexcept;
+  /// Of a voxel [data units].
+  [[nodiscard]] double shortest_edge() const noexcept {
+    return std::min({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+  }
   /// Boxes around all voxels, and around those from first_shown to last_shown; data coordinates.
   [[nodiscard]] Box bounds() const noexcept;
   [[nodiscard]] Box shown_bounds() const noexcept;

@@ -19,6 +19,7 @@
 #include "common/base/ledger.h"
 #include "common/base/parallel.h"
 #include "common/base/text.h"
+#include "common/math/units.h"
 #include "common/trace/tract/peak_source.h"
 #include "common/trace/tract/quad_tracer.h"
 #include "common/trace/tract/tract_lines.h"
@@ -29,7 +30,6 @@ namespace {
 
 // Work that threads share out. The lines do not depend on it; long enough that four lanes are seldom idle.
 constexpr std::size_t kSeedsOfPart = 128;
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 End end_of(SampleStatus status) noexcept {
   return status == SampleStatus::kBadData ? End::kBadData : End::kLeftDomain;
@@ -324,7 +324,8 @@ TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, 
   result.max_length = options.max_length > 0.0 ? options.max_length : field.bounds().diagonal();
   const double radius = options.min_radius > 0.0 ? options.min_radius : voxel;
   const double half_chord = std::min(0.5 * result.step / radius, std::numbers::sqrt2 / 2.0);
-  result.max_angle = options.max_angle > 0.0 ? options.max_angle : 2.0 * std::asin(half_chord) / kRadians;
+  result.max_angle =
+      options.max_angle > 0.0 ? options.max_angle : 2.0 * std::asin(half_chord) / kRadiansADegree;
 
   constexpr double kMostPoints = 1e6;  // of a line
   if (result.max_length / result.step > kMostPoints)
@@ -335,7 +336,7 @@ TractResult trace_tracts(const TensorField& field, std::span<const Vec3> seeds, 
   const TractRules rules(field, options,
                          {.spacing = result.step * to_s,
                           .max_length = result.max_length * to_s,
-                          .least_cosine = std::cos(result.max_angle * kRadians)});
+                          .least_cosine = std::cos(result.max_angle * kRadiansADegree)});
   const FieldGrid& grid = *field.grid();
   const bool uniform =
       grid.box != nullptr && grid.box->uniform() && field.interpolation() == TensorInterpolation::kComponents;

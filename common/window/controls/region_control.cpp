@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kReach = 9.0;  // of the mouse [pixels]
+constexpr double kMouseReach = 9.0;  // of the mouse [pixels]
 
 /// How far along the axis from `from` its line comes closest to the ray; no way where both are parallel.
 double along_axis(const ViewRay& ray, const Vec3& from, int axis) {
@@ -80,7 +80,7 @@ bool RegionControl::handle(const InputEvent& event, const PictureArea& area, con
       return held_.has_value();
     case InputKind::kPress: {
       if (!box_ || event.button != MouseButton::kLeft || !area.contains(x_, y_)) return false;
-      double nearest = kReach;
+      double nearest = kMouseReach;
       std::optional<std::size_t> found;
       const auto places = handles(*box_);
       for (std::size_t i = 0; i < places.size(); ++i) {

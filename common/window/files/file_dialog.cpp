@@ -13,9 +13,6 @@ namespace palpate {
 namespace {
 
 constexpr const char* kId = "###files";
-// GLFW's numbers.
-constexpr int kEscape = 256, kEnter = 257, kBackspace = 259, kInsert = 260, kRight = 262, kLeft = 263,
-              kDown = 264, kUp = 265, kPageUp = 266, kPageDown = 267, kPadEnter = 335;
 constexpr int kPage = 10;  // rows
 
 }  // namespace
@@ -89,29 +86,29 @@ bool FileDialog::handle(const InputEvent& event) {
         std::ranges::find_if(list_.entries, [&](const FolderEntry& e) { return e.name == current_; });
     const bool on_entry = entry != list_.entries.end();
     switch (event.key) {
-      case kEscape:
+      case key_code::kEscape:
         cancels_ = true;
         break;
-      case kEnter:
-      case kPadEnter:
+      case key_code::kEnter:
+      case key_code::kPadEnter:
         accepts_ = true;
         break;
-      case kDown:
-      case kUp:
-        move(event.key == kDown ? 1 : -1);
+      case key_code::kDown:
+      case key_code::kUp:
+        move(event.key == key_code::kDown ? 1 : -1);
         break;
-      case kPageDown:
-      case kPageUp:
-        move(event.key == kPageDown ? kPage : -kPage);
+      case key_code::kPageDown:
+      case key_code::kPageUp:
+        move(event.key == key_code::kPageDown ? kPage : -kPage);
         break;
-      case kBackspace:
-      case kLeft:
+      case key_code::kBackspace:
+      case key_code::kLeft:
         if (typed_.empty()) go_to(folder_.parent_path());
         break;
-      case kRight:
+      case key_code::kRight:
         if (typed_.empty() && on_entry && entry->folder) go_to(folder_ / std::string(entry->name));
         break;
-      case kInsert:
+      case key_code::kInsert:
         if (on_entry && entry->offered && !request_->writes && marked_.erase(current_) == 0)
           marked_.insert(current_);
         break;

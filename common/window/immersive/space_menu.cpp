@@ -17,7 +17,7 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMargin = 0.4, kText = 0.62, kGap = 0.25;
 constexpr double kTrackLeft = 0.6, kTrackRight = SpaceMenu::kColumn - 0.6, kTrackDown = 1.05;
 constexpr double kKnobRadius = 0.9, kKnobLeft = 1.5, kKnobDown = 1.5;
-constexpr double kReach = 0.45;  // by which the hand may miss a slider's way
+constexpr double kSliderReach = 0.45;  // by which the hand may miss a slider's way
 
 // sRGB.
 const Vec3f kPanel{0.10F, 0.12F, 0.15F}, kPointed{0.13F, 0.42F, 0.46F}, kTrack{0.35F, 0.39F, 0.44F},
@@ -279,7 +279,7 @@ SpaceEvent SpaceMenu::point(const Ray& ray, bool button) {
       return {SpaceEvent::Kind::kChosen, chosen.id, 0.0};
     case SpaceItem::Kind::kSlider: {
       const Vec2 left{found->u + kTrackLeft, found->v + kTrackDown};
-      if (std::abs(at->y - left.y) > kReach) return {};
+      if (std::abs(at->y - left.y) > kSliderReach) return {};
       held_ = Held{*pointed_, left, chosen.value};
       return drag(*at);
     }

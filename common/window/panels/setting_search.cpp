@@ -11,9 +11,6 @@
 namespace palpate {
 namespace {
 
-// GLFW's numbers.
-constexpr int kEscape = 256, kEnter = 257, kDown = 264, kUp = 265, kPadEnter = 335;
-
 /// 0 is the best; none where a word is nowhere.
 std::optional<int> rank(const Setting& row, const std::vector<std::string>& words) {
   const std::string label = lowered(row.label()), name = lowered(row.name), help = lowered(row.help);
@@ -58,10 +55,10 @@ bool SettingSearch::handle(const InputEvent& event) {
   if (!asking_) return false;
   if (event.kind == InputKind::kKeyDown) {
     scrolls_ = true;
-    if (event.key == kEscape) asking_ = false;
-    if (event.key == kEnter || event.key == kPadEnter) chosen_ = true;
-    if (event.key == kDown && current_ + 1 < count_) ++current_;
-    if (event.key == kUp && current_ > 0) --current_;
+    if (event.key == key_code::kEscape) asking_ = false;
+    if (event.key == key_code::kEnter || event.key == key_code::kPadEnter) chosen_ = true;
+    if (event.key == key_code::kDown && current_ + 1 < count_) ++current_;
+    if (event.key == key_code::kUp && current_ > 0) --current_;
     return true;
   }
   return event.kind == InputKind::kKeyUp || event.kind == InputKind::kText || event.kind == InputKind::kWheel;

@@ -11,13 +11,6 @@
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
-namespace {
-
-// GLFW's numbers.
-constexpr int kEnter = 257, kRight = 262, kLeft = 263, kDown = 264, kUp = 265, kPadEnter = 335;
-
-}  // namespace
-
 std::string name_of(const InputFiles& input) {
   if (!input.example.empty()) return input.example;
   std::string name;
@@ -37,20 +30,20 @@ bool StartPage::handle(const InputEvent& event) {
   const auto last = count_ - 1;
   const bool seen = std::exchange(by_keys_, true);
   switch (event.key) {
-    case kRight:
+    case key_code::kRight:
       if (seen) current_ = std::min(last, current_ + 1);
       break;
-    case kLeft:
+    case key_code::kLeft:
       if (seen && current_ > 0) --current_;
       break;
-    case kDown:
+    case key_code::kDown:
       if (seen) current_ = std::min(last, current_ + columns_);
       break;
-    case kUp:
+    case key_code::kUp:
       if (seen) current_ -= std::min(current_, columns_);
       break;
-    case kEnter:
-    case kPadEnter:
+    case key_code::kEnter:
+    case key_code::kPadEnter:
       chosen_ = seen;
       break;
     default:

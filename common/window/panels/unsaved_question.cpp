@@ -9,7 +9,6 @@
 namespace palpate {
 namespace {
 
-constexpr int kEscapeKey = 256;  // GLFW's number
 constexpr const char* kId = "###unsaved";
 
 struct Choice {
@@ -17,9 +16,10 @@ struct Choice {
   int key;
   UnsavedQuestion::Answer answer;
 };
-constexpr std::array<Choice, 3> kChoices{{{"Save  (S)", 'S', UnsavedQuestion::Answer::kSave},
-                                          {"Discard  (D)", 'D', UnsavedQuestion::Answer::kDiscard},
-                                          {"Cancel  (Esc)", kEscapeKey, UnsavedQuestion::Answer::kCancel}}};
+constexpr std::array<Choice, 3> kChoices{
+    {{"Save  (S)", 'S', UnsavedQuestion::Answer::kSave},
+     {"Discard  (D)", 'D', UnsavedQuestion::Answer::kDiscard},
+     {"Cancel  (Esc)", key_code::kEscape, UnsavedQuestion::Answer::kCancel}}};
 
 }  // namespace
 

@@ -23,7 +23,7 @@ constexpr double kScale = 0.1;          // m a unit of data
 constexpr double kSphereRadius = 0.06;  // m, about the origin
 constexpr double kCircleRadius = 0.08;  // m
 constexpr double kBefore = 0.015;       // m of way before the surface
-constexpr double kStep = 1e-4;          // m: 0.1 m/s at 1 kHz
+constexpr double kHandStep = 1e-4;      // m: 0.1 m/s at 1 kHz
 constexpr double kAside = 0.0015;       // m, of the hand from the circle, at most
 
 /// The circle that enters the sphere at (R, 0, 0), and a hand that follows it.
@@ -68,7 +68,7 @@ class Scene {
   [[nodiscard]] double way_in() const {
     double way = 0.0;
     constexpr double kLongest = 0.08;
-    while (way < kLongest && depth(at(way)) < 2.0 * kDepthLimit) way += kStep;
+    while (way < kLongest && depth(at(way)) < 2.0 * kDepthLimit) way += kHandStep;
     return way;
   }
 
@@ -196,9 +196,9 @@ RivalRun measure(RivalMethod method, double angle) {
   const Method move = make_method(method, scene);
   RivalRun run{.method = method, .angle = angle};
   const double end = scene.way_in();
-  const int steps = static_cast<int>(std::ceil((end + kBefore) / kStep));
+  const int steps = static_cast<int>(std::ceil((end + kBefore) / kHandStep));
   for (int n = 0; n < steps; ++n) {
-    const double way = kStep * n - kBefore;
+    const double way = kHandStep * n - kBefore;
     RivalStep step{.probe = scene.hand(way), .depth = Scene::depth(scene.at(way))};
     const double before = thread_microseconds();
     move(step);

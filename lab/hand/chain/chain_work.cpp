@@ -72,7 +72,7 @@ std::unique_ptr<Constraint> circle(double radius) {
 }
 
 /// Circles of the flow about the z axis, at a tenth of a metre a unit.
-std::unique_ptr<StreamlineConstraint> streamline() {
+std::unique_ptr<StreamlineConstraint> helix_line() {
   const auto field = turning_flow(0.5);
   return std::make_unique<StreamlineConstraint>(
       std::make_shared<LiveLine>(field, LiveLine::kFollowTolerance, 1), Workspace(0.1, field->frame()));
@@ -125,16 +125,16 @@ std::vector<Subject> subjects() {
   all.push_back({"sphere, then line, then circle", 0.0, Vec3{0.0},
                  [angle] { return links_of(sphere(0.06), line_at(angle), circle(0.02)); }});
   all.push_back({"streamline, then sphere", 0.0, kOnStreamline, [] {
-                   return links_of(streamline(), std::make_unique<SphereConstraint>(
+                   return links_of(helix_line(), std::make_unique<SphereConstraint>(
                                                      kOnStreamline + Vec3{0.03, 0.04, 0.0}, 0.05));
                  }});
   constexpr int kManySteps = 16 * kStepsPerTurn;  // the force steps where a wall takes hold or lets go
   all.push_back({"streamline, then isosurface", 0.0, kOnStreamline,
-                 [] { return links_of(streamline(), wall()); }, kManySteps});
+                 [] { return links_of(helix_line(), wall()); }, kManySteps});
   all.push_back({"isosurface, then streamline", 0.0, kOnStreamline,
-                 [] { return links_of(wall(), streamline()); }, kManySteps});
+                 [] { return links_of(wall(), helix_line()); }, kManySteps});
   all.push_back({"streamline, then tick marks", 0.0, kOnStreamline, [] {
-                   auto first = streamline();
+                   auto first = helix_line();
                    auto marks = std::make_unique<TickMarks>(*first);
                    return links_of(std::move(first), std::move(marks));
                  }});

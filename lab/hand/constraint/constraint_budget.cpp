@@ -13,8 +13,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::array<int, 10> kIterations{1, 2, 3, 4, 6, 8, 16, 32, 64, 128};
-constexpr double kStep = 1e-3;  // s
+constexpr std::array<int, 10> kBudgetIterations{1, 2, 3, 4, 6, 8, 16, 32, 64, 128};
+constexpr double kServoStep = 1e-3;  // s
 
 std::size_t steps_of(Effort effort) {
   switch (effort) {
@@ -42,7 +42,7 @@ std::vector<Vec3> hand_of(const BudgetSubject& subject, std::size_t steps) {
   path.reserve(steps);
   Vec3 leap{0.0};
   for (std::size_t n = 0; n < steps; ++n) {
-    const double t = kStep * static_cast<double>(n);
+    const double t = kServoStep * static_cast<double>(n);
     if (n % kLeapEvery == kLeapEvery - 1) {
       const double x = unit(), y = unit(), z = unit();
       leap = kLeap * Vec3{x, y, z};
@@ -90,7 +90,7 @@ ConstraintBudget run_constraint_budget(Effort effort, Progress* progress) {
   budget.clock_microseconds = clock_microseconds();
   for (const BudgetSubject& subject : budget_subjects()) {
     const std::vector<Vec3> path = hand_of(subject, steps_of(effort));
-    for (const int iterations : kIterations) {
+    for (const int iterations : kBudgetIterations) {
       if (progress) progress->check();
       budget.rows.push_back(measure(subject, path, iterations));
       if (budget.rows.back().used == 0) break;  // it does not search

@@ -28,7 +28,7 @@ PathPlan plan_of(Effort effort) {
   }
 }
 
-constexpr std::array<int, 10> kIterations{1, 2, 3, 4, 6, 8, 16, 32, 64, 128};
+constexpr std::array<int, 10> kSweepIterations{1, 2, 3, 4, 6, 8, 16, 32, 64, 128};
 constexpr std::array<int, 6> kCells{1, 2, 4, 8, 16, 32};
 // Diagonals on either side of a catch, that the reference reaches: paths keep within half of one about their
 // seed, and rough ones do not stay long on a line.
@@ -61,7 +61,7 @@ class Sweeper {
         paths.push_back(make_probe_path({*field_, workspace_, run_.settings().streamline.release_distance},
                                         kind, request_.seeds[s], plan.steps, s + 1));
       }
-      for (const int iterations : kIterations) {
+      for (const int iterations : kSweepIterations) {
         sweep.rows.push_back(measure(kind, paths, false, {.iterations = iterations}));
       }
       for (const int cells : kCells) sweep.rows.push_back(measure(kind, paths, true, {.cells = cells}));

@@ -17,7 +17,7 @@ namespace palpate {
 namespace {
 
 constexpr double kScale = 0.2;                                                       // m a unit of data
-constexpr double kStep = 1e-3;                                                       // s
+constexpr double kDriftStep = 1e-3;                                                  // s
 constexpr std::array<double, 8> kSpeeds{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0};  // m/s
 constexpr std::array<double, 5> kRates{3.0, 5.0, 10.0, 20.0, 40.0};                  // 1/m
 
@@ -83,7 +83,7 @@ LinearDriftRow measure(DriftFlow flow, FollowMethod method, double rate, double 
   if (method == FollowMethod::kLinearStep) budget.iterations = 1;
   LinearDriftRow row{.flow = flow, .method = method, .rate = rate, .speed = speed};
   int steps = 0;
-  for (double u = 0.0; !line.ended(u); u += speed * kStep / line.pace(u)) {
+  for (double u = 0.0; !line.ended(u); u += speed * kDriftStep / line.pace(u)) {
     LinkUpdate link;
     const double before = thread_microseconds();
     constraint->update(line.at(u), budget, link);

@@ -17,7 +17,7 @@ namespace palpate {
 namespace {
 
 constexpr double kSpeed = 0.1;     // m/s
-constexpr double kStep = 1e-3;     // s
+constexpr double kTick = 1e-3;     // s
 constexpr double kEntering = 0.1;  // s until the mean depth is reached
 constexpr std::array<double, 8> kTimes{0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0};  // s
 constexpr std::array<double, 6> kSizes{0.02, 0.03, 0.05, 0.1, 0.2, 0.4};            // m
@@ -107,8 +107,8 @@ void measure(DepthMethod method, double size, const std::array<double, n>& times
   for (const double end : times) {
     SurfaceDepthRow row{.method = method, .size = size, .time = end};
     const int first = step;
-    for (; kStep * step < end; ++step) {
-      const Hand hand = hand_at(kStep * step, size);
+    for (; kTick * step < end; ++step) {
+      const Hand hand = hand_at(kTick * step, size);
       const double before = thread_microseconds();
       const double depth = estimate.at(hand.place);
       row.us_mean += thread_microseconds() - before;

@@ -17,7 +17,7 @@ using Knot = HapticTransferFunction::Knot;
 
 constexpr float kHeight = 96.0F;     // [pixels]
 constexpr float kKnotRadius = 4.0F;  // [pixels]
-constexpr double kReach = 0.07;      // of the side: as near as that, a click is on a knot
+constexpr double kKnotReach = 0.07;  // of the side: as near as that, a click is on a knot
 constexpr int kNoKnot = -1;
 
 /// Between knots and pixels.
@@ -51,7 +51,7 @@ std::string knot_text(const Knot& knot, const HapticTransferFunction& function, 
 /// What the mouse does to the curve under it. @return whether it changed.
 bool edit(const Canvas& canvas, const CurveRange& range, HapticTransferFunction& function, int& dragged) {
   const Knot mouse = canvas.knot(ImGui::GetIO().MousePos);
-  const auto near = knot_near(function, mouse, kReach, range);
+  const auto near = knot_near(function, mouse, kKnotReach, range);
   if (ImGui::IsItemActivated()) dragged = near ? static_cast<int>(*near) : kNoKnot;
   if (!ImGui::IsItemActive()) dragged = kNoKnot;
   if (ImGui::IsItemHovered()) {
@@ -129,7 +129,7 @@ bool draw_curve_editor(const CurveLabels& labels, const CurveRange& range, Hapti
   ImGui::InvisibleButton("curve", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   note_control(labels.name.c_str());
   bool changed = edit(canvas, shown, function, dragged);
-  const auto near = knot_near(function, canvas.knot(ImGui::GetIO().MousePos), kReach, shown);
+  const auto near = knot_near(function, canvas.knot(ImGui::GetIO().MousePos), kKnotReach, shown);
   const bool hovered = ImGui::IsItemHovered();
   draw(canvas, shown, function,
        dragged >= 0      ? dragged

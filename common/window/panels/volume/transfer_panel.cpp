@@ -20,7 +20,7 @@ namespace {
 
 constexpr float kHeight = 110.0F;     // [pixels]
 constexpr float kPointRadius = 4.5F;  // [pixels]
-constexpr double kReach = 0.07;       // of the side: as near as that, a click is on a point
+constexpr double kPointReach = 0.07;  // of the side: as near as that, a click is on a point
 constexpr int kNone = -1;
 
 /// Between places and pixels.
@@ -118,7 +118,7 @@ void draw_mark(const Canvas& canvas, const ValueSpan& span, double value) {
 bool edit(const Canvas& canvas, const ValueSpan& span, ColorTransfer& transfer, int& dragged, int& chosen) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double value = canvas.value(mouse), opacity = canvas.opacity(mouse);
-  const auto near = point_near(transfer, value, opacity, kReach, span);
+  const auto near = point_near(transfer, value, opacity, kPointReach, span);
   if (ImGui::IsItemActivated()) {
     dragged = near ? static_cast<int>(*near) : kNone;
     if (near) chosen = dragged;
@@ -128,7 +128,7 @@ bool edit(const Canvas& canvas, const ValueSpan& span, ColorTransfer& transfer, 
     if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !near) {
       dragged = kNone;
       transfer = with_point(transfer, value, opacity, span);
-      const auto added = point_near(transfer, value, opacity, kReach, span);
+      const auto added = point_near(transfer, value, opacity, kPointReach, span);
       chosen = added ? static_cast<int>(*added) : kNone;
       return true;
     }
