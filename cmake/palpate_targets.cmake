@@ -171,17 +171,21 @@ endfunction()
 
 # palpate_join_tests(program SOURCES a_test.cpp b_test.cpp … SOURCES …): in a unity build, the test files of each list are
 # compiled together, after their palpate_test lines: most of a test's time goes into templates that all have in
-# common. Files of one list name their helpers differently. Includes from the project's root, not CMake's absolute
+# common. Files of one list name their helpers differently; files that are no part of the program are left out. Includes from the project's root, not CMake's absolute
 # ones: the compiler's cache then knows the joined file in any checkout.
 function(palpate_join_tests program)
   if(NOT PALPATE_JOINS_TESTS OR NOT TARGET ${program})
     return()
   endif()
   set(count 0)
+  get_target_property(known ${program} SOURCES)
   foreach(word ${ARGN} SOURCES)
     if(NOT word STREQUAL SOURCES)
       if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${word})
         message(FATAL_ERROR "palpate_join_tests(${program}): there is no ${word}")
+      endif()
+      if(NOT ${CMAKE_CURRENT_SOURCE_DIR}/${word} IN_LIST known)
+        continue()  # the test of a part that is not built
       endif()
       file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${word})
       string(APPEND includes "#include \"${path}\"\n")
