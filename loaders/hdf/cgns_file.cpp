@@ -8,6 +8,24 @@ namespace palpate {
 
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
+namespace {
+
+/// What `use` makes of a node's data set and its space; `none` where there are none.
+template <class Result, class Use>
+Result of_data(hid_t file, const std::string& node, Result none, const Use& use) {
+  const std::string data = node + "/ data";
+  if (H5Lexists(file, data.c_str(), H5P_DEFAULT) <= 0) return none;
+  const hid_t set = H5Dopen2(file, data.c_str(), H5P_DEFAULT);
+  if (set < 0) return none;
+  const hid_t space = H5Dget_space(set);
+  Result found = use(set, space);
+  H5Sclose(space);
+  H5Dclose(set);
+  return found;
+}
+
+}  // namespace
+
 CgnsFile::CgnsFile(const std::string& file) : file_(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {}
 
 CgnsFile::~CgnsFile() {
@@ -30,34 +48,24 @@ std::string CgnsFile::label(const std::string& node) const {
 }
 
 std::uint64_t CgnsFile::count(const std::string& node) const {
-  const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
-  if (set < 0) return 0;
-  const hid_t space = H5Dget_space(set);
-  const hssize_t count = H5Sget_simple_extent_npoints(space);
-  H5Sclose(space);
-  H5Dclose(set);
-  return count < 0 ? 0 : static_cast<std::uint64_t>(count);
+  return of_data(file_, node, std::uint64_t{0}, [](hid_t, hid_t space) {
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    return count < 0 ? 0 : static_cast<std::uint64_t>(count);
+  });
 }
 
 int CgnsFile::axes(const std::string& node) const {
-  if (!has(node + "/ data")) return 0;
-  const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
-  if (set < 0) return 0;
-  const hid_t space = H5Dget_space(set);
-  const int axes = H5Sget_simple_extent_ndims(space);
-  H5Sclose(space);
-  H5Dclose(set);
-  return axes;
+  return of_data(file_, node, 0, [](hid_t, hid_t space) { return H5Sget_simple_extent_ndims(space); });
 }
 
 std::vector<std::int64_t> CgnsFile::numbers(const std::string& node, std::uint64_t most) const {
-  const std::uint64_t n = has(node + "/ data") ? count(node) : 0;
-  if (n == 0 || n > most) return {};
-  std::vector<std::int64_t> out(n);
-  const hid_t set = H5Dopen2(file_, (node + "/ data").c_str(), H5P_DEFAULT);
-  const bool read = H5Dread(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) >= 0;
-  H5Dclose(set);
-  return read ? out : std::vector<std::int64_t>{};
+  return of_data(file_, node, std::vector<std::int64_t>(), [&](hid_t set, hid_t space) {
+    const hssize_t count = H5Sget_simple_extent_npoints(space);
+    if (count <= 0 || static_cast<std::uint64_t>(count) > most) return std::vector<std::int64_t>();
+    std::vector<std::int64_t> out(static_cast<std::size_t>(count));
+    const bool read = H5Dread(set, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) >= 0;
+    return read ? out : std::vector<std::int64_t>();
+  });
 }
 
 std::vector<std::string> CgnsFile::children(const std::string& node) const {
