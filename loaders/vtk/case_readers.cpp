@@ -23,6 +23,7 @@
 #include "common/load/helper/chosen_loader.h"
 #include "common/load/step_times.h"
 #include "loaders/vtk/ensight/ensight_check.h"
+#include "loaders/vtk/ensight/ensight_rows.h"
 #include "loaders/vtk/ensight/ensight_times.h"
 #include "loaders/vtk/foam/foam_case.h"
 #include "loaders/vtk/foam/foam_collated.h"
@@ -41,18 +42,17 @@ class EnsightCase {
 
   void set_up(Reader& reader, const std::string& file, std::vector<std::string>& notes) {
     text_ = read_head(file, kCaseBytes).bytes;
-    std::vector<std::string> lost;
     times_ = ensight_times(text_);
     const std::string& timed = times_.all.empty() ? text_ : times_.text;
-    const std::string text = ensight_case_for_vtk(timed, file, "../../..", lost);
-    if (times_.all.empty() && lost.empty() && text_.find('"') == std::string::npos) {
-      reader.SetCaseFileName(file.c_str());
-    } else {
-      // From /proc/self/fd the names of its files lead back to the root.
-      reader.SetCaseFileName(memory_.write(text).c_str());
-    }
-    notes.insert(notes.end(), lost.begin(), lost.end());
+    // From /proc/self/fd the names of its files lead back to the root.
+    const std::string text = ensight_case_for_vtk(timed, file, "../../..", lost_, notes);
+    reader.SetCaseFileName(memory_.write(text).c_str());
     reader.ReadAllVariablesOff();
+  }
+  /// @param offered the variables that can be read.
+  void note_unused(std::set<std::string> offered, std::vector<std::string>& notes) const {
+    offered.insert(lost_.begin(), lost_.end());
+    for (std::string& unused : ensight_unused(text_, offered)) notes.push_back(std::move(unused));
   }
 
   static void choose_parts(Reader&) {}
@@ -96,7 +96,8 @@ class EnsightCase {
  private:
   static constexpr std::size_t kCaseBytes = std::size_t{4} << 20U;
   std::string text_;
-  EnsightTimes times_;  ///< VTK has their places in the list in place of them
+  std::set<std::string> lost_;  ///< variables whose files are not there
+  EnsightTimes times_;          ///< VTK has their places in the list in place of them
   MemoryText memory_;
 };
 
@@ -118,6 +119,8 @@ class OpenFoamCase {
     reader.DecomposePolyhedraOff();
     reader.SkipZeroTimeOff();
   }
+
+  static void note_unused(const std::set<std::string>&, std::vector<std::string>&) {}
 
   static void choose_parts(Reader& reader) {
     reader.DisableAllPatchArrays();
@@ -203,6 +206,7 @@ class CaseReader : public Loader {
       if (!Case::kChecksFields || arrays().empty()) throw;
     }
     case_.choose_parts(*reader_);
+    case_.note_unused(arrays(), info.notes);
 
     vtkInformation* about = reader_->GetOutputInformation(0);
     auto* const steps = vtkStreamingDemandDrivenPipeline::TIME_STEPS();

@@ -14,6 +14,7 @@
 #include "loaders/meta/meta_header.h"
 #include "loaders/nrrd/nrrd_check.h"
 #include "loaders/vtk/ensight/ensight_check.h"
+#include "loaders/vtk/ensight/ensight_rows.h"
 #include "loaders/vtk/foam/foam_baffles.h"
 #include "loaders/vtk/foam/foam_boundary.h"
 #include "loaders/vtk/foam/foam_collated.h"
@@ -136,6 +137,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     case 6:
       (void)ensight_variables(text);
+      (void)ensight_unused(text, {});
       break;
     case 7: {
       const MetaHeader header = read_meta_header(text);

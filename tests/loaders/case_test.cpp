@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -172,6 +174,52 @@ TEST(Ensight, AMissingVariableCostsItselfAndAWord) {
   EXPECT_TRUE(says(source, "variable 'gone' left out"));
   const auto blocks = source.read({"velocity"}, 1);
   EXPECT_EQ(blocks.at(0).find("velocity", Association::kPoint)->at(2, 1), test::cube_velocity(2, 1)[1]);
+}
+
+// Every row that nothing is read of is named, and costs nothing else.
+TEST(Ensight, RowsThatAreNotReadAreNamed) {
+  const test::TempFolder folder;
+  (void)test::write_ensight_text(folder);
+  const auto file = folder.write(
+      "rows.case",
+      "# scalar per node: 1 commented nowhere.p*\nFORMAT\ntype: ensight gold\n\nGEOMETRY\nmodel: cube.geo\n"
+      "measured: 1 drops.geo\nmatch: cube.match\nrigid_body: cube.erb\nVector_glyphs: cube.glyph\n\nVARIABLE\n"
+      "constant per case: gamma 1.4\nconstant per case: 1 mach 0.1 0.2\nconstant per case file: 1 alpha alpha.txt\n"
+      "scalar per measured node: 1 mass drops.m*\nvector per measured node: 1 drift drops.v*\n"
+      "complex scalar per node: 1 wave wave.re* wave.im* 20\ncomplex vector per element: sound s.re s.im 440\n"
+      "scalar per volume: 1 odd odd.p*\nVector  per node : 1 velocity cube.vel*\n"
+      "scalar per element: 1 pressure cube.p*\n\nTIME\ntime set: 1\nnumber of steps: 2\nfilename start number: 0\n"
+      "filename increment: 1\ntime values: 0.0 0.5\n\nMATERIAL\nmaterial set number: 1 Gas\n"
+      "material id count: 1\n\nSCRIPTS\nmetadata: cube.xml\n");
+  Source source = Source::open({{file}, {}});
+  for (const char* const words :
+       {"'measured' of section GEOMETRY ('1'): particles are no cells",
+        "'match' of section GEOMETRY ('cube.match')",
+        "'rigid_body' of section GEOMETRY ('cube.erb'): parts stay", "'vector_glyphs' of section GEOMETRY",
+        "variables 'constant per case' ('gamma', 'mach')", "variables 'constant per case file' ('alpha')",
+        "variables 'scalar per measured node' ('mass')", "variables 'vector per measured node' ('drift')",
+        "variables 'complex scalar per node' ('wave')", "variables 'complex vector per element' ('sound')",
+        "variables 'scalar per volume' ('odd')",
+        "section MATERIAL ('material set number', 'material id count')", "section SCRIPTS ('metadata')"}) {
+    EXPECT_TRUE(says(source, std::string("not read: ") + words)) << words;
+  }
+  for (const char* const words : {"commented", "velocity", "pressure", "time", "missing"})
+    EXPECT_FALSE(says(source, words)) << words;
+  expect_cube_steps(source, {0, 1, 0});
+}
+
+// Of a case without times, too; and nothing is said of one whose rows are all read.
+TEST(Ensight, ASteadyCaseNamesWhatItDoesNotRead) {
+  const test::TempFolder folder;
+  (void)test::write_ensight_text(folder);
+  const std::string rows =
+      "FORMAT\ntype: ensight gold\nGEOMETRY\nmodel: cube.geo\nVARIABLE\nvector per node: velocity cube.vel0\n";
+  EXPECT_TRUE(Source::open({{folder.write("all.case", rows)}, {}}).info().notes.empty());
+  Source some = Source::open(
+      {{folder.write("some.case", rows + "complex scalar per node: wave cube.p0 cube.p1 20\n")}, {}});
+  EXPECT_EQ(some.info().notes,
+            std::vector<std::string>{"not read: variables 'complex scalar per node' ('wave')"});
+  EXPECT_EQ(some.info().blocks.at(0).arrays.size(), 1U);
 }
 
 TEST(Ensight, PartsOfEnsight6ShareTheirNodes) {

@@ -4,11 +4,11 @@
 #include <cctype>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "common/base/error.h"
 #include "common/base/files/mapped_file.h"
 #include "common/load/find_format.h"
+#include "loaders/vtk/ensight/ensight_rows.h"
 
 namespace palpate {
 namespace {
@@ -38,20 +38,6 @@ std::map<unsigned long long, std::filesystem::path> matching_files(const std::fi
   return files;
 }
 
-/// The words of a line; those between double quotes are one, and lose the quotes.
-std::vector<std::string> quoted_words(std::string_view line) {
-  std::vector<std::string> found;
-  for (std::size_t at = 0;;) {
-    at = line.find_first_not_of(" \t\r", at);
-    if (at == std::string_view::npos) return found;
-    const bool quoted = line[at] == '"';
-    if (quoted) ++at;
-    const std::size_t end = std::min(line.find_first_of(quoted ? "\"" : " \t\r", at), line.size());
-    found.emplace_back(line.substr(at, end - at));
-    at = std::min(end + (quoted ? 1 : 0), line.size());
-  }
-}
-
 /// Whether a file fits `pattern`, which may hold asterisks in its folders, too.
 bool exists_any(const std::filesystem::path& pattern) {
   std::filesystem::path known;
@@ -67,16 +53,6 @@ bool exists_any(const std::filesystem::path& pattern) {
   }
   std::error_code error;
   return std::filesystem::exists(known, error);
-}
-
-/// The index of the word that names a file on a line of `section`; 0 where none does.
-std::size_t file_word(const std::string& section, const std::string& kind, std::size_t words) {
-  if (section == "GEOMETRY" && (kind == "model" || kind == "measured")) {
-    // "model: [time set] [file set] file [change_coords_only …]"
-    return words > 0 ? 1 : 0;
-  }
-  const bool values = kind.find(" per ") != std::string::npos && kind.find("constant") == std::string::npos;
-  return section == "VARIABLE" && values && words > 1 ? words : 0;
 }
 
 /// What VTK's readers take for something else, and say nothing: curved cells of EnSight 6, through their corners; of Gold the
@@ -116,61 +92,48 @@ void refuse_misread_geometry(const std::filesystem::path& pattern, bool ensight6
   }
 }
 
-bool is_number(const std::string& word) {
-  return std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 }  // namespace
 
 bool is_ensight6(std::string_view case_text) {
-  std::istringstream lines{std::string(case_text)};
-  for (std::string line; std::getline(lines, line);) {
-    if (line.compare(0, 5, "type:") == 0) return line.find("gold") == std::string::npos;
+  for (const EnsightRow& row : ensight_rows(case_text)) {
+    if (row.kind == "type") return row.line.find("gold") == std::string_view::npos;
   }
   return false;
 }
 
 std::string ensight_case_for_vtk(std::string_view text, const std::string& case_file,
-                                 const std::string& prefix, std::vector<std::string>& notes) {
+                                 const std::string& prefix, std::set<std::string>& lost,
+                                 std::vector<std::string>& notes) {
   const std::filesystem::path folder = std::filesystem::absolute(case_file).parent_path();
-  std::istringstream lines{std::string(text)};
-  std::string section;
   std::string out;
   std::size_t sets_of_geometry = 0;
-  for (std::string line; std::getline(lines, line);) {
-    while (!line.empty() && line.back() == '\r') line.pop_back();
-    const std::size_t colon = line.find(':');
-    const std::vector<std::string> heads = quoted_words(line.substr(0, colon));
-    if (colon == std::string::npos && heads.size() == 1 &&
-        std::isupper(static_cast<unsigned char>(line[0])) != 0)
-      section = heads[0];
-    std::string kind;
-    for (const std::string& head : heads) kind += (kind.empty() ? "" : " ") + head;
-    std::vector<std::string> words;
-    if (colon != std::string::npos) words = quoted_words(std::string_view(line).substr(colon + 1));
-    std::size_t word = file_word(section, kind, words.size());
-    if (word == 0) {
-      out += line + "\n";
+  for (const EnsightRow& row : ensight_rows(text)) {
+    const bool is_model = row.section == "GEOMETRY" && row.kind == "model" && !row.words.empty();
+    const bool is_values = row.is_variable() && row.words.size() > 1;
+    if (!is_model && !is_values) {
+      // Of what is not read VTK's reader may make something else.
+      if (row.kind.empty() || (row.section != "GEOMETRY" && row.section != "VARIABLE"))
+        out.append(row.line).append("\n");
       continue;
     }
-    // Numbers of the time set and file set precede a geometry's file.
-    while (section == "GEOMETRY" && word < words.size() && is_number(words[word - 1])) {
-      ++word;
+    std::vector<std::string> words = row.words;
+    std::size_t word = words.size() - 1;
+    if (is_model) {
+      // "model: [time set] [file set] file [change_coords_only …]"
+      word = sets_of_geometry = row.sets(1);
     }
-    if (section == "GEOMETRY") sets_of_geometry = word - 1;
     // VTK looks for steps in the file of the geometry then, without an end.
-    if (section == "VARIABLE" && is_number(words[0]) && is_number(words[1]) && words.size() > 3 &&
-        sets_of_geometry < 2) {
+    if (is_values && row.sets(2) == 2 && sets_of_geometry < 2) {
       throw input_error(
           {case_file, "",
            "has all steps of '" + words[words.size() - 2] + "' in one file, but a geometry without steps",
            "the geometry in a file set, too", "write a file a step (" + words.back() + "****)"});
     }
-    std::string& file = words[word - 1];
+    std::string& file = words[word];
     const std::filesystem::path path = folder / file;
     if (!exists_any(path)) {
-      if (section == "GEOMETRY")
-        throw input_error({path.string(), "", "is missing, the geometry of " + case_file});
+      if (is_model) throw input_error({path.string(), "", "is missing, the geometry of " + case_file});
+      lost.insert(words[words.size() - 2]);
       notes.push_back("variable '" + words[words.size() - 2] + "' left out: its file " + path.string() +
                       " is missing");
       continue;
@@ -179,9 +142,9 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
       throw input_error({case_file, "", "names the file '" + path.string() + "'",
                          "names without blanks: VTK's reader knows none", "rename or link it"});
     }
-    if (section == "GEOMETRY" && kind == "model") refuse_misread_geometry(path, is_ensight6(text));
+    if (is_model) refuse_misread_geometry(path, is_ensight6(text));
     file = prefix + path.string();
-    out += line.substr(0, colon + 1);
+    out += row.kind + ":";
     for (const std::string& part : words) out += " " + part;
     out += "\n";
   }
@@ -190,18 +153,12 @@ std::string ensight_case_for_vtk(std::string_view text, const std::string& case_
 
 std::vector<EnsightVariable> ensight_variables(std::string_view case_text) {
   std::vector<EnsightVariable> variables;
-  std::istringstream lines{std::string(case_text)};
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t colon = line.find(':');
-    if (colon == std::string::npos) continue;
-    const std::string kind = line.substr(0, colon);
-    const bool on_points = kind.find(" per node") != std::string::npos;
-    if (!on_points && kind.find(" per element") == std::string::npos) continue;
+  for (const EnsightRow& row : ensight_rows(case_text)) {
     // Optional numbers of the time set and file set, then the name and the file.
-    const std::vector<std::string> words = quoted_words(std::string_view(line).substr(colon + 1));
-    if (words.size() < 2) continue;
-    variables.push_back(
-        {words[words.size() - 2], on_points ? Association::kPoint : Association::kCell, words.back()});
+    if (!row.is_variable() || row.words.size() < 2) continue;
+    const bool on_points = row.kind.ends_with(" per node");
+    variables.push_back({row.words[row.words.size() - 2],
+                         on_points ? Association::kPoint : Association::kCell, row.words.back()});
   }
   return variables;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,11 +25,13 @@ struct EnsightVariable {
 
 /// The case file `text` as VTK's reader, which knows neither quotes nor lost files, can read it from another
 /// folder: file names without quotes and absolute, behind `prefix`; lines of variables whose files are not
-/// there left out.
-/// @param case_file where the text is from. @param notes get a sentence for each variable left out.
+/// there left out, as what ensight_unused() names.
+/// @param case_file where the text is from. @param lost gets the names of variables whose files are not there, and
+/// `notes` a sentence for each.
 /// @throws Error (bad input) where a file name holds blanks, or the geometry is not there.
 [[nodiscard]] std::string ensight_case_for_vtk(std::string_view text, const std::string& case_file,
-                                               const std::string& prefix, std::vector<std::string>& notes);
+                                               const std::string& prefix, std::set<std::string>& lost,
+                                               std::vector<std::string>& notes);
 
 /// Whether the case is of EnSight 6, where all parts share one list of nodes.
 [[nodiscard]] bool is_ensight6(std::string_view case_text);
