@@ -6,6 +6,7 @@
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
+#include "common/base/text.h"
 #include "common/field/cells/boundary_values.h"
 #include "common/field/cells/cell_values.h"
 #include "common/field/cells/curved_split.h"
@@ -202,7 +203,24 @@ GivenValues::GivenValues(const FieldGrid& grid, std::span<const DataSet> blocks,
       along_.push_back(along_walls(sum));
     }
   }
-  if (!read) return;
+  if (read) take_means(grid, blocks, read);
+  for (std::size_t point = 0; point < sliding_.size(); ++point) {
+    if (sliding_[point] == 0) continue;
+    if (at(point) == nullptr) {
+      ++slides_;
+      continue;
+    }
+    double* const value = values_.data() + point * components_;
+    const std::array<double, 3> before{value[0], value[1], value[2]};
+    slide(point, value);
+    constexpr double kRounding = 1e-12;
+    const double change = std::hypot(value[0] - before[0], value[1] - before[1], value[2] - before[2]);
+    if (change > kRounding * std::hypot(before[0], before[1], before[2])) ++edges_;
+  }
+}
+
+void GivenValues::take_means(const FieldGrid& grid, std::span<const DataSet> blocks,
+                             const TupleReader& read) {
   std::vector<double> value(components_);
   std::size_t input = 0;
   for (const DataSet& block : blocks) {
@@ -232,14 +250,16 @@ void GivenValues::slide(std::size_t point, double* value) const noexcept {
 
 std::string GivenValues::note() const {
   const auto count = counts_.size() - as_size(std::ranges::count(counts_, std::uint32_t{0}));
-  const std::string slides = along_.empty()
-                                 ? std::string()
-                                 : std::to_string(along_.size() - 1) +
-                                       " at walls along which the flow slides: none of it goes through";
+  const std::string slides =
+      slides_ == 0
+          ? std::string()
+          : std::to_string(slides_) + " at walls along which the flow slides: none of it goes through";
+  const std::string edges =
+      edges_ == 0 ? std::string() : ", less what would go through a wall at " + counted(edges_, "edge point");
   if (count == 0) return slides.empty() ? slides : "boundary points: " + slides;
   return std::to_string(count) +
          (count == 1 ? " boundary point has the value" : " boundary points have the values") +
-         " that the data gives there" + (slides.empty() ? "" : ", " + slides);
+         " that the data gives there" + edges + (slides.empty() ? "" : ", " + slides);
 }
 
 }  // namespace palpate

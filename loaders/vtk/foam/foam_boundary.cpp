@@ -1,13 +1,11 @@
 #include "loaders/vtk/foam/foam_boundary.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <set>
-#include <span>
 #include <utility>
 
 #include <regex.h>
@@ -403,44 +401,6 @@ std::map<std::string, FoamPatchValues> read_foam_boundary(std::string_view text,
       problem = std::to_string(tuples) + " values for " + std::to_string(patch.faces) + " faces";
     }
     if (!problem.empty()) problems.push_back(name + problem);
-  }
-  return out;
-}
-
-std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
-                                       std::size_t first_face,
-                                       const std::map<std::string, FoamPatchValues>& values,
-                                       const std::vector<Vec3>& positions) {
-  constexpr std::size_t kSix = 6;
-  std::vector<double> out;
-  for (const FoamPatch& patch : patches) {
-    const auto found = values.find(patch.name);
-    if (found == values.end() || !found->second.slides || patch.first_face < first_face) continue;
-    for (std::size_t i = 0; i < patch.faces; ++i) {
-      const std::size_t face = patch.first_face - first_face + i;
-      if (face + 1 >= faces.begin.size()) break;
-      const std::span<const std::int64_t> corners(faces.points.data() + faces.begin[face],
-                                                  faces.points.data() + faces.begin[face + 1]);
-      if (corners.size() < 3 || std::ranges::any_of(corners, [&](std::int64_t p) {
-            return p < 0 || as_size(p) >= positions.size();
-          }))
-        continue;
-      // Twice the area along the normal, from its first corner.
-      const Vec3 first = positions[as_size(corners[0])];
-      Vec3 normal{0.0};
-      for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
-        normal +=
-            glm::cross(positions[as_size(corners[c])] - first, positions[as_size(corners[c + 1])] - first);
-      }
-      const double area = glm::length(normal);
-      if (!(area > 0.0) || !std::isfinite(area)) continue;
-      if (out.empty()) out.assign(kSix * positions.size(), 0.0);
-      const Vec3 n = normal / area;
-      const std::array<double, kSix> six{n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
-      for (const std::int64_t p : corners) {
-        for (std::size_t c = 0; c < kSix; ++c) out[kSix * as_size(p) + c] += area * six[c];
-      }
-    }
   }
   return out;
 }

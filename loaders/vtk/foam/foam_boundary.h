@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/math/vec.h"
 #include "loaders/vtk/foam/foam_scope.h"
 
 namespace palpate {
@@ -63,13 +62,6 @@ struct FoamFaces {
                                                                         const std::vector<FoamPatch>& patches,
                                                                         std::vector<std::string>& problems,
                                                                         const FoamInclude& include = {});
-
-/// At the points of the boundary the sum of A n n^T over the faces around that a vector slides along, as xx, xy, xz,
-/// yy, yz, zz: A the area, n the normal. Zero elsewhere; nothing where there are no such faces.
-[[nodiscard]] std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches,
-                                                     const FoamFaces& faces, std::size_t first_face,
-                                                     const std::map<std::string, FoamPatchValues>& values,
-                                                     const std::vector<Vec3>& positions);
 
 /// The number of things in a file of the mesh, which stands before them. @throws Error (bad input) with `file`.
 [[nodiscard]] std::size_t read_foam_count(std::string_view text, const std::string& file);

@@ -430,14 +430,16 @@ std::vector<std::string> FoamBoundaryReader::add(std::vector<DataSet>& blocks, d
           continue;
         }
         if (positions.empty()) positions = positions_of(*mesh_of_block);
-        const std::vector<double> normals =
-            foam_point_normals(mesh.patches, mesh.faces, mesh.first_face, values, positions);
-        if (!normals.empty()) {
-          block.arrays.push_back(make_array(sliding_array_of(array.name), Association::kPoint, 6,
-                                            std::span<const double>(normals)));
-        }
         std::vector<double> numbers =
             foam_point_values(mesh.patches, mesh.faces, mesh.first_face, values, array.components, positions);
+        if (array.components == 3) {
+          const std::vector<double> normals =
+              foam_point_normals(mesh.patches, mesh.faces, mesh.first_face, values, positions, numbers);
+          if (!normals.empty()) {
+            block.arrays.push_back(make_array(sliding_array_of(array.name), Association::kPoint, 6,
+                                              std::span<const double>(normals)));
+          }
+        }
         if (numbers.empty()) continue;
         leave_out_bad_cells(std::get<UnstructuredTopology>(block.topology), array, numbers);
         block.arrays.push_back(make_array(boundary_array_of(array.name), Association::kPoint,

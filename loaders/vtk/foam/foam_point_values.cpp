@@ -1,6 +1,7 @@
 #include "loaders/vtk/foam/foam_point_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -153,6 +154,62 @@ class FaceGradients {
   std::vector<double> range_;    ///< by how much a component differs at most from face to face
 };
 
+constexpr std::size_t kSix = 6;
+
+/// A face through which nothing goes.
+struct Wall {
+  std::uint32_t patch = 0;
+  bool slides = false;  ///< what goes along it is not given
+  Vec3 normal{0.0};
+  std::span<const std::int64_t> corners;
+};
+
+/// Beyond what numbers of a few digits leave open.
+bool goes_through(const Vec3& v, const Vec3& normal) {
+  constexpr double kThrough = 0.01;
+  return std::abs(glm::dot(v, normal)) > kThrough * glm::length(v);
+}
+
+std::vector<Wall> walls_of(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
+                           std::size_t first_face, const std::map<std::string, FoamPatchValues>& values,
+                           const std::vector<Vec3>& positions) {
+  std::vector<Wall> out;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const FoamPatch& patch = patches[p];
+    const auto found = values.find(patch.name);
+    if (found == values.end() || patch.first_face < first_face) continue;
+    const FoamPatchValues& given = found->second;
+    if (!given.slides && given.numbers.size() < 3 * (given.uniform ? 1 : patch.faces)) continue;
+    for (std::size_t i = 0; i < patch.faces; ++i) {
+      const std::size_t face = patch.first_face - first_face + i;
+      if (face + 1 >= faces.begin.size()) break;
+      const std::span<const std::int64_t> corners(faces.points.data() + faces.begin[face],
+                                                  faces.points.data() + faces.begin[face + 1]);
+      if (corners.size() < 3 || std::ranges::any_of(corners, [&](std::int64_t corner) {
+            return corner < 0 || as_size(corner) >= positions.size();
+          }))
+        continue;
+      // Twice the area along the normal, from its first corner.
+      const Vec3 first = positions[as_size(corners[0])];
+      Vec3 normal{0.0};
+      for (std::size_t c = 1; c + 1 < corners.size(); ++c) {
+        normal +=
+            glm::cross(positions[as_size(corners[c])] - first, positions[as_size(corners[c + 1])] - first);
+      }
+      const double area = glm::length(normal);
+      if (!(area > 0.0) || !std::isfinite(area)) continue;
+      const Vec3 n = normal / area;
+      if (!given.slides) {
+        const std::size_t at = given.uniform ? 0 : 3 * i;
+        const Vec3 v{given.numbers[at], given.numbers[at + 1], given.numbers[at + 2]};
+        if (!is_finite(v) || goes_through(v, n)) continue;
+      }
+      out.push_back({static_cast<std::uint32_t>(p), given.slides, n, corners});
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
@@ -194,6 +251,50 @@ std::vector<double> foam_point_values(const std::vector<FoamPatch>& patches, con
   for (std::size_t p = 0; p < weights.size(); ++p) {
     if (weights[p] > 0.0) continue;
     for (std::size_t c = 0; c < n; ++c) out[p * n + c] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
+std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches, const FoamFaces& faces,
+                                       std::size_t first_face,
+                                       const std::map<std::string, FoamPatchValues>& values,
+                                       const std::vector<Vec3>& positions,
+                                       const std::vector<double>& at_points) {
+  const std::vector<Wall> walls = walls_of(patches, faces, first_face, values, positions);
+  std::vector<double> out;
+  const auto add = [&](const Wall& wall, std::size_t p) {
+    if (out.empty()) out.assign(kSix * positions.size(), 0.0);
+    const Vec3& n = wall.normal;
+    const std::array<double, kSix> six{n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z};
+    for (std::size_t c = 0; c < kSix; ++c) out[kSix * p + c] += six[c];
+  };
+  for (const Wall& wall : walls) {
+    for (const std::int64_t p : wall.slides ? wall.corners : std::span<const std::int64_t>())
+      add(wall, as_size(p));
+  }
+  if (at_points.size() != 3 * positions.size()) return out;
+  // Of a patch alone the mean of its faces is what is right: facets of a cylinder that turns.
+  constexpr std::uint32_t kSeveral = 0xffffffff;
+  std::unordered_map<std::int64_t, std::uint32_t> patch_of;
+  for (const Wall& wall : walls) {
+    for (const std::int64_t p : wall.corners) {
+      const auto [known, fresh] = patch_of.try_emplace(p, wall.patch);
+      if (known->second != wall.patch) known->second = kSeveral;
+    }
+  }
+  std::vector<std::uint8_t> leaks(positions.size(), 0);
+  for (const Wall& wall : walls) {
+    for (const std::int64_t p : wall.corners) {
+      const auto at = as_size(p);
+      if (patch_of.at(p) != kSeveral) continue;
+      const Vec3 v{at_points[3 * at], at_points[3 * at + 1], at_points[3 * at + 2]};
+      if (goes_through(v, wall.normal)) leaks[at] = 1;
+    }
+  }
+  for (const Wall& wall : walls) {
+    for (const std::int64_t p : wall.slides ? std::span<const std::int64_t>() : wall.corners) {
+      if (leaks[as_size(p)] != 0) add(wall, as_size(p));
+    }
   }
   return out;
 }

@@ -25,6 +25,17 @@ namespace palpate {
                                                     const std::map<std::string, FoamPatchValues>& values,
                                                     int components, const std::vector<Vec3>& positions);
 
+/// At the points of the boundary the sum of n n^T over the faces around through which nothing goes, n their normals, as xx,
+/// xy, xz, yy, yz, zz: the faces that a vector slides along. Where a vector of `at_points` would go through a face whose own
+/// value does not (the mean of both at the edge of a lid and a wall: a closed box would leak there), the faces with such values, too.
+/// Zero elsewhere; nothing where there are no such faces.
+/// @param at_points what foam_point_values() gives of the vectors, or nothing.
+[[nodiscard]] std::vector<double> foam_point_normals(const std::vector<FoamPatch>& patches,
+                                                     const FoamFaces& faces, std::size_t first_face,
+                                                     const std::map<std::string, FoamPatchValues>& values,
+                                                     const std::vector<Vec3>& positions,
+                                                     const std::vector<double>& at_points = {});
+
 /// NaN in `at_points`, as many numbers a point as `of_cells` has a cell, at the corners of cells that have a value which is
 /// no number: what a patch gives there would hide that.
 void leave_out_bad_cells(const UnstructuredTopology& mesh, const DataArray& of_cells,

@@ -9,6 +9,7 @@
 
 #include "common/field/cells/boundary_values.h"
 #include "common/load/load.h"
+#include "common/trace/trace.h"
 #include "loaders/vtk/foam/foam_point_values.h"
 #include "tests/loaders/foam/foam_box.h"
 #include "tests/support/temp_folder.h"
@@ -110,6 +111,52 @@ TEST(FoamPointValues, CellsThatAreBadDataStayBadAtTheirPatches) {
   EXPECT_EQ(at_points[0], 7.0);
   EXPECT_EQ(at_points[5], 7.0);
   for (std::size_t p = 1; p < 5; ++p) EXPECT_TRUE(std::isnan(at_points[p])) << p;
+}
+
+// Where a lid meets a wall the mean of both would go through the wall: a closed box leaked at its edges.
+TEST(FoamPointValues, AClosedBoxLeaksNowhere) {
+  const auto patch = [](const Vec3& middle) {
+    if (middle.z > 1.99) return std::string("lid");
+    return std::string(middle.x > 0.99 ? "east" : "walls");
+  };
+  for (const char* const east : {"noSlip", "slip"}) {
+    const test::TempFolder folder;
+    const FoamBox box(6, patch);
+    FoamBox::write_control(folder.path());
+    box.write_mesh(folder.path(), false);
+    // (1 - x^2) z (2 - z), and what it takes along y and z: nothing of it goes through a wall.
+    const auto swirl = [](const Vec3& x) {
+      const double a = 1.0 - x.x * x.x, b = x.z * (2.0 - x.z), c = 1.0 - x.y * x.y;
+      return Vec3{a * c * (2.0 - 2.0 * x.z), 0.3 * a * b * c, 2.0 * x.x * b * c};
+    };
+    box.write_vectors(
+        folder.path("1/U"), false, swirl,
+        std::string(
+            "lid { type fixedValue; value uniform (1 0.5 0); }\nwalls { type noSlip; }\neast { type ") +
+            east + "; }\n");
+    Source source = Source::open({{folder.path()}, {}});
+    const auto field = vectors_of_cells(source.read({"U"}, 0));
+    EXPECT_TRUE(says(field->notes().lines, ", less what would go through a wall at "));
+    CellHint hint;
+    const auto expect = [&](const Vec3& x, const Vec3& v) {
+      EXPECT_NEAR(glm::distance(field->sample(x, hint).value, v), 0.0, 1e-12) << east << x.x << x.y << x.z;
+    };
+    expect({0.0, 0.0, 2.0}, {1.0, 0.5, 0.0});
+    expect({1.0, 0.0, 2.0}, {0.0, std::string(east) == "slip" ? 0.5 : 0.25, 0.0});
+    expect({-1.0, 0.0, 2.0}, {0.0, 0.25, 0.0});
+    expect({0.0, 1.0, 2.0}, {0.5, 0.0, 0.0});
+    expect({1.0, 1.0, 2.0}, {0.0, 0.0, 0.0});
+    std::vector<Vec3> seeds;
+    for (const double x : {-0.97, -0.6, 0.1, 0.7, 0.97})
+      for (const double y : {-0.97, 0.2, 0.97})
+        for (const double z : {1.95, 1.7, 0.8}) seeds.emplace_back(x, y, z);
+    TraceOptions options;
+    options.max_length = 20.0;
+    for (const Line& line : trace_lines(*field, seeds, options).lines) {
+      const Vec3 last = line.points.back().position;
+      EXPECT_NE(line.end, End::kLeftDomain) << east << " " << last.x << " " << last.y << " " << last.z;
+    }
+  }
 }
 
 /// A case at times 1, 2 and 3 whose third cell is `word` at `broken`.
