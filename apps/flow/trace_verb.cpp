@@ -12,7 +12,6 @@
 #include "common/cli/verbs.h"
 #include "common/compose/lines_of_flow.h"
 #include "common/compose/trace_options.h"
-#include "common/field/value_rounding.h"
 #include "common/load/write/write_lines.h"
 #include "common/math/vec_text.h"
 #include "common/scene/seeds.h"
@@ -142,7 +141,7 @@ ExitCode run_trace(const Document& options, const VerbContext& context) {
   summary.kind = traced.kind;
   summary.in_time = traced.in_time;
   summary.advice = advice_for(summary);
-  if (const double rounding = value_rounding(field->values()); trace.tolerance < rounding)
+  if (const double rounding = field->value_rounding(); trace.tolerance < rounding)
     summary.advice.push_back("--tolerance " + short_number(trace.tolerance) +
                              " cannot be kept: values are of single precision, off by " +
                              short_number(rounding));

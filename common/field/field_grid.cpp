@@ -13,6 +13,7 @@
 #include "common/field/data_set_check.h"
 #include "common/field/grid/cell_split.h"
 #include "common/field/grid/tet_seams.h"
+#include "common/field/value_rounding.h"
 #include "common/math/lattice.h"
 #include "common/math/power_of_two.h"
 #include "common/math/units.h"
@@ -500,6 +501,7 @@ std::shared_ptr<const FieldGrid> make_grid(std::span<const DataSet> blocks, cons
   for (const DataSet& block : blocks) {
     grid->input_points += block.point_count();
     grid->input_cells += block.cell_count();
+    grid->point_rounding = std::max(grid->point_rounding, point_rounding(block));
     if (const auto* mesh = std::get_if<UnstructuredTopology>(&block.topology))
       loose += as_size(std::ranges::count(points_of_cells(*mesh), std::uint8_t{0}));
   }

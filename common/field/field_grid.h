@@ -34,6 +34,7 @@ struct FieldGrid {
   std::size_t input_cells = 0;
   FieldNotes notes;
   std::shared_ptr<const MadePoints> made;  ///< tets: points inside curved cells; null where there are none
+  double point_rounding = 0.0;  ///< by how much points may lie elsewhere, in data units: value_rounding.h
 
   [[nodiscard]] std::size_t point_count() const noexcept;
   /// Index of the data's tuple at `at` of a box grid with `n` tuples along the axes.

@@ -71,6 +71,8 @@ class VectorField {
   [[nodiscard]] const Box& bounds() const noexcept { return bounds_; }  ///< data coordinates
   [[nodiscard]] double diagonal() const noexcept { return bounds_.diagonal(); }
   [[nodiscard]] double max_speed() const noexcept { return max_speed_; }  ///< data units
+  /// By which part of itself a value may be off, as it is of single precision: value_rounding.h.
+  [[nodiscard]] double value_rounding() const noexcept { return value_rounding_; }
   [[nodiscard]] const LocalFrame& frame() const noexcept { return frame_; }
   [[nodiscard]] const FieldNotes& notes() const noexcept { return notes_; }
 
@@ -100,6 +102,7 @@ class VectorField {
   std::shared_ptr<const FieldGrid> grid_;
   OnceMade prepared_;
   std::vector<std::size_t> blocks_;
+  double value_rounding_ = 0.0;
 };
 
 /// Makes the field that `choice` describes from the blocks of a data set. One uniform or rectilinear

@@ -8,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/index.h"
+#include "common/base/text.h"
 #include "common/field/analytic/analytic_field.h"
 #include "common/field/cells/boundary_values.h"
 #include "common/field/cells/cell_values.h"
@@ -339,13 +340,19 @@ class VectorFieldBuilder {
     if (choice.kind == VectorChoice::Kind::kMomentumOverDensity) {
       field.notes_.lines.emplace_back("velocity computed as momentum divided by density");
     }
-    if (const double rounding = value_rounding(field.values_); rounding > 0.0) {
+    field.value_rounding_ =
+        std::visit([](const auto& values) { return value_rounding(values); }, field.values_.values);
+    if (const double rounding = field.value_rounding_; rounding > 0.0) {
       std::array<char, 160> text{};
       std::snprintf(
           text.data(), text.size(),
           "values are of single precision: off by up to %.2g of themselves (counted into the errors of lines)",
           rounding);
       field.notes_.lines.emplace_back(text.data());
+    }
+    if (const double rounding = field.grid_->point_rounding; rounding > 0.0) {
+      field.notes_.lines.push_back("points are of single precision: off by up to " + short_number(rounding) +
+                                   " (counted into the errors of lines)");
     }
     if (range.bad > 0) {
       field.notes_.lines.push_back(std::to_string(range.bad) + (range.bad == 1 ? " point" : " points") +

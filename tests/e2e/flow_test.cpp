@@ -51,6 +51,28 @@ TEST_F(Flow, ListsTheBuiltInExamples) {
   EXPECT_GE(json({"info", "--example", "list"})["examples"].size(), 6U);
 }
 
+// Below what the values leave open no tolerance can be kept, which is said.
+TEST_F(Flow, SaysThatAToleranceIsBelowTheRoundingOfTheValues) {
+  const auto written = [&](const std::string& type) {
+    std::string text =
+        "# vtk DataFile Version 3.0\nrow\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\nORIGIN 0 0 0\n"
+        "SPACING 1 1 1\nPOINT_DATA 8\nVECTORS v " +
+        type + "\n";
+    for (int p = 0; p < 8; ++p) text += "0.1 0.3 0.7\n";
+    return folder_.write(type + ".vtk", text).string();
+  };
+  const auto trace = [&](const std::string& type, const std::string& tolerance) {
+    const ProgramResult result = run({"trace", written(type), "--seeds", "point:0.5,0.2,0.1", "--out",
+                                      "t.vtp", "--force", "--tolerance", tolerance});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_NE(trace("float", "1e-9").find("--tolerance 1e-09 cannot be kept: values are of single precision"),
+            std::string::npos);
+  EXPECT_EQ(trace("float", "1e-6").find("cannot be kept"), std::string::npos);
+  EXPECT_EQ(trace("double", "1e-9").find("cannot be kept"), std::string::npos);
+}
+
 TEST_F(Flow, TracesAnExampleIntoEveryFormat) {
   for (const char* name : {"a.vtp", "a.csv", "a.tck", "a.trk"}) {
     const ProgramResult result = run({"trace", "--example", "abc", "--seeds", "grid:2,2,2", "--out", name});

@@ -14,7 +14,6 @@
 #include "common/field/field_grid.h"
 #include "common/field/grid/tet_mesh.h"
 #include "common/field/rest_speed.h"
-#include "common/field/value_rounding.h"
 
 namespace palpate {
 namespace {
@@ -54,7 +53,8 @@ ExactMesh::ExactMesh(const VectorField& field, int threads) : mesh_(field.tet_me
       },
       values.values);
   mark_resting();
-  value_rounding_ = palpate::value_rounding(values);
+  value_rounding_ = field.value_rounding();
+  if (field.grid()) point_rounding_ = field.grid()->point_rounding / field.frame().length_scale();
   if (field.grid() && field.grid()->made)
     value_error_ = field.grid()->made->error * field.max_speed() * values.scale;
   static_assert(sizeof(TetMesh::Tet) == sizeof(std::uint32_t[4]));

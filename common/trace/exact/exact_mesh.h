@@ -27,8 +27,9 @@ class ExactMesh {
   [[nodiscard]] double rest_speed() const noexcept { return rest_speed_; }  ///< rest_speed.h
   /// By which velocities may be off everywhere, in frame L: curved cells are linear in parts.
   [[nodiscard]] double value_error() const noexcept { return value_error_; }
-  /// value_rounding.h
+  /// By which part of itself a value may be off, and by how much a point may lie elsewhere, in frame L (value_rounding.h).
   [[nodiscard]] double value_rounding() const noexcept { return value_rounding_; }
+  [[nodiscard]] double point_rounding() const noexcept { return point_rounding_; }
   /// Whether that vertex rests.
   [[nodiscard]] bool rests(std::size_t vertex) const noexcept;
 
@@ -39,6 +40,7 @@ class ExactMesh {
   std::unique_ptr<PackedVertex[]> vertices_;
   double rest_speed_ = 0.0, value_error_ = 0.0, value_rounding_ = 0.0;
   ExactMeshView view_;
+  double point_rounding_ = 0.0;
 };
 
 }  // namespace palpate

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "common/base/index.h"
+#include "common/field/rest_speed.h"
 #include "common/trace/walk/tet_crossing.h"
 
 namespace palpate {
@@ -179,7 +180,14 @@ void ExactWalk::close_piece(const Pack4& b, const Pack4& w, double time, double 
       return velocity(cell_, power[0] * d + (power[1] * first + power[2] * apply(cell_, first))).xyz();
     });
   }
-  const double of_values = mesh_->value_error() + mesh_->value_rounding() * (speed + cell_.norm * cell_.size);
+  const double change = cell_.norm * cell_.size;  // of the velocity across the cell
+  double of_values = mesh_->value_error() + mesh_->value_rounding() * (speed + change);
+  // Points that lie elsewhere change the velocity as places do: by the steepest of the barycentric coordinates at most.
+  if (mesh_->point_rounding() > 0.0) {
+    const Pack4 x = Pack4::load(cell_.gradient[0]), y = Pack4::load(cell_.gradient[1]),
+                z = Pack4::load(cell_.gradient[2]);
+    of_values += mesh_->point_rounding() * change * std::sqrt(max_lane(x * x + (y * y + z * z)));
+  }
   error_.add(local_error + of_values * time, direction_);
   end_.position = position(cell_, b_).xyz();
   end_.time = begin_.time + time;
@@ -207,7 +215,9 @@ std::optional<End> ExactWalk::cross(int face) {
       return std::nullopt;
     }
     const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, seams_standing_++);
-    if (there.cell == kNoCell) return End::kLeftDomain;
+    // At a wall that is still the speed dies away: what is left of it there is rounding.
+    if (there.cell == kNoCell)
+      return end_.speed <= kRestPart * cell_.norm * cell_.size ? End::kStagnation : End::kLeftDomain;
     if (there.opposed) return End::kOpposedCells;
     error_.carry([&](const Vec3& e) { return there.carried(e); });
     settle(there.cell, there.x);

@@ -47,6 +47,8 @@ class CarriedParticle {
 
  private:
   void end(End why);
+  /// Whether the flow carries it through the border. @param velocity where it is. @param most to a time at which it was outside.
+  [[nodiscard]] bool gets_out(const FlowInTime& flow, const Vec3& velocity, double most) const;
 
   const CarrySettings& settings_;
   double release_;

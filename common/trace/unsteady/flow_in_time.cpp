@@ -9,7 +9,6 @@
 #include "common/base/index.h"
 #include "common/field/field_grid.h"
 #include "common/field/grid/box_grid.h"
-#include "common/field/value_rounding.h"
 #include "common/trace/walk/walk_factory.h"
 
 namespace palpate {
@@ -57,6 +56,48 @@ bool same_lattices(const VectorField& a, const VectorField& b) {
   return p.uniform() && q.uniform() && p.points() == q.points();
 }
 
+/// Where `x` is no farther beyond the border of images, rectilinear grids and formulas than FlowInTime::kFace of a cell, the
+/// place `inset` of a cell within: a wall that lets nothing through keeps what rounding takes out. Else `x`.
+Vec3 within_border(const VectorField& field, const Vec3& x, double inset) noexcept {
+  const auto clamped = [inset](double at, double low, double high, double first, double last) {
+    if (at < low && at >= low - FlowInTime::kFace * first) return low + inset * first;
+    if (at > high && at <= high + FlowInTime::kFace * last) return high - inset * last;
+    return at;
+  };
+  if (field.analytic() != nullptr) {
+    Vec3 out = x;
+    const Box& box = field.bounds();
+    for (int axis = 0; axis < 3; ++axis) {
+      const double width = box.upper[axis] - box.lower[axis];
+      out[axis] = clamped(x[axis], box.lower[axis], box.upper[axis], width, width);
+    }
+    return out;
+  }
+  if (field.box_grid() == nullptr) return x;
+  const BoxGrid& grid = *field.box_grid();
+  Vec3 y = grid.along_axes(field.frame().local_from_data(x));
+  for (int axis = 0; axis < 3; ++axis) {
+    const int last = grid.points()[axis] - 1;
+    const double low = grid.coordinate(axis, 0), high = grid.coordinate(axis, last);
+    y[axis] =
+        clamped(y[axis], low, high, grid.coordinate(axis, 1) - low, high - grid.coordinate(axis, last - 1));
+  }
+  return field.frame().data_from_local(grid.in_frame(y));
+}
+
+/// What `ask` says at `x`, or at the border that it is beyond by rounding. @param ask of a place, gives a status.
+template <class Ask>
+SampleStatus at_or_within(const VectorField& field, const Vec3& x, const Ask& ask) noexcept {
+  SampleStatus status = ask(x);
+  // Frames round: the border of one lies beyond that of another.
+  constexpr double kRounding = 1e-15;
+  for (const double inset : {0.0, kRounding, kBorder}) {
+    if (status != SampleStatus::kOutside) break;
+    status = ask(within_border(field, x, inset));
+  }
+  return status;
+}
+
 /// Whether both have the same cells of the same points, whatever the order in which they lie.
 bool same_cells(const TetMesh& a, const TetMesh& b) {
   if (a.points().size() != b.points().size() || a.cells().size() != b.cells().size()) return false;
@@ -76,8 +117,10 @@ bool same_cells(const TetMesh& a, const TetMesh& b) {
 FlowInTime::FlowInTime(std::vector<Step> steps, std::size_t first) : steps_(std::move(steps)), first_(first) {
   const VectorField& field = *steps_[first_].field;
   cell_size_ = 2.0 * default_fixed_step(field) * field.frame().length_scale();
-  for (const Step& step : steps_)
-    value_rounding_ = std::max(value_rounding_, palpate::value_rounding(step.field->values()));
+  for (const Step& step : steps_) {
+    value_rounding_ = std::max(value_rounding_, step.field->value_rounding());
+    if (step.field->grid()) point_rounding_ = std::max(point_rounding_, step.field->grid()->point_rounding);
+  }
   compare_meshes();
 }
 
@@ -368,8 +411,13 @@ SampleStatus FlowInTime::sample(double t, const Vec3& x, Place& place, Vec3& v) 
     for (std::size_t j = 0; j < steps_.size(); ++j) {
       if (w[j] == 0.0) continue;
       const Vec3 there = boxes_move_ ? place_in_step(j, box) : x;
-      const VectorSample sample = steps_[j].field->sample(there, place.hints[j]);
-      if (sample.status != SampleStatus::kOk) return sample.status;
+      const VectorField& field = *steps_[j].field;
+      VectorSample sample;
+      const SampleStatus status = at_or_within(field, there, [&](const Vec3& at) {
+        sample = field.sample(at, place.hints[j]);
+        return sample.status;
+      });
+      if (status != SampleStatus::kOk) return status;
       v += w[j] * sample.value;
     }
     return SampleStatus::kOk;
@@ -390,7 +438,9 @@ SampleStatus FlowInTime::jacobian(double t, const Vec3& x, Place& place, Mat3& m
       if (w[j] == 0.0) continue;
       Mat3 own{0.0};
       const Vec3 there = boxes_move_ ? place_in_step(j, box) : x;
-      const SampleStatus status = steps_[j].field->jacobian(there, place.hints[j], own);
+      const VectorField& field = *steps_[j].field;
+      const SampleStatus status =
+          at_or_within(field, there, [&](const Vec3& at) { return field.jacobian(at, place.hints[j], own); });
       if (status != SampleStatus::kOk) {
         m = Mat3{0.0};
         return status;

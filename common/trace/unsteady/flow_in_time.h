@@ -56,8 +56,9 @@ class FlowInTime {
   /// About the size of a cell.
   [[nodiscard]] double cell_size() const noexcept { return cell_size_; }
 
-  /// value_rounding.h, of all steps.
+  /// Of all steps: by which part of itself a value may be off, and by how much a point may lie elsewhere (value_rounding.h).
   [[nodiscard]] double value_rounding() const noexcept { return value_rounding_; }
+  [[nodiscard]] double point_rounding() const noexcept { return point_rounding_; }
 
   /// Puts a particle among the cells, wherever it was before. False outside.
   [[nodiscard]] bool find(double t, const Vec3& x, Place& place) const;
@@ -109,7 +110,7 @@ class FlowInTime {
   bool boxes_turn_ = false;        ///< images whose axes turn
   Mesh mesh_ = Mesh::kFixed;
   std::vector<CellIndex> cell_of_data_;  ///< moving: of tets_, by the number that it has in the data
-  double cell_size_ = 1.0, value_rounding_ = 0.0;
+  double cell_size_ = 1.0, value_rounding_ = 0.0, point_rounding_ = 0.0;
 };
 
 }  // namespace palpate

@@ -4,22 +4,20 @@
 #include <variant>
 
 #include "common/base/index.h"
+#include "common/field/field_grid.h"
 #include "common/field/rest_speed.h"
-#include "common/field/value_rounding.h"
+#include "common/ode/linear_step.h"
 
 namespace palpate {
 
 TetDomain::TetDomain(const ExactMesh& mesh, double sign) : mesh_(&mesh), sign_(sign) {}
 
-double TetDomain::value_error() const { return mesh_->value_error(); }
-
-double TetDomain::value_rounding() const { return mesh_->value_rounding(); }
-
 BoxDomain::BoxDomain(const VectorField& field, double sign)
     : grid_(field.box_grid()),
       values_(&field.values()),
       sign_(sign),
-      value_rounding_(palpate::value_rounding(field.values())) {
+      value_rounding_(field.value_rounding()),
+      point_rounding_(field.grid() ? field.grid()->point_rounding / field.frame().length_scale() : 0.0) {
   rest_speed_ = std::visit(
       [&](const auto& stored) {
         return palpate::rest_speed(stored.size() / 3, [&](std::size_t i) {
@@ -31,15 +29,47 @@ BoxDomain::BoxDomain(const VectorField& field, double sign)
       values_->values);
 }
 
-unsigned BoxDomain::slow_corners(const BoxCell& cell) const {
+BoxDomain::Corners BoxDomain::corners_of(const BoxCell& cell) {
+  std::array<Pack4, 8> c;
+  for (std::size_t k = 0; k < 8; ++k) c[k] = Pack4{cell.c[k], 0.0};
+  const Pack4 x = c[0] + c[1], xy = x + (c[2] + c[4]), up_x = c[3] + c[6];
+  Corners out{c[0], x, c[0] + c[2], xy};
+  const std::array<Pack4, 4> up{c[3], up_x, c[3] + c[5], up_x + (c[5] + c[7])};
+  for (std::size_t k = 0; k < 4; ++k) out[k + 4] = out[k] + up[k];
+  return out;
+}
+
+unsigned BoxDomain::slow_ones(const Corners& corners) const {
+  constexpr unsigned kAxes = 0b111u;
+  const Pack4 rest = Pack4::all(rest_speed_);
   unsigned slow = 0;
   for (unsigned corner = 0; corner < 8; ++corner) {
-    const double x = corner & 1U, y = corner >> 1U & 1U, z = corner >> 2U;
-    const Vec3 v = ((cell.c[0] + x * cell.c[1]) + y * (cell.c[2] + x * cell.c[4])) +
-                   z * ((cell.c[3] + x * cell.c[6]) + y * (cell.c[5] + x * cell.c[7]));
-    if (glm::dot(v, v) <= rest_speed_ * rest_speed_) slow |= 1U << corner;
+    const Pack4& v = corners[corner];
+    if ((bits(abs(v) <= rest) & kAxes) == kAxes && dot3(v, v) <= rest_speed_ * rest_speed_)
+      slow |= 1U << corner;
   }
   return slow;
+}
+
+/// Once a cell: what this costs in each step would be seen.
+double BoxDomain::error_of_data(const BoxCell& cell, const Corners& corners) const {
+  double error = 0.0;
+  if (value_rounding_ > 0.0) {
+    Pack4 fastest = abs(corners[0]);
+    for (std::size_t k = 1; k < 8; ++k) fastest = max(fastest, abs(corners[k]));
+    error = value_rounding_ * std::sqrt(dot3(fastest, fastest));
+  }
+  if (point_rounding_ > 0.0) {
+    // The largest row sum of the Jacobian's greatest entries, times d.
+    constexpr std::array<std::array<std::size_t, 4>, 3> kAlong{{{1, 4, 6, 7}, {2, 4, 5, 7}, {3, 5, 6, 7}}};
+    Pack4 rows;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const std::size_t k : kAlong[as_size(axis)])
+        rows += cell.inverse_size[axis] * abs(Pack4{cell.c[k], 0.0});
+    }
+    error += point_rounding_ * max_lane(rows);
+  }
+  return error;
 }
 
 // Seldom more than a look at `slow`: most cells have no slow corner.
@@ -58,7 +88,7 @@ bool BoxDomain::has_resting_corner(unsigned slow) const {
           at.z >= cells.z)
         continue;
       grid_->load(at, *values_, beside);
-      if (slow_corners(beside) == kAll) return true;
+      if (slow_ones(corners_of(beside)) == kAll) return true;
     }
   }
   return false;
@@ -88,8 +118,11 @@ void TetDomain::load(CellIndex cell) {
   const TetMesh::Tet& tet = mesh_->mesh().cells()[as_size(cell)];
   bad_ = !load_cell(affine, mesh_->vertices(), tet.data(), sign_);
   rest_here_ = 0.0;
+  double fastest = 0.0;  // its square
   for (const std::uint32_t i : tet) {
     if (mesh_->rests(i)) rest_here_ = mesh_->rest_speed();
+    const double* const v = mesh_->vertices()[i].v;
+    fastest = std::max(fastest, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
   const PackedVertex& corner = mesh_->vertices()[tet[3]];
   corner_ = Pack4::load(corner.x);
@@ -102,6 +135,8 @@ void TetDomain::load(CellIndex cell) {
     face_[as_size(j)] = g;
   }
   for (int axis = 0; axis < 3; ++axis) gradient_.column[as_size(axis)] = Pack4{gradient[axis], 0.0};
+  data_error_ = mesh_->value_error() + mesh_->value_rounding() * std::sqrt(fastest) +
+                mesh_->point_rounding() * LinearStep::row_sum(gradient);
   face_[3] = -(face_[0] + face_[1] + face_[2]);
   face_offset_ = {0.0, 0.0, 0.0, 1.0};
   size_ = affine.size;

@@ -117,7 +117,8 @@ class BoxDomain : public BoxFaces {
   [[nodiscard]] bool bad() const { return bad_; }
   /// Speeds in this cell below which the flow is at rest: rest_speed.h where a corner rests (exact_mesh.h), else 0.
   [[nodiscard]] double rest_speed() const { return rest_here_; }
-  [[nodiscard]] double value_rounding() const { return value_rounding_; }  ///< value_rounding.h
+  /// By which velocities in this cell may be off, as its data are of single precision.
+  [[nodiscard]] double data_error() const { return data_error_; }
   [[nodiscard]] double size() const { return size_; }
   [[nodiscard]] double face_scale() const { return size_; }
 
@@ -192,7 +193,9 @@ class BoxDomain : public BoxFaces {
     BoxCell cell;
     grid_->load(index_, *values_, cell);
     bad_ = cell.bad_data;
-    rest_here_ = has_resting_corner(slow_corners(cell)) ? rest_speed_ : 0.0;
+    const Corners corners = corners_of(cell);
+    rest_here_ = has_resting_corner(slow_ones(corners)) ? rest_speed_ : 0.0;
+    data_error_ = error_of_data(cell, corners);
     corner_ = Pack4{cell.lower, 0.0};
     // Of x - lo rather than of u: a product less in each evaluation.
     const Vec3& inverse = cell.inverse_size;
@@ -208,17 +211,21 @@ class BoxDomain : public BoxFaces {
     size_ = std::max(cell.size.x, std::max(cell.size.y, cell.size.z));
   }
 
-  /// A bit for each corner, x first, that is no faster than rest_speed_.
-  [[nodiscard]] unsigned slow_corners(const BoxCell& cell) const;
+  /// The velocities at the corners of a cell, x first.
+  using Corners = std::array<Pack4, 8>;
+  [[nodiscard]] static Corners corners_of(const BoxCell& cell);
+  /// A bit for each corner that is no faster than rest_speed_.
+  [[nodiscard]] unsigned slow_ones(const Corners& corners) const;
   [[nodiscard]] bool has_resting_corner(unsigned slow) const;
+  [[nodiscard]] double error_of_data(const BoxCell& cell, const Corners& corners) const;
 
   const BoxGrid* grid_;
   const PointVectors* values_;
   double sign_;
-  double rest_speed_ = 0.0, value_rounding_;
+  double rest_speed_ = 0.0, value_rounding_, point_rounding_;
   Index3 index_{0};
   bool bad_ = false;
-  double rest_here_ = 0.0;
+  double rest_here_ = 0.0, data_error_ = 0.0;
   double size_ = 1.0;
   Pack4 corner_;
   std::array<Pack4, 8> c_;  ///< coefficients of (1) of box_grid.h, for x - lo
@@ -270,8 +277,8 @@ class TetDomain {
     return first;
   }
   [[nodiscard]] bool cross(int face, Pack4& y, int& entry);
-  [[nodiscard]] double value_error() const;     ///< exact_mesh.h
-  [[nodiscard]] double value_rounding() const;  ///< exact_mesh.h
+  /// By which velocities in this cell may be off: those of curved cells, and as its data are of single precision.
+  [[nodiscard]] double data_error() const { return data_error_; }
   /// The last cross() led to a cell that shares no points with the one before: the velocity may jump.
   [[nodiscard]] bool crossed_seam() const { return crossed_seam_; }
   /// What is known of that.
@@ -285,7 +292,7 @@ class TetDomain {
   double sign_;
   CellIndex cell_ = kNoCell;
   bool bad_ = false;
-  double rest_here_ = 0.0;
+  double rest_here_ = 0.0, data_error_ = 0.0;
   bool crossed_seam_ = false;
   SeamCrossing seam_;
   int stuck_ = 0;  ///< crossings of seams at one place

@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "common/base/index.h"
+#include "common/field/rest_speed.h"
 #include "common/ode/linear_step.h"
 #include "common/ode/root.h"
 #include "common/ode/step_control.h"
@@ -179,7 +180,10 @@ class FaceWalk final : public LineWalk {
     if constexpr (requires { domain_.seam(); }) {
       if (domain_.seam().opposed) return End::kOpposedCells;
     }
-    return End::kLeftDomain;
+    // At a wall that is still the speed dies away, and no line gets through: what is left of it there is rounding.
+    const double change = domain_.size() * LinearStep::row_sum(domain_.gradient(y_).matrix());
+    const bool is_still = glm::length(domain_.velocity(y_).xyz()) <= kRestPart * change;
+    return is_still ? End::kStagnation : End::kLeftDomain;
   }
 
   /// Position and slope jump there.
@@ -475,16 +479,10 @@ class FaceWalk final : public LineWalk {
     local_ = local;
     if constexpr (Method::kLookedAtTwice)
       local_ = std::max(local, two_steps_.add(y_, k_, y_end, k_end, length));
-    double of_values = 0.0;
-    if constexpr (requires { domain_.value_error(); }) of_values = domain_.value_error();
-    if constexpr (requires { domain_.value_rounding(); }) {
-      if (const double rounding = domain_.value_rounding();
-          rounding > 0.0)  // of the fastest in the cell, or more
-        of_values +=
-            rounding * (1.0 / inverse_speed + domain_.size() * LinearStep::row_sum(gradient_.matrix()));
-    }
-    of_values *= std::abs(y_end[3] - y_[3]);
-    error_.add(local_ + of_values + kUlp * domain_.size(), n);
+    double of_data = 0.0;
+    if constexpr (requires { domain_.data_error(); })
+      of_data = domain_.data_error() * std::abs(y_end[3] - y_[3]);
+    error_.add(local_ + of_data + kUlp * domain_.size(), n);
     y_ = y_end;
     k_ = k_end;
     pending_face_ = face;

@@ -26,7 +26,7 @@ class ShearedDomain {
   void restore(StateReader& in) { box_.restore(in); }
   [[nodiscard]] bool bad() const { return box_.bad(); }
   [[nodiscard]] double rest_speed() const { return box_.rest_speed(); }
-  [[nodiscard]] double value_rounding() const { return box_.value_rounding(); }
+  [[nodiscard]] double data_error() const { return box_.data_error(); }
   [[nodiscard]] double size() const { return box_.size(); }
   [[nodiscard]] double face_scale() const { return box_.face_scale(); }
 

@@ -1,10 +1,14 @@
-// Values in single precision: what they are off by counts into the errors of lines. The reference is the closed form of a
-// rotation that rises, of which grids in double precision are exact.
+// Values and places of points in single precision: what they are off by counts into the errors of lines. The reference is the
+// closed form of a rotation that rises, of which grids in double precision are exact.
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -62,6 +66,21 @@ double farthest(const std::vector<Line>& lines, double most_stated) {
   return most;
 }
 
+bool says(const VectorField& field, const char* what) {
+  return std::ranges::any_of(
+      field.notes().lines, [what](const std::string& line) { return line.find(what) != std::string::npos; });
+}
+
+std::vector<Line> pathlines_of(const std::shared_ptr<const VectorField>& field) {
+  const std::vector<double> times{0.0, 2.5, 5.0};
+  UnsteadyOptions options;
+  options.trace.tolerance = 1e-12;
+  options.trace.threads = 1;
+  return trace_unsteady(
+             times, [&](std::size_t) { return field; }, kSeeds, options)
+      .trace.lines;
+}
+
 TEST(RoundedValues, CountIntoTheErrorsOfLines) {
   for (const DataSet& grid : grids(SampledType::kFloat32)) {
     const auto field = field_of(grid);
@@ -80,23 +99,80 @@ TEST(RoundedValues, CountIntoTheErrorsOfLines) {
 
 TEST(RoundedValues, CountIntoTheErrorsOfPathlines) {
   for (const DataSet& grid : grids(SampledType::kFloat32)) {
-    const auto field = field_of(grid);
-    const std::vector<double> times{0.0, 2.5, 5.0};
-    UnsteadyOptions options;
-    options.trace.tolerance = 1e-12;
-    options.trace.threads = 1;
-    const auto lines = trace_unsteady(
-                           times, [&](std::size_t) { return field; }, kSeeds, options)
-                           .trace.lines;
-    EXPECT_GT(farthest(lines, 2e-5), 1e-9);
+    EXPECT_GT(farthest(pathlines_of(field_of(grid)), 2e-5), 1e-9);
+  }
+}
+
+/// With its points rounded, and the values that they had before.
+DataSet with_single_points(DataSet block) {
+  if (auto* const lines = std::get_if<RectilinearTopology>(&block.topology)) {
+    for (std::vector<double>& along : lines->coordinates)
+      for (double& x : along) x = static_cast<double>(static_cast<float>(x));
+    return block;
+  }
+  const auto rounded = [](const DataArray& positions) {
+    std::vector<float> singles;
+    for (std::size_t p = 0; p < positions.tuples; ++p)
+      for (int axis = 0; axis < 3; ++axis) singles.push_back(static_cast<float>(positions.at(p, axis)));
+    return make_array(positions.name, positions.association, 3, std::span<const float>(singles));
+  };
+  if (auto* const curved = std::get_if<StructuredTopology>(&block.topology))
+    curved->positions = rounded(curved->positions);
+  if (auto* const mesh = std::get_if<UnstructuredTopology>(&block.topology))
+    mesh->positions = rounded(mesh->positions);
+  return block;
+}
+
+TEST(RoundedPoints, CountIntoTheErrorsOfLines) {
+  const std::vector<DataSet> all = grids(SampledType::kFloat64);
+  for (const DataSet& grid : std::span(all).subspan(1)) {
+    EXPECT_FALSE(says(*field_of(grid), "points are of single precision"));
+    const auto field = field_of(with_single_points(grid));
+    EXPECT_TRUE(says(*field, "points are of single precision: off by up to"));
+    EXPECT_FALSE(says(*field, "values are of single precision"));
+    for (const Integrator integrator : {default_integrator(*field), Integrator::kDp54}) {
+      TraceOptions options;
+      options.integrator = integrator;
+      options.tolerance = 1e-12;
+      options.max_time = 5.0;
+      options.threads = 1;
+      EXPECT_GT(farthest(trace_lines(*field, kSeeds, options).lines, 2e-5), 1e-9) << name_of(integrator);
+    }
+    EXPECT_GT(farthest(pathlines_of(field), 2e-5), 1e-9);
+  }
+}
+
+// Nothing was rounded where values are whole numbers of 16 bits.
+TEST(RoundedValues, AreNoneOfWholeNumbersOfSixteenBits) {
+  const LinearField turn(rows(0, -300, 0, 300, 0, 0, 0, 0, 0), Vec3{0.0});
+  DataSet grid = sample_uniform(turn, Index3{7}, SampledType::kFloat64);
+  DataArray& values = grid.arrays.front();
+  auto whole = std::make_shared<std::vector<std::int16_t>>();
+  for (std::size_t p = 0; p < values.tuples; ++p)
+    for (int c = 0; c < 3; ++c) whole->push_back(static_cast<std::int16_t>(std::lround(values.at(p, c))));
+  values.type = ScalarType::kInt16;
+  values.bytes = std::as_bytes(std::span<const std::int16_t>(*whole));
+  values.owner = std::move(whole);
+  const auto field = field_of(grid);
+  EXPECT_FALSE(says(*field, "single precision"));
+  TraceOptions options;
+  options.tolerance = 1e-12;
+  options.max_time = 5.0 * kRate / 300.0;
+  options.threads = 1;
+  for (const Line& line : trace_lines(*field, kSeeds, options).lines) {
+    EXPECT_GT(line.points.size(), 2U);
+    for (const LinePoint& point : line.points) {
+      const Vec3 seed = kSeeds[line.seed];
+      const Vec3 there = carried({seed.x, seed.y, 0.0}, point.time * 300.0 / kRate) + Vec3{0.0, 0.0, seed.z};
+      EXPECT_LE(glm::distance(point.position, there), point.error);
+      EXPECT_LT(point.error, 1e-9);
+    }
   }
 }
 
 TEST(RoundedValues, AreSaidWithTheFieldAndNotInDoubles) {
   const auto said = [](const VectorField& field) {
-    return std::ranges::any_of(field.notes().lines, [](const std::string& line) {
-      return line.find("single precision: off by up to 1.2e-07 of themselves") != std::string::npos;
-    });
+    return says(field, "single precision: off by up to 1.2e-07 of themselves");
   };
   for (const DataSet& grid : grids(SampledType::kFloat32)) EXPECT_TRUE(said(*field_of(grid)));
   for (const DataSet& grid : grids(SampledType::kFloat64)) {
