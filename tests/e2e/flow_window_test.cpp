@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -159,12 +160,35 @@ class FromFileToLine : public FlowWindow {
     last_ += kPause;
     lead_to(40.0, -30.0);
     last_ += kPause;
+    key('K');
+    at(next(), {.kind = InputKind::kRelease});
+    last_ += kPause;
+    press("Save lines");
+    last_ += kPause;
     const WindowResult result = run_flow({});
     EXPECT_TRUE(result.shown) << result.log;
     EXPECT_TRUE(result.probe.held) << result.log;
     EXPECT_EQ(result.probe.state, HoldState::kHeld);
     EXPECT_GT(result.view.lines->size(), 0U);
+    expect_kept_helix(result);
     return result;
+  }
+  /// One line is kept and saved: of u = (-y, x, 0.3), along which the distance from the axis and phi - z / 0.3 stay.
+  void expect_kept_helix(const WindowResult& result) const {
+    EXPECT_NE(result.log.find("kept line 1"), std::string::npos) << result.log;
+    EXPECT_TRUE(std::filesystem::exists(folder_.path("followed.vtp"))) << result.log;
+    ASSERT_TRUE(result.view.probe && result.view.probe->drawn_lines) << result.log;
+    ASSERT_EQ(result.view.probe->drawn_lines->size(), 1U);
+    const std::vector<LinePoint>& line = result.view.probe->drawn_lines->front().line->points;
+    ASSERT_GT(line.size(), 10U);
+    const Vec3& first = line.front().position;
+    for (const LinePoint& point : line) {
+      const Vec3& x = point.position;
+      EXPECT_NEAR(std::hypot(x.x, x.y), std::hypot(first.x, first.y), 1e-4);
+      const double turn = (std::atan2(x.y, x.x) - x.z / 0.3) - (std::atan2(first.y, first.x) - first.z / 0.3);
+      EXPECT_NEAR(std::remainder(turn, 2.0 * std::numbers::pi), 0.0, 1e-3);
+    }
+    EXPECT_GT(glm::distance(first, line.back().position), 0.05) << "the hand led along it";
   }
   /// Lines of u = (-y, x, 0.3) are closed forms of their times.
   static void expect_helices(const WindowResult& result) {
