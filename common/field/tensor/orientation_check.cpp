@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "common/base/index.h"
 #include "common/base/parallel.h"
@@ -68,15 +69,20 @@ std::vector<AxisTurn> axis_turns() {
 }
 
 DirectionMap::DirectionMap(std::span<const float> tensors, const UniformTopology& topology, int threads)
-    : points_(topology.points), axes_(topology.axes), directions_(tensors.size() / 6) {
+    : points_(topology.points),
+      axes_(topology.axes),
+      directions_(tensors.size() / 6),
+      shape_(directions_.size()) {
   parallel_for(directions_.size(), threads, [&](std::size_t first, std::size_t last) {
     for (std::size_t v = first; v < last; ++v) {
       const float* const d = tensors.data() + 6 * v;
       directions_[v] = {};
+      shape_[v].fill(std::numeric_limits<float>::quiet_NaN());
       if (!std::all_of(d, d + 6, [](float x) { return std::isfinite(x); })) continue;
       const SymmetricEigen eigen =
           symmetric_eigen({Vec3{d[0], d[1], d[2]}, Vec3{d[1], d[3], d[4]}, Vec3{d[2], d[4], d[5]}});
       const double fa = fractional_anisotropy(eigen.values);
+      shape_[v] = {static_cast<float>(fa), static_cast<float>((d[0] + d[3] + d[5]) / 3.0F)};
       // An anisotropy near one is the mark of a negative eigenvalue: noise.
       if (!(fa > kLeastAnisotropy) || has_negative(eigen.values)) continue;
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -335,6 +341,34 @@ std::string words_of(const Orientation& answer, VectorFrame taken) {
   return text + turned;
 }
 
+/// Whether the borders decide, where neighbours do not or are suspicious. Fills `verdict` then. @param best of the neighbours.
+bool judged_by_borders(const DirectionMap& directions, const std::vector<Orientation>& answers,
+                       const std::vector<Mat3>& matrices, std::size_t best, OrientationVerdict& verdict) {
+  constexpr double kLower =
+      0.02;  // of B, that the neighbours' best has to be lower by where the borders exclude nothing
+  const std::size_t turns =
+      axis_turns().size();  // other frames turn by few degrees, which borders may be bent by
+  const BorderVerdict borders = directions.borders().judge(matrices, turns);
+  if (!borders.clear) return false;
+  if (verdict.suspicious && !borders.excluded[best] &&
+      (borders.excluded.front() || borders.across[best] + kLower < borders.across.front())) {
+    return false;
+  }
+  verdict.by_borders = verdict.judged = true;
+  verdict.suspicious = borders.excluded.front();
+  const std::size_t right = verdict.suspicious ? borders.best : 0;
+  verdict.best = answers[right];
+  verdict.advice = verdict.best.turn.text();
+  verdict.rotated = verdict.suspicious && borders.rotated;
+  verdict.gain = 1.0;
+  verdict.across = borders.across.front();
+  verdict.across_best = borders.across[right];
+  for (std::size_t t = 0; t < turns; ++t) {
+    if (t != right && !borders.excluded[t]) verdict.alike.push_back(answers[t].turn.text());
+  }
+  return true;
+}
+
 }  // namespace
 
 OrientationVerdict check_orientation(const DirectionMap& directions, const UniformTopology& topology,
@@ -365,6 +399,8 @@ OrientationVerdict check_orientation(const DirectionMap& directions, const Unifo
   const auto middle = others.begin() + static_cast<std::ptrdiff_t>(others.size() / 2);
   std::ranges::nth_element(others, middle, {}, &Coherence::score);
   verdict.judged = suspicious || better_by(scores.front(), *middle, kByTurn, errors);
+  if ((suspicious || !verdict.judged) && judged_by_borders(directions, answers, matrices, best, verdict))
+    return verdict;
   if (!suspicious) return verdict;
   verdict.best = answers[best];
   verdict.advice = words_of(verdict.best, taken.frame);

@@ -11,6 +11,8 @@
 /// Schilling et al. 2019 ("A fiber coherence index for quality control of B-table orientation in diffusion MRI
 /// scans"), which counts pairs within an angle; the comparison with independence is ours.
 ///
+/// A straight bundle alone (a spinal cord) has s(T) near 0 for all T, or a chance one: border_check.h is asked then.
+///
 /// How far chance goes is asked of the image itself: s(T) is taken again without each of its eight octants
 /// (the jackknife of Quenouille and Tukey over blocks; neighbouring voxels are alike, so that single ones are no
 /// independent samples).
@@ -23,6 +25,7 @@
 #include <vector>
 
 #include "common/field/data_set.h"
+#include "common/field/tensor/border_check.h"
 #include "common/field/tensor/vector_frame.h"
 #include "common/math/vec.h"
 
@@ -67,6 +70,10 @@ class DirectionMap {
   /// By how much main directions turn where `others` takes the place of `turn`: the median [degrees] over blocks of
   /// 5 x 5 x 5 voxels, whose mean leaves noise out; 0 where no voxel counts.
   [[nodiscard]] double median_turn(const Mat3& turn, const Mat3& others) const;
+  /// The borders in the image, which do not depend on directions.
+  [[nodiscard]] BorderMap borders() const {
+    return {directions_, shape_, UniformTopology{points_, Vec3{0.0}, axes_}};
+  }
   /// Voxels that count.
   [[nodiscard]] std::size_t size() const noexcept { return count_; }
 
@@ -74,6 +81,7 @@ class DirectionMap {
   Index3 points_{0};
   Mat3 axes_{1.0};
   std::vector<std::array<float, 4>> directions_;  ///< x, y, z and FA; FA 0 where the voxel does not count
+  std::vector<std::array<float, 2>> shape_;       ///< FA and MD; NaN where there is no tensor
   std::size_t count_ = 0;
 };
 
@@ -99,9 +107,14 @@ struct OrientationVerdict {
   /// smoothly that other axes do as well, nothing can be said of them.
   bool judged = false;
   bool rotated = false;  ///< suspicious, and a rotation by 10 degrees behind the best is clearly better still
+  /// Neighbours say nothing, or what the borders in the image speak against: all of this but `gain` is what those say.
+  bool by_borders = false;
+  double across = 0.0, across_best = 0.0;  ///< B as taken and in the best axes, where the borders say it
+  /// Other turns that the borders do not tell from the best one, as options ("" is what was taken).
+  std::vector<std::string> alike;
 };
 
-/// Scores frames, turns along the image's axes, and their combinations. Of
+/// Scores frames, turns along the image's axes, and their combinations; where that decides nothing, or advises anything, asks the borders of turns. Of
 /// those that are as good that one is best which changes least: the turn, the frame, both. Nothing is
 /// suspicious where fewer than kLeastCoherent voxels count.
 /// @param directions of tensors that were read as `taken`.

@@ -56,12 +56,54 @@ std::string turn_text(const AxisTurn& turn) {
   return turn.text() + ": tensors turned along the image's axes, as asked for";
 }
 
+/// Turns that an image does not tell apart, a few of them by name.
+std::string named_turns(const std::vector<std::string>& turns) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string text;
+  for (std::size_t t = 0; t < std::min(turns.size(), kMostNamed); ++t)
+    text += (t == 0 ? "" : ", ") + (turns[t].empty() ? "the axes as they are" : turns[t]);
+  if (turns.size() > kMostNamed) text += " and " + std::to_string(turns.size() - kMostNamed) + " more";
+  return text;
+}
+
+/// What the borders in an image say of its axes.
+void say_borders(const OrientationVerdict& verdict, const AxisTurn& turn, std::vector<std::string>& notes) {
+  const auto part = [](double across) { return short_number(std::round(1000.0 * across) / 1000.0); };
+  const char* const alike =
+      " cannot be told from it by this image, which has one bundle of fibres: look at a tract that is known";
+  if (!verdict.suspicious) {
+    if (!verdict.alike.empty())
+      notes.push_back("main directions run along the borders of what they make up, as they should; " +
+                      named_turns(verdict.alike) + alike);
+    return;
+  }
+  std::string warning =
+      "WARNING: main directions run across the borders of what they make up (square of the sine " +
+      part(verdict.across) + ", " + part(verdict.across_best) +
+      " in other axes): gradients, vectors or tensors may have a wrong axis; ";
+  if (verdict.rotated) {
+    warning +=
+        "but even in the best ones (" + verdict.advice +
+        ") they are turned from the borders by more than 10 degrees, which no option mends: was the image turned "
+        "without its table?";
+  } else {
+    warning +=
+        "try " + verdict.advice + (turn.is_identity() ? "" : " in addition to the turn that was asked for");
+    if (!verdict.alike.empty()) warning += "; " + named_turns(verdict.alike) + alike;
+  }
+  notes.push_back(std::move(warning));
+}
+
 void warn_of_orientation(const OrientationVerdict& verdict, const AxisTurn& turn,
                          std::vector<std::string>& notes) {
   if (!verdict.judged) {
     notes.emplace_back(
         "whether gradients, vectors or tensors have the right axes cannot be told from this image: too few voxels have a "
         "main direction, or neighbours line up as well in other axes; look at a tract that is known");
+  }
+  if (verdict.by_borders) {
+    say_borders(verdict, turn, notes);
+    return;
   }
   if (!verdict.suspicious) return;
   std::string warning = "WARNING: neighbouring main directions line up " +
