@@ -7,6 +7,7 @@
 
 #include "common/base/index.h"
 #include "common/field/tensor/diffusion_measures.h"
+#include "common/field/tensor/peak_field.h"
 #include "common/math/symmetric3.h"
 
 namespace palpate {
@@ -49,6 +50,31 @@ TensorGlyph glyph_of(const SymmetricEigen& eigen, GlyphShape shape, TensorColor 
   return glyph;
 }
 
+/// What glyphs on a slice have in common.
+struct SliceGlyphs {
+  const TensorView& view;
+  const SceneFrame& frame;
+  double reach = 0.0;  ///< of a half axis [data units]
+};
+
+/// A needle for each direction of a voxel, as long as it is beside the longest there: fatter ones would hide each other.
+/// @param at centre of the voxel. @param center of the glyphs.
+void add_peaks(const PeakField& peaks, const SliceGlyphs& slice, const Vec3& at, const Vec3& center,
+               std::vector<TensorGlyph>& glyphs) {
+  constexpr double kNeedle = 0.9;  // anisotropy
+  const double longest = glm::length(peaks.longest(at));
+  for (std::size_t n = 0; n < peaks.most(); ++n) {
+    const Vec3 peak = peaks.peak(at, n);
+    const double length = glm::length(peak);
+    if (!(length > 0.0) || std::min(1.0, length) < slice.view.glyph_least_fa) continue;
+    const SymmetricEigen eigen = symmetric_eigen(fibre_tensor(peak / length, kNeedle));
+    TensorGlyph glyph = glyph_of(eigen, slice.view.glyphs, slice.view.color, center,
+                                 slice.reach * length / longest, slice.frame);
+    if (slice.view.color == TensorColor::kFa) glyph.color = Rgb(static_cast<float>(std::min(1.0, length)));
+    glyphs.push_back(glyph);
+  }
+}
+
 }  // namespace
 
 TensorGlyph make_glyph(const Mat3& tensor, GlyphShape shape, TensorColor color, const Vec3& center,
@@ -84,11 +110,15 @@ std::vector<TensorGlyph> make_slice_glyphs(const TensorView& view, const SceneFr
     for (at[v] = stride[v] / 2; at[v] < image.points[v]; at[v] += stride[v]) {
       for (at[u] = stride[u] / 2; at[u] < image.points[u]; at[u] += stride[u]) {
         if (!image.shows(at)) continue;
-        const SymmetricEigen eigen = symmetric_eigen(image.field->voxel(at).value);
-        if (fractional_anisotropy(eigen.values) < view.glyph_least_fa) continue;
         // On the slice itself, which may lie off the centres of its voxels.
         Vec3 g(at);
         g[axis] = cross[axis];
+        if (const PeakField* const peaks = image.field->peaks(); peaks != nullptr && peaks->most() > 1) {
+          add_peaks(*peaks, {view, frame, reach}, image.position(Vec3(at)), image.position(g), glyphs);
+          continue;
+        }
+        const SymmetricEigen eigen = symmetric_eigen(image.field->voxel(at).value);
+        if (fractional_anisotropy(eigen.values) < view.glyph_least_fa) continue;
         glyphs.push_back(glyph_of(eigen, view.glyphs, view.color, image.position(g), reach, frame));
       }
     }

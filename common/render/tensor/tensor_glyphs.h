@@ -38,7 +38,8 @@ struct TensorGlyph {
 [[nodiscard]] Index3 glyph_stride(const TensorVoxels& image, double distance) noexcept;
 
 /// Glyphs on the slices that are shown, with half axes no longer than half the way to the next glyph.
-/// Voxels without a tensor and with less anisotropy than view.glyph_least_fa have none.
+/// Voxels without a tensor and with less anisotropy than view.glyph_least_fa have none. Of an image with several
+/// directions a voxel each has a needle of its own, as long as it is beside the longest there.
 [[nodiscard]] std::vector<TensorGlyph> make_slice_glyphs(const TensorView& view, const SceneFrame& frame,
                                                          const Index3& stride);
 

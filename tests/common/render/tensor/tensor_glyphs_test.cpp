@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "common/field/tensor/peak_field.h"
 #include "tests/common/render/tensor/sample_tensors.h"
 
 namespace palpate::test {
@@ -100,6 +103,47 @@ TEST(SliceGlyphs, StandOnTheSlicesThatAreShownWhereThereIsEnoughAnisotropy) {
   EXPECT_TRUE(make_slice_glyphs(view, frame, Index3(1)).empty());
   view.glyph_least_fa = 0.0;
   EXPECT_EQ(make_slice_glyphs(view, frame, Index3(1)).size(), 8U * 4U);
+}
+
+// Of two directions a voxel both stand there, each as long as it is beside the longer; a third that is zero, and one below
+// the least anisotropy, have none.
+TEST(SliceGlyphs, ShowEveryPeakOfAVoxel) {
+  const UniformTopology lattice = centred_lattice({4, 4, 2}, Mat3(2.0));
+  std::vector<float> tensors, peaks;
+  for (int v = 0; v < 32; ++v) {
+    const Mat3 d = fibre_tensor({1.0, 0.0, 0.0}, 0.8);
+    for (const double number : {d[0][0], d[1][0], d[2][0], d[1][1], d[2][1], d[2][2]})
+      tensors.push_back(static_cast<float>(number));
+    for (const float number : {0.0F, 0.4F, 0.0F, 0.0F, 0.0F, 0.0F, 0.8F, 0.0F, 0.0F}) peaks.push_back(number);
+  }
+  DataSet block;
+  block.topology = lattice;
+  block.arrays = {make_array("D", Association::kPoint, 6, std::span<const float>(tensors)),
+                  make_array("P", Association::kPoint, 9, std::span<const float>(peaks))};
+  const auto image =
+      make_tensor_voxels(make_tensor_field(block, {.array = "D", .peaks = "P"}, "test"), "test");
+  TensorView view{.image = image, .position = image->position({1.0, 1.0, 1.0})};
+  view.glyphs = GlyphShape::kEllipsoid;
+  view.slices = {false, false, true};
+  const SceneFrame frame = scene_frame(image->bounds());
+  const auto glyphs = make_slice_glyphs(view, frame, Index3(1));
+  ASSERT_EQ(glyphs.size(), 2U * 16U);
+  const double scale = power_of_two(frame.exponent);
+  const auto is = [&](const TensorGlyph& glyph, const Vec3& half, const Rgb& color) {
+    EXPECT_NEAR(glm::length(glm::cross(scale * Vec3(glyph.axis_z), half)), 0.0, 1e-6);
+    EXPECT_NEAR(glm::length(glyph.axis_z) * scale, glm::length(half), 1e-6);
+    EXPECT_LT(glm::length(glyph.axis_x), 0.3F * glm::length(glyph.axis_z)) << "a needle";
+    EXPECT_EQ(glyph.color, color);
+  };
+  is(glyphs[0], {0.0, 0.5, 0.0}, {0.0F, 1.0F, 0.0F});
+  is(glyphs[1], {1.0, 0.0, 0.0}, {1.0F, 0.0F, 0.0F});
+  EXPECT_EQ(glyphs[0].center, glyphs[1].center);
+  view.color = TensorColor::kFa;
+  const auto grey = make_slice_glyphs(view, frame, Index3(1));
+  EXPECT_NEAR(grey[0].color.r, 0.4F, 1e-6F);
+  EXPECT_NEAR(grey[1].color.r, 0.8F, 1e-6F);
+  view.glyph_least_fa = 0.5;
+  EXPECT_EQ(make_slice_glyphs(view, frame, Index3(1)).size(), 16U);
 }
 
 }  // namespace
