@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kSide = 21, kNumbers = 9;
 constexpr double kVoxel = 2.0;
-const Vec3 kFirst{1.0, 0.0, 0.0}, kSecond{0.5, 0.8660254037844386, 0.0};  // 60 degrees apart
+const Vec3 kStraight{1.0, 0.0, 0.0}, kSlanted{0.5, 0.8660254037844386, 0.0};  // 60 degrees apart
 
 /// Three directions a voxel, the third none; which of the others is longer, and which comes first, changes from voxel to voxel.
 std::string crossing() {
@@ -27,11 +27,13 @@ std::string crossing() {
   for (int number = 0; number < kNumbers; ++number) {
     for (int v = 0; v < kSide * kSide * kSide; ++v) {
       const bool swapped = v % 3 == 0, longer = v % 2 == 0;
+      const double sign = v % 5 < 2 ? -1.0 : 1.0;  // which has no meaning
       const int slot = number / 3;
       float value = 0.0F;
       if (slot < 2) {
         const bool first = (slot == 0) != swapped;
-        value = static_cast<float>((first == longer ? 0.8 : 0.6) * (first ? kFirst : kSecond)[number % 3]);
+        value = static_cast<float>(sign * (first == longer ? 0.8 : 0.6) *
+                                   (first ? kStraight : kSlanted)[number % 3]);
       }
       char bytes[sizeof(float)];
       std::memcpy(bytes, &value, sizeof value);
@@ -49,8 +51,8 @@ class DtmriPeaks : public BundlesWindow {
     folder_.write("crossing.mif", crossing());
   }
   [[nodiscard]] std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> all{"open", folder_.path("crossing.mif"), "--slices", "-,-,0", "--camera",
-                                 "0,90"};
+    std::vector<std::string> all{"open",    folder_.path("crossing.mif"), "--slices", "-,-,0", "--camera",
+                                 "0,90,0,1"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
@@ -81,8 +83,8 @@ TEST_F(DtmriPeaks, ALineStartsAlongEachWhereAClickWas) {
   for (std::size_t l = 0; l < lines.line_count(); ++l) {
     const auto line = lines.line(l);
     const Vec3 way = Vec3(line.back()) - Vec3(line.front());
-    along_first += degrees(way, kFirst) < 0.5 ? 1U : 0U;
-    along_second += degrees(way, kSecond) < 0.5 ? 1U : 0U;
+    along_first += degrees(way, kStraight) < 0.5 ? 1U : 0U;
+    along_second += degrees(way, kSlanted) < 0.5 ? 1U : 0U;
   }
   EXPECT_EQ(along_first, shown(longest));
   EXPECT_EQ(along_second, shown(longest));
@@ -90,9 +92,9 @@ TEST_F(DtmriPeaks, ALineStartsAlongEachWhereAClickWas) {
 
 TEST_F(DtmriPeaks, TheHandFollowsTheOneNearestToItsWay) {
   const WindowResult first = open(arguments({"--mode", "anisotropy"}));
-  // Each bundle in turn, from the same place, up to ten degrees beside it.
-  for (const Vec3& bundle : {kFirst, kSecond}) {
-    const Vec3 aside{-bundle.y, bundle.x, 0.0}, way = glm::normalize(bundle + 0.17 * aside);
+  // Each bundle in turn, through the same place, three degrees beside it.
+  for (const Vec3& bundle : {kStraight, kSlanted}) {
+    const Vec3 aside{-bundle.y, bundle.x, 0.0}, way = glm::normalize(bundle + 0.05 * aside);
     constexpr int kSteps = 60;
     constexpr double kLength = 16.0;  // mm
     const Vec3 from = pixel_of(first, -0.5 * kLength * way);
@@ -112,7 +114,7 @@ TEST_F(DtmriPeaks, TheHandFollowsTheOneNearestToItsWay) {
     const Line& line = *drawn.view.probe->drawn_lines->front().line;
     const Vec3 drawn_way = line.points.back().position - line.points.front().position;
     EXPECT_GT(glm::length(drawn_way), 0.5 * kLength);
-    EXPECT_LT(degrees(drawn_way, bundle), 3.0) << drawn_way.x << " " << drawn_way.y << " " << drawn_way.z;
+    EXPECT_LT(degrees(drawn_way, bundle), 4.0) << drawn_way.x << " " << drawn_way.y << " " << drawn_way.z;
   }
 }
 
