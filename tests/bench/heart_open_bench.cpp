@@ -3,36 +3,29 @@
 // bare.pts with fibres of cells).
 //
 //   heart_open_bench --make FOLDER
-//   xvfb-run -a -s '-screen 0 1600x1024x24' heart_open_bench FILE [--repeat N]
+//   xvfb-run -a -s '-screen 0 1600x1024x24' heart_open_bench FILE [--repeat N] [--memory FRAMES]
 //
-// Times are of the wall clock and of processors: those of the program and of its helper. Each repeat opens
-// the file anew in a process of its own, so that no page and no shader is there from before.
+// What is printed is described in opening.h.
 //   <= 3 s
 // of the wall clock on two cores is the bar.
 
 #include <array>
-#include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "apps/cardiac/cardiac_model.h"
-#include "common/base/error.h"
 #include "common/field/analytic/ventricle.h"
 #include "common/field/grid/cell_split.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/load/write/write_carp.h"
 #include "common/load/write/write_mesh.h"
 #include "common/window/window.h"
+#include "tests/bench/opening.h"
 
 namespace palpate::bench {
 namespace {
@@ -71,73 +64,23 @@ void make_files(const std::filesystem::path& folder) {
   std::printf("%zu points, %zu tetrahedra in %s\n", mesh.points.size(), mesh.tets.size(), folder.c_str());
 }
 
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-void print_use(const char* name, int who) {
-  rusage use{};
-  getrusage(who, &use);
-  std::printf("  %s %.2f + %.2f s", name, seconds_of(use.ru_utime), seconds_of(use.ru_stime));
-}
-
-void open_once(const char* file, std::chrono::steady_clock::time_point began) {
-  {
-    Document options;
-    options.input.files = {file};
-    CardiacModel model(options, "cardiac");
-    WindowOptions window{.program = "cardiac"};
-    window.touch.modes = modes_of(FieldKind::kFibre);
-    window.frames = 1;
-    (void)run_window(model, window);
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    std::printf("  wall %.2f s", wall);
-    print_use("program", RUSAGE_SELF);
-  }
-  print_use("helper", RUSAGE_CHILDREN);  // it has ended with the model
-  std::printf("  (user + system)\n");
-}
-
-int run(int argc, char** argv) {
-  if (argc >= 3 && std::strcmp(argv[1], "--make") == 0) {
-    make_files(argv[2]);
-    return 0;
-  }
-  int repeat = 3;
-  const char* file = nullptr;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--repeat") == 0 && i + 1 < argc) {
-      repeat = std::atoi(argv[++i]);
-    } else {
-      file = argv[i];
-    }
-  }
-  if (file == nullptr || repeat < 1) throw usage_error("a file to open is expected, or --make FOLDER");
-  std::printf("%s: to the first picture\n", file);
-  for (int n = 0; n < repeat; ++n) {
-    std::fflush(stdout);
-    const auto began = std::chrono::steady_clock::now();
-    const pid_t child = fork();
-    if (child == 0) {
-      open_once(file, began);
-      std::fflush(stdout);
-      _exit(0);
-    }
-    int status = 0;
-    if (child < 0 || waitpid(child, &status, 0) != child || status != 0)
-      throw work_error(std::string(file) + " was not opened");
-  }
-  return 0;
+void open_heart(const char* file, int frames, const std::function<void()>& shown) {
+  Document options;
+  options.input.files = {file};
+  CardiacModel model(options, "cardiac");
+  WindowOptions window{.program = "cardiac"};
+  window.touch.modes = modes_of(FieldKind::kFibre);
+  window.frames = frames;
+  (void)run_window(model, window);
+  shown();
 }
 
 }  // namespace
 }  // namespace palpate::bench
 
 int main(int argc, char** argv) {
-  try {
-    return palpate::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "heart_open_bench: %s\n", error.what());
-    return 1;
-  }
+  if (argc < 3 || std::strcmp(argv[1], "--make") != 0)
+    return palpate::bench::open_and_say("heart_open_bench", argc, argv, palpate::bench::open_heart);
+  palpate::bench::make_files(argv[2]);
+  return 0;
 }
