@@ -140,6 +140,30 @@ TEST_F(VolumeWindow, PutsALensUnderTheMouseThatTheWheelMakesLarger) {
   EXPECT_GT(clip_line(shape, center, Vec3(1.0, 0.0, 0.0)).last, 1.05 * result.view.bounds.size().x / 6.0);
 }
 
+// In the axial slice of four panes, by a click and by the key: what was said of moving it is over with it.
+TEST_F(VolumeWindow, SaysNothingMoreOfALensThatWasLeftInASlice) {
+  const PictureArea area = layout(640, 480, 14.0F).picture;
+  const double x = area.left + 0.25 * area.width, y = area.top + 0.2 * area.height;
+  options_.frames = 16;
+  options_.script = {{2, {.kind = InputKind::kKeyDown, .key = 'S'}},
+                     {3, {.kind = InputKind::kKeyDown, .key = 'S'}},
+                     {4, {.kind = InputKind::kMove, .x = x, .y = y}},
+                     {5, {.kind = InputKind::kKeyDown, .key = 'L'}},
+                     {6, {.kind = InputKind::kMove, .x = x + 9.0, .y = y}}};
+  const WindowResult followed = run_window(model_, options_);
+  ASSERT_EQ(followed.view.volume->panes.layout, 4);
+  EXPECT_NE(followed.message.find("the lens follows the mouse"), std::string::npos) << followed.message;
+  options_.script.push_back({8, {.kind = InputKind::kPress}});
+  options_.script.push_back({9, {.kind = InputKind::kRelease}});
+  const WindowResult left = run_window(model_, options_);
+  ASSERT_EQ(left.view.volume->lenses.size(), 1U);
+  EXPECT_EQ(left.message, "");
+  // It stays there.
+  options_.script.push_back({11, {.kind = InputKind::kMove, .x = x + 30.0, .y = y + 20.0}});
+  const WindowResult away = run_window(model_, options_);
+  EXPECT_EQ(away.view.volume->lenses.at(0).shape, left.view.volume->lenses.at(0).shape);
+}
+
 // The dot on the upper face along x, dragged by the mouse; then Ctrl+S, and in another window Ctrl+Z.
 TEST_F(VolumeWindow, DragsAFaceOfTheRegionSavesItAndTakesItBack) {
   const Box bounds = model_.bounds(), box = new_region(bounds);
