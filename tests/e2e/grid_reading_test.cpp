@@ -22,6 +22,7 @@
 #include "common/render/png.h"
 #include "common/render/slice/slice_panes.h"
 #include "common/render/volume/voxels/volume_image.h"
+#include "common/window/controls/region_control.h"
 #include "common/window/panels/panel.h"
 #include "common/window/panels/volume/volume_panel.h"
 #include "common/window/window.h"
@@ -192,6 +193,22 @@ lps = ras * [-1, -1, 1]
 at = (lps - [float(v) for v in first.ImagePositionPatient]) / [float(first.PixelSpacing[1]), float(first.PixelSpacing[0]), dz]
 near = numpy.rint(at).astype(int)
 same = whole[near[..., 2], near[..., 1], near[..., 0]]
+inside = numpy.linalg.norm(ras - [-45, 0, -30], axis=-1) < 15
+index = numpy.stack(numpy.meshgrid(*[numpy.arange(n) for n in whole.shape], indexing='ij'), -1)[..., ::-1]
+place = (index * [first.PixelSpacing[1], first.PixelSpacing[0], dz] + [float(v) for v in first.ImagePositionPatient]) * [-1, -1, 1]
+nodule = numpy.linalg.norm(place - [-45, 0, -30], axis=-1) < 15
+print('all of it', int(nodule.sum()) == int(inside.sum()) == int((voxels[inside] == 60).sum()))
+try:
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    reader = vtk.vtkNIFTIImageReader()
+    reader.SetFileName(sys.argv[1])
+    reader.Update()
+    image = reader.GetOutput()
+    seen = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(image.GetDimensions(), order='F')
+    print('in VTK', seen.dtype, seen.shape == voxels.shape and int((seen != voxels).sum()))
+except ImportError:
+    print('no VTK here')
 print(voxels.size, crop.get_data_dtype(), numpy.abs(at - near).max() < 1e-3, int((same != voxels).sum()), (voxels == 60).sum() > 100)
 )py";
 
@@ -223,6 +240,22 @@ TEST_F(GridReading, ByMouseAloneAndBackInOtherPrograms) {
   }
   press("Stop marking");
   press("+ box");
+  // All of the nodule: the box to its left in the axial pane, and down in the coronal one.
+  const Box first = new_region(bounds);
+  Box wanted = first;
+  wanted.lower.x = -72.0;
+  wanted.lower.z = -60.0;
+  const auto face = [&](int axis, const Box& box) {
+    Vec3 at = box.center();
+    at[axis] = box.lower[axis];
+    return at;
+  };
+  Box left = first;
+  left.lower.x = wanted.lower.x;
+  drag(in_pane(SlicePlane::kAxial, face(0, first), bounds),
+       in_pane(SlicePlane::kAxial, face(0, left), bounds));
+  drag(in_pane(SlicePlane::kCoronal, face(2, left), bounds),
+       in_pane(SlicePlane::kCoronal, face(2, wanted), bounds));
   press(".nii.gz");
   press("Save picture");
   press("Save session");
@@ -245,6 +278,9 @@ TEST_F(GridReading, ByMouseAloneAndBackInOtherPrograms) {
   ASSERT_EQ(std::sscanf(session.c_str() + mark_at + mark.size(), "%lf,%lf,%lf,%lf,%lf,%lf", &ends[0],
                         &ends[1], &ends[2], &ends[3], &ends[4], &ends[5]),
             6);
+  ASSERT_TRUE(read.region);
+  EXPECT_LT(glm::distance(read.region->lower, wanted.lower), pixel);
+  EXPECT_EQ(read.region->upper, wanted.upper);
   EXPECT_NEAR(std::hypot(ends[3] - ends[0], ends[4] - ends[1], ends[5] - ends[2]), 2.0 * kRadius, 1.0);
   std::filesystem::path crop, picture;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
@@ -270,6 +306,10 @@ TEST_F(GridReading, ByMouseAloneAndBackInOtherPrograms) {
   pclose(pipe);
   const std::string said(text.data(), got);
   EXPECT_NE(said.find(" int16 True 0 True"), std::string::npos) << said;
+  EXPECT_NE(said.find("all of it True"), std::string::npos) << said;
+  EXPECT_TRUE(said.find("no VTK here") != std::string::npos ||
+              said.find("in VTK int16 0") != std::string::npos)
+      << said;
 }
 
 }  // namespace
