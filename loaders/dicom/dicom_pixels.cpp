@@ -36,6 +36,13 @@ struct Pixels {
 };
 
 Pixels decode(const DicomFrame& frame) {
+  // GDCM shifts what is unpacked by a negative count then, and says nothing.
+  if (frame.high_bit != frame.bits_stored - 1)
+    refuse_pixels(frame.file,
+                  "are packed, " + std::to_string(frame.bits_stored) + " bits of them up to bit " +
+                      std::to_string(frame.high_bit) + ", where PS3.5 has bit " +
+                      std::to_string(frame.bits_stored - 1),
+                  "unpack them: gdcmconv --raw IN OUT");
   Pixels pixels;
   gdcm::ImageReader reader;
   reader.SetFileName(frame.file.c_str());

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <malloc.h>
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/io.h>
@@ -80,6 +83,28 @@ class Walk {
   std::int64_t end_;
 };
 
+// A file whose numbers never go beyond their place. Before numbers that are not packed stands their size, negative: OpenVDB 10
+// reads as many bytes as it says, and compares it with the place afterwards. The place is a block of memory of its own
+// (readCompressedValues() in openvdb/io/Compression.h), which knows how large it is.
+class BoundedFile : public std::filebuf {
+ protected:
+  std::streamsize xsgetn(char* to, std::streamsize bytes) override {
+    if (stated_ && bytes == *stated_ && static_cast<std::size_t>(bytes) > ::malloc_usable_size(to))
+      throw openvdb::IoError("has more numbers than their place holds");
+    const std::streamsize read = std::filebuf::xsgetn(to, bytes);
+    stated_.reset();
+    std::int64_t size = 0;
+    if (read == sizeof(size)) {
+      std::memcpy(&size, to, sizeof(size));
+      if (size < 0 && size > std::numeric_limits<std::int64_t>::min()) stated_ = -size;
+    }
+    return read;
+  }
+
+ private:
+  std::optional<std::int64_t> stated_;  // by the last read
+};
+
 // The grids of a file, each read from where its own head says that it stands: OpenVDB's stream takes what follows a damaged grid
 // for the head of the next one.
 class Grids : private openvdb::io::Archive {
@@ -125,7 +150,10 @@ class Grids : private openvdb::io::Archive {
   static openvdb::GridPtrVec read(const std::string& file) {
     Grids archive;
     // Where the file ends early, each read fails at once, in place of as many as noise asks for.
-    std::ifstream in(file, std::ios::binary);
+    BoundedFile bytes;
+    std::istream in(&bytes);
+    if (bytes.open(file, std::ios::in | std::ios::binary) == nullptr)
+      throw openvdb::IoError("cannot be opened");
     in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
     archive.readHeader(in);
     openvdb::io::StreamMetadata::Ptr of_stream(new openvdb::io::StreamMetadata);

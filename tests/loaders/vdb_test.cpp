@@ -10,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/load/load.h"
+#include "tests/support/project_folders.h"
 #include "tests/support/temp_folder.h"
 
 namespace palpate {
@@ -298,6 +299,10 @@ TEST(Vdb, FilesCutOffAreRefusedAndDamagedOnesDoNoMoreThanFail) {
   ASSERT_NE(name_at, std::string::npos);
   long_name.replace(name_at - 4, 4, "\xff\xff\xff\x7f");
   EXPECT_NE(damaged(long_name).find("go on beyond"), std::string::npos) << damaged(long_name);
+  // Found by fuzzing: numbers that are not packed, of a size that OpenVDB takes before it looks at it.
+  EXPECT_NE(refusal(test::source_folder() / "tests/fuzz/seeds/vdb/beyond_place")
+                .find("more numbers than their place holds"),
+            std::string::npos);
   std::mt19937 random{7};
   for (int round = 0; round < 6; ++round) {
     std::string content = whole;

@@ -272,5 +272,22 @@ TEST_F(DicomTest, ReadsCompressedPixels) {
   expect_truth(open(folder_.path()).read({"scalars"}).front());
 }
 
+// What PS3.5 does not have, and GDCM reads wrong: bits beside the stored ones where it would have none.
+TEST_F(DicomTest, RefusesCompressedPixelsWhoseBitsLieElsewhere) {
+  (void)write_volume([](DicomImage& image) {
+    image.syntax = "1.2.840.10008.1.2.5";
+    image.bits_stored = 12;
+    image.high_bit = 13;
+    image.pixel_bytes = rle_pixels(image.pixels);
+  });
+  try {
+    (void)open(folder_.path()).read({"scalars"});
+    ADD_FAILURE() << "was read";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("12 bits of them up to bit 13"), std::string::npos)
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace palpate::test
