@@ -42,7 +42,7 @@ Pixels decode(const DicomFrame& frame) {
                   "are packed, " + std::to_string(frame.bits_stored) + " bits of them up to bit " +
                       std::to_string(frame.high_bit) + ", where PS3.5 has bit " +
                       std::to_string(frame.bits_stored - 1),
-                  "unpack them: gdcmconv --raw IN OUT");
+                  "unpack them with another program, as with dcmdrle or dcmdjpeg");
   Pixels pixels;
   gdcm::ImageReader reader;
   reader.SetFileName(frame.file.c_str());
