@@ -1,6 +1,7 @@
 #include "loaders/vtk/xml_scan.h"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -58,6 +59,7 @@ struct Appended {
   std::string name;
   std::uint64_t offset = 0;
   std::optional<std::uint64_t> bytes;
+  std::uint64_t number_bytes = 1;
 };
 
 /// A list and the list of where its parts end, as far as both stand in text.
@@ -171,14 +173,22 @@ void check_text(std::string_view text, const XmlTag& tag, const std::string& nam
   if (name == "faceoffsets") context.faces.end = values.largest;
 }
 
-/// @param bytes  of the values by the tags; nothing where they do not say.
-void check_binary(const BinaryArray& array, const std::string& name, std::optional<std::uint64_t> bytes) {
+/// @param bytes  of the values by the tags; nothing where they do not say. @param number_bytes of each.
+void check_binary(const BinaryArray& array, const std::string& name, std::optional<std::uint64_t> bytes,
+                  std::uint64_t number_bytes, const BinaryHeader& header) {
   // A size is said once it can be read.
   if (bytes && array.values != kHuge && array.values != *bytes) {
     throw Broken{name + " does not have its " + std::to_string(*bytes) + " bytes, but says " +
                  std::to_string(array.values)};
   }
   if (!array.whole) throw Broken{name + " is cut off: its data ends before the end that its header states"};
+  // VTK turns the numbers of each part around by itself, and what is left of one that a border cuts is lost.
+  constexpr bool kBig = std::endian::native == std::endian::big;
+  if (header.big_endian != kBig && array.block % number_bytes != 0) {
+    throw Broken{name + " is compressed in parts of " + std::to_string(array.block) +
+                 " bytes, which cut numbers of " + std::to_string(number_bytes) +
+                 ": VTK reads such wrong in another byte order than this machine's"};
+  }
 }
 
 /// @param text what follows the tag.
@@ -215,8 +225,9 @@ void check_array(const XmlTag& tag, std::string_view text, Context& context) {
       throw Broken{"array '" + name + "' lies at offset \"" + tag.at("offset").substr(0, 40) +
                    "\", past the end of the file"};
     }
-    context.appended.push_back(
-        {name, *offset, tuples && number ? std::optional(needed) : std::optional<std::uint64_t>()});
+    context.appended.push_back({name, *offset,
+                                tuples && number ? std::optional(needed) : std::optional<std::uint64_t>(),
+                                bytes_of_xml_type(tag.at("type"))});
   } else if (format == "ascii") {
     check_text(text, tag, name, tuples ? std::optional(values) : tuples, context);
   } else {
@@ -227,7 +238,7 @@ void check_array(const XmlTag& tag, std::string_view text, Context& context) {
     BinaryHeader header = context.header;
     header.base64 = true;
     check_binary(binary_array(inline_data, header), "array '" + name + "'",
-                 sized ? std::optional(needed) : std::nullopt);
+                 sized ? std::optional(needed) : std::nullopt, bytes_of_xml_type(tag.at("type")), header);
   }
 }
 
@@ -253,7 +264,7 @@ void check_appended(std::string_view data, bool base64, Context& context) {
       there = binary_array(data.substr(std::min<std::uint64_t>(array.offset, data.size())), context.header);
     }
     before = &array;
-    check_binary(there, words(array), array.bytes);
+    check_binary(there, words(array), array.bytes, array.number_bytes, context.header);
   }
 }
 

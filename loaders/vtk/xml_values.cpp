@@ -62,6 +62,7 @@ struct Claim {
   std::uint64_t header = 0;  ///< bytes of the header
   std::uint64_t stored = 0;  ///< bytes that follow
   std::uint64_t values = 0;  ///< bytes of the values, uncompressed
+  std::uint64_t block = 0;   ///< BinaryArray::block
 };
 
 /// Numbers that lie past the end of `data` are kHuge.
@@ -77,15 +78,16 @@ Claim claim_of(std::string_view data, const BinaryHeader& header) {
     return value;
   };
   const std::uint64_t first = number(0);
-  if (!header.compressed) return {header.number_bytes, first, first};
+  if (!header.compressed) return {header.number_bytes, first, first, 0};
   // Block count, block size, size of a last partial block, then the compressed size of every block.
   Claim claim;
   const std::uint64_t block = number(1);
   const std::uint64_t partial = number(2);
   const std::uint64_t full = first - (partial > 0 && first > 0 ? 1 : 0);
   claim.values = plus(times(full, block), partial);
+  if (first > 1) claim.block = block;
   claim.header = times(plus(first, 3), header.number_bytes);
-  if (claim.header > data.size()) return {claim.header, kHuge, claim.values};
+  if (claim.header > data.size()) return {claim.header, kHuge, claim.values, claim.block};
   for (std::uint64_t b = 0; b < first; ++b) claim.stored = plus(claim.stored, number(3 + b));
   return claim;
 }
@@ -97,13 +99,14 @@ BinaryArray base64_array(std::string_view text, const BinaryHeader& header) {
   if (header.compressed && claim.header <= text.size())
     claim = claim_of(decoded_base64(text, claim.header), header);
   const std::uint64_t head = base64_size(claim.header);
-  if (!has_base64(text, claim.header)) return {claim.values, head, false};
+  if (!has_base64(text, claim.header)) return {claim.values, head, false, claim.block};
   const bool apart = header.compressed || text.substr(0, head).ends_with('=');
   if (!apart) {
     const std::uint64_t bytes = plus(claim.header, claim.stored);
-    return {claim.values, base64_size(bytes), has_base64(text, bytes)};
+    return {claim.values, base64_size(bytes), has_base64(text, bytes), claim.block};
   }
-  return {claim.values, plus(head, base64_size(claim.stored)), has_base64(text.substr(head), claim.stored)};
+  return {claim.values, plus(head, base64_size(claim.stored)), has_base64(text.substr(head), claim.stored),
+          claim.block};
 }
 
 }  // namespace
@@ -150,7 +153,7 @@ BinaryArray binary_array(std::string_view data, const BinaryHeader& header) {
   if (header.base64) return base64_array(data, header);
   const Claim claim = claim_of(data, header);
   const std::uint64_t size = plus(claim.header, claim.stored);
-  return {claim.values, size, size <= data.size()};
+  return {claim.values, size, size <= data.size(), claim.block};
 }
 
 }  // namespace palpate

@@ -41,6 +41,7 @@ struct BinaryArray {
       0;                   ///< bytes of the values, uncompressed, by the header; kHuge where that is cut off
   std::uint64_t size = 0;  ///< bytes, or characters of base64, of header and values as they stand in the file
   bool whole = false;      ///< all of these are there
+  std::uint64_t block = 0;  ///< bytes of each compressed part but the last one; 0: there is one part at most
 };
 /// Of the array that begins at `data[0]`.
 [[nodiscard]] BinaryArray binary_array(std::string_view data, const BinaryHeader& header);
