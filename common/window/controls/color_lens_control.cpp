@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "common/compose/text/lens_text.h"
-#include "common/hand/mode/haptic_surfaces.h"
 #include "common/window/controls/pick_volume.h"
 
 namespace palpate {
@@ -25,11 +25,16 @@ void place_lens(const SceneView& view, ColorLens& lens) {
   lens.radius = kPartOfSide * std::max({size.x, size.y, size.z});
   lens.center = view.bounds.center();
   double nearest = HUGE_VAL;
+  // A cut leaves out triangles, not the points that they had.
   for (const SurfaceView& surface : view.surfaces) {
-    for (const Vec3& x : surface.mesh->points) {
-      const double away = glm::distance(x, viewer);
-      if (away < nearest) lens.center = x;
-      nearest = std::min(nearest, away);
+    if (!surface.mesh || !surface.values) continue;
+    for (const auto& triangle : surface.mesh->triangles) {
+      for (const std::uint32_t corner : triangle) {
+        const Vec3& x = surface.mesh->points[corner];
+        const double away = glm::distance(x, viewer);
+        if (away < nearest) lens.center = x;
+        nearest = std::min(nearest, away);
+      }
     }
   }
 }
@@ -50,8 +55,7 @@ std::string ColorLensControl::run(Command command, SceneView& view) {
                    : "the lens stays there";
 }
 
-bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, const ShownLayer& layer,
-                              SceneView& view) {
+bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, SceneView& view) {
   if (event.kind == InputKind::kMove) {
     x_ = event.x;
     y_ = event.y;
@@ -61,12 +65,9 @@ bool ColorLensControl::handle(const InputEvent& event, const PictureArea& area, 
     case InputKind::kMove: {
       const PictureSize size{static_cast<int>(area.width), static_cast<int>(area.height)};
       const ViewRay ray = view_ray(view.camera, size, {x_ - area.left, y_ - area.top});
-      const double middle = glm::dot(view.bounds.center() - ray.from, ray.along);
-      const double reach = 0.5 * view.bounds.diagonal();
-      const double first = std::max(0.0, middle - reach);
-      const auto hit =
-          first_surface_between({layer.depth, Isovalues{{layer.level}, 1}}, ray.from + first * ray.along,
-                                ray.from + (middle + reach) * ray.along);
+      // What a cut has left of the layer is what is seen of it.
+      const auto hit = pick_surface(
+          ray, view.surfaces, [](const SurfaceView& surface) { return surface.lens_values != nullptr; });
       if (hit) view.color_lens->center = *hit;
       return false;  // a camera that is being dragged goes on
     }

@@ -2,11 +2,8 @@
 /// size, a click or the key leaves it there. Plain arithmetic, no window.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
 
-#include "common/field/scalar_field.h"
 #include "common/render/scene_view.h"
 #include "common/scene/document/document.h"
 #include "common/window/controls/view_control.h"
@@ -15,13 +12,7 @@
 
 namespace palpate {
 
-/// The layer that is shown: where `depth` has the value `level`.
-struct ShownLayer {
-  std::shared_ptr<const ScalarField> depth;
-  double level = 0.0;
-};
-
-/// A ball about the point of the layer's triangles that is nearest to the viewer, a sixth of the longest side
+/// A ball about the corner of the layer's triangles that is nearest to the viewer, a sixth of the longest side
 /// of the scene in radius.
 void place_lens(const SceneView& view, ColorLens& lens);
 
@@ -31,7 +22,7 @@ void add_color_lens(const SceneView& view, HeartOptions& heart);
 class ColorLensControl {
  public:
   /// Moves view.color_lens. @return whether the event was for it.
-  bool handle(const InputEvent& event, const PictureArea& area, const ShownLayer& layer, SceneView& view);
+  bool handle(const InputEvent& event, const PictureArea& area, SceneView& view);
   /// kLens, which has it follow the mouse or no longer, kLensSmaller and kLensLarger.
   /// @return what to tell the user.
   std::string run(Command command, SceneView& view);

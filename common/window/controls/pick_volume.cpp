@@ -2,10 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/hand/mode/haptic_surfaces.h"
 
 namespace palpate {
+namespace {
+
+/// How far along the ray it meets a triangle; nothing where it passes (Moeller and Trumbore 1997).
+std::optional<double> meets(const ViewRay& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a, across = glm::cross(ray.along, v);
+  const double det = glm::dot(u, across);
+  if (det == 0.0) return std::nullopt;
+  const Vec3 from = ray.from - a;
+  const double s = glm::dot(from, across) / det;
+  const Vec3 q = glm::cross(from, u);
+  const double t = glm::dot(ray.along, q) / det, way = glm::dot(v, q) / det;
+  if (s < 0.0 || t < 0.0 || s + t > 1.0 || way < 0.0) return std::nullopt;
+  return way;
+}
+
+}  // namespace
 
 ViewRay view_ray(const Camera& camera, const PictureSize& size, const PicturePoint& mouse) {
   const Vec3 middle = under_mouse(camera, size, mouse, camera.focal_point);
@@ -54,6 +71,20 @@ std::optional<Vec3> pick_volume(const VolumeView& view, const Box& bounds,
   const Vec3 entry = ray.from + first * ray.along;
   if (on_cut || !field) return on_cut ? std::optional(entry) : std::nullopt;
   return first_surface_between({field, Isovalues{{isovalue}, 1}}, entry, ray.from + last * ray.along);
+}
+
+std::optional<Vec3> pick_surface(const ViewRay& ray, const std::vector<SurfaceView>& surfaces,
+                                 const std::function<bool(const SurfaceView&)>& counts) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const SurfaceView& surface : surfaces) {
+    if (!surface.mesh || !counts(surface)) continue;
+    const IsosurfaceMesh& mesh = *surface.mesh;
+    for (const auto& [a, b, c] : mesh.triangles)
+      if (const auto way = meets(ray, mesh.points[a], mesh.points[b], mesh.points[c]))
+        nearest = std::min(nearest, *way);
+  }
+  if (!std::isfinite(nearest)) return std::nullopt;
+  return ray.from + nearest * ray.along;
 }
 
 }  // namespace palpate

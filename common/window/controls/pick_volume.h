@@ -1,11 +1,14 @@
-/// The place of a volume that is seen under the mouse.
+/// The place of a volume, or of a surface, that is seen under the mouse.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 #include "common/field/scalar_field.h"
 #include "common/hand/technique/probe_mouse.h"
 #include "common/render/camera.h"
+#include "common/render/surface/surface_view.h"
 #include "common/render/volume/volume_view.h"
 
 namespace palpate {
@@ -23,5 +26,9 @@ struct ViewRay {
   Vec3 from{0.0}, along{0.0};
 };
 [[nodiscard]] ViewRay view_ray(const Camera& camera, const PictureSize& size, const PicturePoint& mouse);
+
+/// Where the ray first meets a triangle of those surfaces that `counts`; they are cut as the picture shows them.
+[[nodiscard]] std::optional<Vec3> pick_surface(const ViewRay& ray, const std::vector<SurfaceView>& surfaces,
+                                               const std::function<bool(const SurfaceView&)>& counts);
 
 }  // namespace palpate

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/text.h"
 #include "common/geometry/box_edges.h"
 #include "common/hand/drawn/annotation_list.h"
 #include "common/render/stereo/stereo_view.h"
@@ -12,9 +11,6 @@
 
 namespace palpate {
 namespace {
-
-/// The depth of the layer that is shown.
-double shown_layer(const SceneState& scene) { return number(scene.document.heart.layer).value_or(0.5); }
 
 /// Whether the plane through the focal point, across the line of sight, meets the box.
 bool is_met(const Box& box, const Camera& camera) {
@@ -118,9 +114,7 @@ bool SceneControls::handle_plane_image(const InputEvent& event, const Controlled
 }
 
 bool SceneControls::handle_lens(const InputEvent& event, const ControlledScene& on) {
-  if (on.has_layer())
-    return color_lens_.handle(event, pointer_.area(), {on.scene->haptic_scalar, shown_layer(*on.scene)},
-                              on.view);
+  if (on.has_layer()) return color_lens_.handle(event, pointer_.area(), on.view);
   if (!on.view.volume) return false;
   lens_moved_ = lens_moved_ || lens_.followed();
   return lens_.handle(event, pointer_.area(), on.view.camera, on.view.bounds, *on.view.volume);

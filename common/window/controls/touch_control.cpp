@@ -16,6 +16,9 @@ constexpr int kLeftShift = 340, kRightShift = 344;
 /// A mouse that has not moved for so long rests [s].
 constexpr double kRest = 0.25;
 
+/// A layer of a wall, or the face of its cut: solid, where the wall's own surfaces are translucent.
+bool shows_values(const SurfaceView& surface) { return surface.values != nullptr; }
+
 }  // namespace
 
 Vec3 start_of_probe(const SceneView& view, const PictureSize& size, const PicturePoint& mouse) {
@@ -115,7 +118,8 @@ std::optional<Vec3> TouchControl::end_of_tract(const PictureSize& size, const Pi
 }
 
 /// At the end of a drawn tract, on the slice of tensors under the mouse, on the nearest isosurface there in
-/// modes that feel some, else where the lines are.
+/// modes that feel some, else where the lines are. On a heart's wall what lies before the layer that is seen is passed by:
+/// it is not shown, or was cut away; behind the face of a cut it is the first layer that is felt.
 Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view) const {
   const PicturePoint mouse{x_ - area.left, y_ - area.top};
   if (const auto end = end_of_tract(size_of(area), mouse, view.camera)) return *end;
@@ -127,12 +131,18 @@ Vec3 TouchControl::start_of_hand(const PictureArea& area, const SceneView& view)
   if (const HapticLevels levels = session_.data().levels(); levels.field) {
     const Vec3 middle = under_mouse(view.camera, size_of(area), mouse, view.camera.focal_point);
     const Vec3 reach = 2.0 * (view.bounds.diagonal() + distance(view.camera)) * view.camera.axes[2];
-    const Vec3 viewer =
-        view.camera.projection == Projection::kOrthographic ? middle + reach : eye(view.camera);
+    Vec3 viewer = view.camera.projection == Projection::kOrthographic ? middle + reach : eye(view.camera);
     const Vec3 away =
         view.camera.projection == Projection::kOrthographic
             ? middle - reach
             : viewer + (1.0 + view.bounds.diagonal() / distance(view.camera)) * 2.0 * (middle - viewer);
+    if (session_.data().has_wall() && std::ranges::any_of(view.surfaces, shows_values)) {
+      const ViewRay ray = view_ray(view.camera, size_of(area), mouse);
+      const auto seen = pick_surface(ray, view.surfaces, shows_values);
+      if (!seen) return start_of_probe(view, size_of(area), mouse);
+      constexpr double kBefore = 1e-4;  // diagonals: on the layer to rounding is on either side of it
+      viewer = *seen - kBefore * view.bounds.diagonal() * ray.along;
+    }
     if (const auto place = first_surface_between(levels, viewer, away)) return *place;
   }
   return start_of_probe(view, size_of(area), mouse);
