@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -13,6 +15,7 @@
 #include "common/field/heart/regions.h"
 #include "common/math/vec_text.h"
 #include "common/window/controls/color_lens_control.h"
+#include "common/window/files/folder_list.h"
 #include "common/window/panels/color_panel.h"
 #include "common/window/panels/panel_parts.h"
 #include "common/window/panels/seed_panel.h"
@@ -100,6 +103,7 @@ class BesidePanel {
     if (ImGui::IsItemDeactivatedAfterEdit()) heart.beside = typed_;
     typing_ = ImGui::IsItemActive();
     explain("compare");
+    choose_from_folder(on.state.document.input.files, heart.beside);
     constexpr const char* kSame = "as this one";
     if (begin_combo("its colour", heart.beside_angle.empty() ? kSame : heart.beside_angle.c_str())) {
       if (selectable(kSame, heart.beside_angle.empty())) heart.beside_angle.clear();
@@ -114,8 +118,32 @@ class BesidePanel {
   }
 
  private:
+  /// For those who have only a mouse: hearts and results beside the first file, listed when they are asked for.
+  void choose_from_folder(const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) {
+    if (files.empty()) return;
+    const bool opened = begin_combo("from its folder", chosen.empty() ? "none" : chosen.filename().c_str());
+    if (opened && !listed_) {
+      const auto shows = [](const std::filesystem::path& path, bool folder) {
+        const std::string ending = path.extension().string();
+        return !folder && ending != ".toml" &&
+               (ending == ".igb" || ending == ".dat" || can_open(path, folder, FieldKind::kFibre));
+      };
+      const std::filesystem::path parent = files.front().parent_path();
+      entries_ = list_folder(parent.empty() ? "." : parent, shows, false).entries;
+    }
+    listed_ = opened;
+    if (!opened) return;
+    if (selectable("none", chosen.empty())) chosen.clear();
+    for (const FolderEntry& entry : entries_) {
+      const std::filesystem::path file = files.front().parent_path() / entry.name;
+      if (!entry.folder && selectable(entry.name.c_str(), file == chosen)) chosen = file;
+    }
+    ImGui::EndCombo();
+  }
+
   std::string typed_;
-  bool typing_ = false;
+  bool typing_ = false, listed_ = false;
+  std::vector<FolderEntry> entries_;
 };
 
 /// Which regions are taken: as boxes to tick, the last of which stays. Those without fibres cannot be.

@@ -28,7 +28,7 @@ auto scene_of(const Document& d) {
                     d.tensors.underlay, color_array_of(d), d.volume.scalar, d.volume.resample,
                     scalars ? d.volume.transfer : std::string(), scalars ? d.volume.focus : std::string(),
                     d.heart.layer, d.heart.angle, d.heart.cut, d.heart.contours, d.heart.lens_angle,
-                    d.heart.lens.empty());
+                    d.heart.lens.empty(), d.heart.beside, d.heart.beside_angle);
 }
 
 }  // namespace
