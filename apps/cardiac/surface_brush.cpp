@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <filesystem>
+#include <utility>
 
 #include <imgui.h>
 
 #include "apps/cardiac/wall_view.h"
 #include "common/field/layer/paint_surfaces.h"
 #include "common/window/controls/pick_volume.h"
+#include "common/window/files/saved_files.h"
 #include "common/window/panels/panel_parts.h"
 
 namespace palpate {
@@ -18,31 +20,10 @@ namespace {
 constexpr std::array<BorderRole, 5> kPainted{BorderRole::kInner, BorderRole::kRight, BorderRole::kSeptum,
                                              BorderRole::kOuter, BorderRole::kBase};
 
-/// How far along the ray it meets a triangle; nothing where it passes (Moeller and Trumbore 1997).
-std::optional<double> meets(const ViewRay& ray, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - a, v = c - a, across = glm::cross(ray.along, v);
-  const double det = glm::dot(u, across);
-  if (det == 0.0) return std::nullopt;
-  const Vec3 from = ray.from - a;
-  const double s = glm::dot(from, across) / det;
-  const Vec3 q = glm::cross(from, u);
-  const double t = glm::dot(ray.along, q) / det, way = glm::dot(v, q) / det;
-  if (s < 0.0 || t < 0.0 || s + t > 1.0 || way < 0.0) return std::nullopt;
-  return way;
-}
-
 /// Where the ray first meets the wall: surfaces that are not coloured by values, or all where those are all there is.
 std::optional<Vec3> wall_under(const ViewRay& ray, const std::vector<SurfaceView>& surfaces, bool layered) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const SurfaceView& surface : surfaces) {
-    if (!surface.mesh || (layered && surface.values)) continue;
-    const IsosurfaceMesh& mesh = *surface.mesh;
-    for (const auto& [a, b, c] : mesh.triangles)
-      if (const auto way = meets(ray, mesh.points[a], mesh.points[b], mesh.points[c]))
-        nearest = std::min(nearest, *way);
-  }
-  if (!std::isfinite(nearest)) return std::nullopt;
-  return ray.from + nearest * ray.along;
+  return pick_surface(ray, surfaces,
+                      [layered](const SurfaceView& surface) { return !layered || !surface.values; });
 }
 
 ImVec4 shown(const Rgb& color) { return {color.r, color.g, color.b, 1.0F}; }
@@ -52,6 +33,11 @@ ImVec4 shown(const Rgb& color) { return {color.r, color.g, color.b, 1.0F}; }
 void SurfaceBrush::operator()(PanelContext& on) {
   const bool layered = on.scene.info->layers.has_value();
   Document& document = on.state.document;
+  if (TagWriter::News news = tags_->news(); news.failed) {
+    on.state.fail(std::move(news.words));
+  } else if (!news.words.empty()) {
+    on.state.say(std::move(news.words));
+  }
   if (!section("WALL")) {
     on_ = false;
     return;
@@ -66,6 +52,9 @@ void SurfaceBrush::operator()(PanelContext& on) {
       if (selectable(name_of(role), on_ && role == role_)) {
         on_ = !on_ || role != role_;
         role_ = role;
+        if (on_)
+          on.state.say(std::string("paints the wall as ") + name_of(role) +
+                       "; press it again to put the brush away");
       }
       ImGui::PopStyleColor();
       hint("take the brush: the mouse paints the wall with it, where its surfaces were taken for others");
@@ -74,18 +63,30 @@ void SurfaceBrush::operator()(PanelContext& on) {
       (void)slider("brush", size_, 0.005, 0.3, "%.3f");
       hint("radius, in diagonals of the scene");
       paint(on);
-      on.state.message =
-          std::string("paints the wall as ") + name_of(role_) + "; press it again to put the brush away";
     }
     if (!document.input.paint.empty()) {
       if (small_button("take all paint off")) document.input.paint.clear();
       explain("paint-surface");
-      ImGui::TextWrapped(
-          "A session keeps the paint; 'cardiac info --session FILE --surfaces tags.vtu' writes it into a mesh.");
+      ImGui::TextWrapped("A session keeps the paint; tags keep it in the mesh.");
     }
+    save_tags(on);
   } else {
     on_ = false;
   }
+}
+
+/// In the current folder, as lines and pictures are.
+void SurfaceBrush::save_tags(PanelContext& on) {
+  ImGui::BeginDisabled(tags_->running());
+  if (small_button("save surfaces as tags")) {
+    const InputOptions& input = on.state.document.input;
+    const std::string stem = input.files.empty() ? input.example : input.files.front().stem().string();
+    tags_->start(on.state.document, free_place(std::filesystem::current_path(), stem + "-tags", ".vtu"));
+  }
+  ImGui::EndDisabled();
+  hint(
+      "writes the wall's mesh with an array 'surface', which says of each point which surface it is of: a file that has "
+      "one is opened by it (as cardiac info --surfaces FILE.vtu)");
 }
 
 void SurfaceBrush::paint(PanelContext& on) {

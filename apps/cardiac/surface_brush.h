@@ -2,10 +2,12 @@
 /// them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/cardiac/tag_writer.h"
 #include "common/field/layer/wall_surfaces.h"
 #include "common/math/vec.h"
 #include "common/window/panels/panel.h"
@@ -20,12 +22,14 @@ class SurfaceBrush {
 
  private:
   void paint(PanelContext& on);
+  void save_tags(PanelContext& on);
 
   bool on_ = false;
   BorderRole role_ = BorderRole::kInner;
   double size_ = 0.05;               ///< radius [diagonals of the scene]
   std::vector<std::string> stroke_;  ///< not in the document yet
   std::optional<Vec3> last_;         ///< where its last ball of paint is
+  std::shared_ptr<TagWriter> tags_ = std::make_shared<TagWriter>();
 };
 
 }  // namespace palpate
