@@ -137,7 +137,8 @@ bool ExplorerWindow::counts() {
   if ((!scene_ && !on_start_page()) || (options_.frames_wait && jobs_.running())) return false;
   if (options_.patience > 0.0 && awaits_control(options_.script, frame_)) {
     if (!awaiting_) awaiting_.emplace();
-    if (awaiting_->seconds() < options_.patience) return false;
+    // Behind one that has not come others would not come either: each waited for would be minutes in all.
+    if (missing_.empty() && awaiting_->seconds() < options_.patience) return false;
   }
   awaiting_.reset();
   return true;
