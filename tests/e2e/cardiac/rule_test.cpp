@@ -10,6 +10,7 @@
 #include <string>
 
 #include "tests/e2e/explorer_test.h"
+#include "tests/support/shared_data.h"
 
 namespace palpate::test {
 namespace {
@@ -172,6 +173,60 @@ TEST_F(CardiacRule, MakesFibresForAMeshWithoutThem) {
   EXPECT_EQ(run({"fibers", "bare.pts", "--out", "no.vtp"}).exit_code, 2);
   EXPECT_EQ(run({"fibers", "bare.pts"}).exit_code, 2);
   EXPECT_FALSE(std::filesystem::exists(folder_.path("no.vtu")));
+}
+
+// Measured hearts have no closed form: of every point the depth has to fall to the inner and to rise to the outer surface.
+TEST_F(CardiacRule, DepthsRiseThroughTheWallsOfMeasuredHearts) {
+  PALPATE_NEED_DATA(dog, "cardiac/canine-heart/heart.exnode.gz");
+  PALPATE_NEED_DATA(ellipsoid, "cardiac/chaste-ellipsoid/ellipsoid_8225_elements_quad.ele");
+  (void)json({"convert", dog.string(), "--out", "dog.pts"});
+  for (const auto& [file, name] :
+       {std::pair{std::string("dog.pts"), "dog"}, {ellipsoid.string(), "ellipsoid"}}) {
+    const Json info = json({"info", file, "--surfaces", std::string(name) + ".vtp"});
+    RecordProperty(std::string("monotone_share_of_the_") + name, info["surfaces"]["monotone"].dump());
+    EXPECT_GT(info["surfaces"]["monotone"].get<double>(), 0.999) << name;
+    EXPECT_GT(part(info, "epicardium")["area"].get<double>(), 0.0) << name;
+    const Json map = json({"map", file, "--angle", "depth", "--out", std::string(name) + ".csv"});
+    EXPECT_EQ(map["undefined"], 0) << name;
+  }
+}
+
+// The shell of an atrium with the openings of two veins: no wall, so no layers; drawn, with its fibres and regions.
+TEST_F(CardiacRule, AnAtriumIsDrawnAndItsLayersAreRefused) {
+  constexpr int kAround = 24, kAlong = 12;  // 30 to 150 degrees from the pole
+  std::ostringstream points, cells, fibres;
+  points << kAround * (kAlong + 1) << "\n";
+  cells << 2 * kAround * kAlong << "\n";
+  fibres << "1\n";
+  for (int j = 0; j <= kAlong; ++j) {
+    const double polar = kPi / 6.0 + 2.0 * kPi / 3.0 * j / kAlong;
+    for (int i = 0; i < kAround; ++i) {
+      const double around = 2.0 * kPi * i / kAround;
+      points << 25000.0 * std::sin(polar) * std::cos(around) << " "
+             << 25000.0 * std::sin(polar) * std::sin(around) << " " << 25000.0 * std::cos(polar) << "\n";
+      if (j == kAlong) continue;
+      const int a = j * kAround + i, b = j * kAround + (i + 1) % kAround;
+      cells << "Tr " << a << " " << b << " " << a + kAround << " 1\nTr " << b << " " << b + kAround << " "
+            << a + kAround << " 2\n";
+      for (int half = 0; half < 2; ++half) fibres << -std::sin(around) << " " << std::cos(around) << " 0\n";
+    }
+  }
+  (void)folder_.write("atrium.pts", points.str());
+  (void)folder_.write("atrium.elem", cells.str());
+  (void)folder_.write("atrium.lon", fibres.str());
+  const Json info = json({"info", "atrium.pts"});
+  EXPECT_TRUE(info["no_layers"].is_string() || info["not_volume"].is_string()) << info;
+  const Json drawn = json({"render", "atrium.pts", "--size", "160x120", "--out", "atrium.png"});
+  EXPECT_EQ(drawn["lines"], 2 * kAround * kAlong) << "a stroke a triangle";
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"trace", "atrium.pts", "--layer", "0.5", "--seeds", "random:5", "--out",
+                                 "no.vtp"},
+        {"map", "atrium.pts", "--angle", "depth", "--out", "no.csv"},
+        {"info", "atrium.pts", "--surfaces", "no.vtp"}}) {
+    const ProgramResult result = run(command);
+    EXPECT_EQ(result.exit_code, 3) << command.front() << result.err;
+    EXPECT_NE(result.err.find("not a volume"), std::string::npos) << result.err;
+  }
 }
 
 // A block has no inner surface: refused with what to do.

@@ -105,6 +105,38 @@ TEST(Heart, HelixAngleConvergesAtSecondOrderAtLeast) {
   EXPECT_GT(std::log2(coarse / fine), 1.9) << coarse << " -> " << fine;
 }
 
+// Of fibres in their layer, alpha from e_c: those that keep t measure alpha itself; those that keep the long axis see
+// its part along that, a . e_l = cosh(lambda) sin(mu) / sqrt(sinh^2 lambda + sin^2 mu).
+TEST(Heart, HelixMapsAreTheClosedFormsOfFourConventions) {
+  const Ventricle shape;
+  const Heart heart = heart_of(ventricle_mesh(shape, {}));
+  const SmoothNormals normals(heart.layer);
+  const auto axis = long_axis(*heart.layer);
+  ASSERT_TRUE(axis);
+  const std::vector<Vec3>& points = heart.layer->tet_mesh()->points();
+  for (int c = 0; c < kAngleConventionCount; ++c) {
+    const auto convention = static_cast<AngleConvention>(c);
+    const bool leans = convention == AngleConvention::kBayer || convention == AngleConvention::kDoste;
+    const std::vector<double> map = map_angle(heart, normals, *axis, WallAngle::kHelix, convention);
+    ASSERT_EQ(map.size(), points.size());
+    double worst = 0.0;
+    std::size_t compared = 0;
+    for (std::size_t p = 0; p < map.size(); ++p) {
+      const Prolate at = shape.coordinates(heart.layer->frame().data_from_local(points[p]));
+      constexpr double kApex = 0.35;  // where directions turn by any angle from cell to cell
+      if (at.mu < kApex) continue;
+      const double alpha = shape.helix_angle(at.lambda);
+      const double part =
+          std::cosh(at.lambda) * std::sin(at.mu) / std::hypot(std::sinh(at.lambda), std::sin(at.mu));
+      worst = std::max(worst, std::abs(map[p] - std::atan(std::tan(alpha) * (leans ? part : 1.0)) / kDegree));
+      ++compared;
+    }
+    RecordProperty("worst_degrees_" + std::string(name_of(convention)), std::to_string(worst));
+    EXPECT_LT(worst, 0.5) << name_of(convention);
+    EXPECT_GT(compared, points.size() / 2);
+  }
+}
+
 TEST(Heart, RandomSignsChangeNoBit) {
   DataSet mesh = ventricle_mesh({}, {.wall = 2, .along = 8, .around = 16});
   const Heart before = heart_of(mesh);
