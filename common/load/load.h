@@ -40,7 +40,9 @@ struct LoadRequest {
   bool allow_gaps = false;  ///< DICOM: slices may be missing, and hold no values
   /// NIfTI: images that state no orientation run from right to left.
   bool left_handed = false;
-  /// TetGen: which markers of a .face file mean the inner and the outer surface, "1,4/2"; empty: by shape.
+  /// A heart's wall is asked for: numbers and names of the faces of its border may say what they are. Others have no use for them.
+  bool wall = false;
+  /// Of a wall: which numbers of faces mean the inner and the outer surface, "1,4/2"; empty: by names, or by shape.
   std::string surface_markers;
 };
 
@@ -60,6 +62,8 @@ struct BlockInfo {
   std::vector<ArrayInfo> arrays;
   /// Why no line in space can be traced in it ("holds points, lines or surfaces …"); empty for a volume.
   std::string not_volume;
+  /// Surfaces are among the cells of the volume, or beside it with a number each: a wall's may say what they are.
+  bool faces = false;
 };
 
 struct FileInfo {

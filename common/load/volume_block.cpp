@@ -8,6 +8,7 @@
 
 #include "common/base/index.h"
 #include "common/field/cells/loose_points.h"
+#include "common/field/grid/cell_faces.h"
 
 namespace palpate {
 
@@ -57,6 +58,7 @@ BlockInfo describe_mesh(const DataSet& mesh) {
   const auto& cells = std::get<UnstructuredTopology>(mesh.topology);
   if (!cells.types.empty() && std::ranges::all_of(cells.types, is_flat_cell))
     block.not_volume = kOnlyFlatCells;
+  block.faces = block.not_volume.empty() && std::ranges::any_of(cells.types, is_surface);
   const DataArray& positions = cells.positions;
   const std::vector<std::uint8_t> used = points_of_cells(cells);
   for (std::size_t p = 0; p < positions.tuples; ++p) {

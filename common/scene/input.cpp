@@ -213,6 +213,7 @@ void Input::open_files(Progress* progress) {
   LoadRequest request = spec_;
   request.raw = raw_layout_of(spec_.files.front(), spec_.raw_spec, raw_note_);
   request.left_handed = parse_tensor_spec(spec_.tensor).left_handed;  // a misspelt option is refused first
+  request.wall = spec_.kind == FieldKind::kFibre;
   if (spec_.kind == FieldKind::kTensor) {
     request.diffusion = DiffusionRequest{spec_.tensor.bval, spec_.tensor.bvec};
   }
@@ -229,11 +230,11 @@ void Input::find_face_surfaces(Progress* progress) {
   const std::string& asked = spec_.surface_markers;
   // Those of TetGen's and Gmsh's files were asked for when they were read.
   const bool has = has_surfaces(arrays_), read = of_file.format == "TetGen" || of_file.format == "Gmsh";
-  const std::string faces = face_array(arrays_);
+  const bool listed = !of_file.blocks.empty() && of_file.blocks.front().faces;
+  const std::string faces = face_array(arrays_), by = read ? "" : asked;
   FileInfo info = of_file;
-  if (!has && !faces.empty() && of_file.blocks.size() == 1) {
+  if (!has && !faces.empty() && of_file.blocks.size() == 1 && (listed || !by.empty())) {
     const std::vector<DataSet> blocks = source_->read({faces}, 0, progress);
-    const std::string by = read ? "" : asked;
     if (!surfaces_of_cells(blocks.at(0), faces, file_name(), by, info.notes).empty())
       arrays_.push_back(
           {kSurfaceArray, Association::kPoint, 1, ScalarType::kFloat64, blocks.at(0).point_count()});
@@ -242,10 +243,7 @@ void Input::find_face_surfaces(Progress* progress) {
                       (has ? std::string(" names its surfaces in an array '") + kSurfaceArray + "'"
                            : " has no array that numbers the faces of its border"));
   }
-  const bool groups = std::ranges::any_of(of_file.notes, [](const std::string& note) {
-    return note.find("physical groups") != std::string::npos;
-  });
-  if (!has && read && groups)
+  if (!has && read && listed)
     info.notes.emplace_back(
         "physical groups are taken for surfaces of the wall where their names have endo and epi, or with "
         "--surface-markers INNER/OUTER, as 1,4/2");

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -83,7 +84,7 @@ const ElementType* element_type(int type) {
 
 class GmshReader {
  public:
-  GmshReader(std::string_view text, const std::string& file, std::string surface_markers)
+  GmshReader(std::string_view text, const std::string& file, std::optional<std::string> surface_markers)
       : words_(text, file), surface_markers_(std::move(surface_markers)) {}
 
   MeshFile read() {
@@ -233,8 +234,11 @@ class GmshReader {
     if (type.dimension < 3) {
       ++flat_;
       // Those of the other orientation are negative.
-      for (const std::int64_t group : groups)
-        if (type.dimension == kSurface && group != 0) faces_.add(nodes, std::abs(group));
+      for (const std::int64_t group : groups) {
+        if (type.dimension != kSurface || group == 0) continue;
+        numbers_.insert(std::abs(group));
+        if (surface_markers_) faces_.add(nodes, std::abs(group));
+      }
       return;
     }
     if (type.vtk == 0) {
@@ -395,13 +399,13 @@ class GmshReader {
                          unread_ > 0 ? "write it at a lower order: gmsh FILE -save -order 2"
                                      : "mesh the volume: gmsh FILE -3"});
     }
-    std::set<std::int64_t> groups(faces_.numbers.begin(), faces_.numbers.end());
+    out.faces = !numbers_.empty();
     std::string of_groups;
     constexpr std::size_t kMostListed = 12;
     std::size_t listed = 0;
-    for (const std::int64_t group : groups) {
+    for (const std::int64_t group : numbers_) {
       if (listed++ == kMostListed) {
-        of_groups += ", … (" + std::to_string(groups.size()) + " in all)";
+        of_groups += ", … (" + std::to_string(numbers_.size()) + " in all)";
         break;
       }
       const auto name = names_.find(group);
@@ -418,7 +422,7 @@ class GmshReader {
     for (const auto& [section, count] : skipped_)
       out.notes.push_back(counted(count, "section") + " " + section + " left out");
 
-    if (!faces_.numbers.empty() || !surface_markers_.empty()) add_surfaces(out.notes);
+    if (surface_markers_ && (!numbers_.empty() || !surface_markers_->empty())) add_surfaces(out.notes);
     cells_.take(mesh_.cells);
     add_gmsh_values(std::move(mesh_), std::move(values_), words_.file(), out);
     return out;
@@ -439,7 +443,7 @@ class GmshReader {
     const FaceWords words{.file = words_.file(),
                           .numbered_by = "the physical groups",
                           .names = names_,
-                          .asked = surface_markers_};
+                          .asked = *surface_markers_};
     std::vector<std::string> said;
     const std::vector<double> tags = surfaces_of_faces(faces, mesh_.positions.size() / 3, words, said);
     if (tags.empty()) return;  // a mesh of something else: groups are listed already
@@ -456,10 +460,11 @@ class GmshReader {
   static constexpr int kSurface = 2;  // its dimension
 
   MeshWords words_;
-  std::string surface_markers_;
+  std::optional<std::string> surface_markers_;                             ///< null: no wall
   std::map<std::int64_t, std::string> names_;                              ///< of physical groups of surfaces
   std::unordered_map<std::int64_t, std::vector<std::int64_t>> groups_of_;  ///< of surfaces; version 4
-  NumberedFaces faces_;                                                    ///< of nodes' tags
+  std::set<std::int64_t> numbers_;                                         ///< of groups that have a surface
+  NumberedFaces faces_;                                                    ///< of a wall, of nodes' tags
   double version_ = 0.0;
   bool binary_ = false, swapped_ = false;
   GmshMesh mesh_;
@@ -471,7 +476,8 @@ class GmshReader {
 
 }  // namespace
 
-MeshFile read_gmsh(std::string_view text, const std::string& file, const std::string& surface_markers) {
+MeshFile read_gmsh(std::string_view text, const std::string& file,
+                   const std::optional<std::string>& surface_markers) {
   return GmshReader(text, file, surface_markers).read();
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -55,7 +56,8 @@ class MeshLoader : public Loader {
     const MappedFile mapped(file);
     switch (format) {
       case Format::kGmsh:
-        mesh_ = read_gmsh(mapped.text(), file, request.surface_markers);
+        mesh_ = read_gmsh(mapped.text(), file,
+                          request.wall ? std::optional(request.surface_markers) : std::nullopt);
         break;
       case Format::kSu2:
         mesh_ = read_su2(mapped.text(), file);
@@ -83,6 +85,7 @@ class MeshLoader : public Loader {
       for (std::vector<DataSet>& blocks : mesh_.steps)
         std::erase_if(blocks, [](const DataSet& block) { return !describe(block).not_volume.empty(); });
     }
+    for (BlockInfo& block : info.blocks) block.faces = block.faces || mesh_.faces;
     if (info.blocks.empty()) throw input_error({file, "", "holds no cells", "a mesh", ""});
     return info;
   }

@@ -26,6 +26,7 @@
 #include "common/base/error.h"
 #include "common/base/index.h"
 #include "common/base/text.h"
+#include "common/field/grid/cell_faces.h"
 #include "common/field/grid/curved_cell.h"
 #include "common/load/volume_block.h"
 #include "loaders/vtk/ghost_cells.h"
@@ -288,6 +289,16 @@ Box bounds_of_cells(vtkUnstructuredGrid* mesh) {
   return bounds;
 }
 
+bool has_surface_cells(vtkDataSet* data) {
+  auto* const grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid == nullptr) return false;
+  const auto types = vtkSmartPointer<vtkCellTypes>::New();
+  grid->GetCellTypes(types);
+  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+    if (is_surface(types->GetCellType(i))) return true;
+  return false;
+}
+
 }  // namespace
 
 bool scalar_type_of(int vtk_type, ScalarType& type) {
@@ -384,6 +395,7 @@ BlockInfo describe_block(vtkDataSet* data, const std::string& name) {
   if (vtkUnstructuredGrid::SafeDownCast(data) != nullptr) info.grid = "unstructured";
   if (vtkPolyData::SafeDownCast(data) != nullptr) info.grid = "polygonal";
   info.not_volume = why_not_volume(data);
+  info.faces = info.not_volume.empty() && has_surface_cells(data);
   if (auto* mesh = vtkUnstructuredGrid::SafeDownCast(data); mesh != nullptr && mesh->GetNumberOfCells() > 0) {
     info.bounds = bounds_of_cells(mesh);
   } else {

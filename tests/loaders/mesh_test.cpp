@@ -101,16 +101,22 @@ TEST_F(Meshes, PhysicalGroupsOfGmshNameSurfacesOfAWall) {
     return values;
   };
   for (const double version : {2.2, 4.0, 4.1}) {
-    Source named = Source::open({{folder_.write("a.msh", gmsh_faces(version, names))}, {}});
+    LoadRequest request{.files = {folder_.write("a.msh", gmsh_faces(version, names))}, .wall = true};
+    Source named = Source::open(request);
     EXPECT_EQ(surface(named), (std::vector<double>{1, 1, 1, 2})) << version;
     EXPECT_TRUE(says(named.info().notes,
                      "number 1 'endo lv' of the physical groups is the endocardium, by its name"));
     EXPECT_TRUE(says(named.info().notes, "2 points on both surfaces: taken as inner"));
-    LoadRequest request{.files = {folder_.write("b.msh", gmsh_faces(version, ""))}};
+    request.wall = false;
+    Source flow = Source::open(request);
+    EXPECT_TRUE(surface(flow).empty()) << "of no wall";
+    EXPECT_TRUE(says(flow.info().notes, "left out, of the physical groups 1 'endo lv', 2 'Epicardium'"));
+    request = {.files = {folder_.write("b.msh", gmsh_faces(version, ""))}, .wall = true};
     Source bare = Source::open(request);
     EXPECT_TRUE(surface(bare).empty());
+    EXPECT_TRUE(bare.info().blocks.at(0).faces) << "with a number each";
     EXPECT_TRUE(says(bare.info().notes, "left out, of the physical groups 1, 2"));
-    EXPECT_FALSE(says(bare.info().notes, "--surface-markers"));  // a hint for hearts alone
+    EXPECT_FALSE(says(bare.info().notes, "--surface-markers"));  // a hint that Input gives
     request.surface_markers = "2/1";
     Source asked = Source::open(request);
     EXPECT_EQ(surface(asked), (std::vector<double>{1, 1, 2, 1})) << version;

@@ -87,6 +87,11 @@ bool is_flat(std::uint8_t type) noexcept {
   return type == 76 || type == 77 || std::ranges::find(kFlat, type) != kFlat.end();
 }
 
+bool is_surface(std::uint8_t type) noexcept {
+  constexpr std::array<std::uint8_t, 10> kPointsAndLines{0, 1, 2, 3, 4, 21, 35, 60, 68, 75};
+  return is_flat(type) && std::ranges::find(kPointsAndLines, type) == kPointsAndLines.end();
+}
+
 std::size_t point_count_of(std::uint8_t type) noexcept {
   const TypeInfo* info = info_of(type);
   return info == nullptr ? 0 : info->points;

@@ -59,6 +59,8 @@ inline constexpr std::array<std::array<std::uint8_t, 8>, 8> kTriquadraticParts{
 [[nodiscard]] bool is_volume(std::uint8_t type) noexcept;
 /// A point, line or surface cell.
 [[nodiscard]] bool is_flat(std::uint8_t type) noexcept;
+/// A surface cell, straight or curved.
+[[nodiscard]] bool is_surface(std::uint8_t type) noexcept;
 /// Points of a cell of the type; 0 where the type leaves it open (arbitrary order, polyhedra).
 [[nodiscard]] std::size_t point_count_of(std::uint8_t type) noexcept;
 /// The linear cell at the corners of a higher-order one; linear types are their own.

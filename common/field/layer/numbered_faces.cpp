@@ -142,15 +142,14 @@ std::string face_array(const std::vector<ArrayInfo>& arrays) {
 }
 
 NumberedFaces faces_of_mesh(const UnstructuredTopology& cells, const DataArray& numbers) {
-  constexpr std::array<std::uint8_t, 9> kPointsAndLines{1, 2, 3, 4, 21, 35, 60, 68, 75};
   NumberedFaces faces;
   if (numbers.tuples != cells.types.size() || numbers.components != 1) return faces;
   const bool volumes =
       std::any_of(cells.types.begin(), cells.types.end(), [](std::uint8_t type) { return !is_flat(type); });
   for (std::size_t c = 0; volumes && c < cells.types.size(); ++c) {
     const double value = numbers.at(c);
-    if (!is_flat(cells.types[c]) || std::ranges::count(kPointsAndLines, cells.types[c]) > 0 || value == 0.0 ||
-        value != std::floor(value) || std::abs(value) > kLargestNumber)
+    if (!is_surface(cells.types[c]) || value == 0.0 || value != std::floor(value) ||
+        std::abs(value) > kLargestNumber)
       continue;
     const auto begin = as_size(cells.offsets[c]), end = as_size(cells.offsets[c + 1]);
     const std::span<const std::int64_t> of(cells.connectivity.data() + begin, end - begin);

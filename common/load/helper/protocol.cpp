@@ -86,6 +86,7 @@ std::string encode(const RequestMessage& request) {
     if (!open->request.series.empty()) message["series"] = text_from_bytes(open->request.series);
     if (open->request.allow_gaps) message["allow_gaps"] = true;
     if (open->request.left_handed) message["left_handed"] = true;
+    if (open->request.wall) message["wall"] = true;
     if (!open->request.surface_markers.empty())
       message["surface_markers"] = text_from_bytes(open->request.surface_markers);
     if (open->request.solution) message["solution"] = text_from_bytes(open->request.solution->native());
@@ -117,6 +118,7 @@ RequestMessage decode_request(std::string_view text) {
     if (message.contains("series")) open.request.series = string_at(message, "series");
     if (message.contains("allow_gaps")) open.request.allow_gaps = bool_at(message, "allow_gaps");
     if (message.contains("left_handed")) open.request.left_handed = bool_at(message, "left_handed");
+    if (message.contains("wall")) open.request.wall = bool_at(message, "wall");
     if (message.contains("surface_markers"))
       open.request.surface_markers = string_at(message, "surface_markers");
     if (message.contains("solution")) open.request.solution = string_at(message, "solution");
@@ -153,7 +155,8 @@ std::string encode_info(const FileInfo& info) {
                       {"lower", box_corner(block.bounds.lower)},
                       {"upper", box_corner(block.bounds.upper)},
                       {"arrays", std::move(arrays)},
-                      {"not_volume", text_from_bytes(block.not_volume)}});
+                      {"not_volume", text_from_bytes(block.not_volume)},
+                      {"faces", block.faces}});
   }
   Json notes = Json::array();
   for (const std::string& note : info.notes) notes.push_back(text_from_bytes(note));
@@ -208,6 +211,7 @@ FileInfo decode_info(std::string_view text) {
     }
     for (const Json& array : array_at(object, "arrays")) block.arrays.push_back(decode_array_info(array));
     block.not_volume = string_at(object, "not_volume");
+    block.faces = bool_at(object, "faces");
     info.blocks.push_back(std::move(block));
   }
   return info;

@@ -2,14 +2,15 @@
 ///
 /// Requests
 ///   {"request": "open", "format": F, "files": [path…], "solution": path?, "raw": R?, "diffusion": D?,
-///   "refine": n?, "series": text?, "allow_gaps": bool?, "left_handed": bool?, "surface_markers": text?}
+///   "refine": n?, "series": text?, "allow_gaps": bool?, "left_handed": bool?, "wall": bool?,
+///   "surface_markers": text?}
 ///   {"request": "read", "arrays": [name…], "step": n}
 /// Answers
 ///   {"failed": exit code, "line": text}
 ///   {"format", "loader", "times": [t…], "notes": [text…], "units": text, "anatomical": bool, "diffusion": G,
 ///   "exact_volume": v, "long_axis": [x, y, z] or null, "window": [a, b] or null,
 ///   "blocks": [{"name", "grid", "points": [i, j, k],
-///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text}…]}
+///    "point_count", "cell_count", "lower": [x, y, z], "upper", "arrays": [A…], "not_volume": text, "faces": bool}…]}
 ///                                                                                          to "open"
 ///   {"blocks": [{"name", "topology": T, "arrays": [A with "offset"…], "visible": offset?,
 ///   "hidden_cells": offset?}…]}  to "read"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/base/ledger.h"
 #include "common/scene/flow_series.h"
 #include "common/scene/time_steps.h"
 #include "tests/support/temp_folder.h"
@@ -69,6 +70,40 @@ TEST(Input, MakesTheFieldOfAnExample) {
 }
 
 // In the order of time, whatever that of the file, and round at either end.
+/// How often opening has read the array "tag", which numbers the tetrahedron and perhaps faces of it.
+std::size_t readings(const InputOptions& spec) {
+  Ledger::clear();
+  const Input input = Input::open(spec);
+  for (const LedgerEntry& entry : Ledger::entries())
+    if (entry.what == "array tag") return entry.times;
+  return 0;
+}
+
+// A heart's array of cells is read at opening only where there are faces whose numbers it may have.
+TEST(Input, OpeningReadsNumbersOfFacesWhereThereAreFaces) {
+  TempFolder folder;
+  const auto mesh = [&](const std::string& name, const std::string& faces, int count,
+                        const std::string& types, const std::string& tags) {
+    return folder.write(name,
+                        "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+                        "0 0 0 1 0 0 0 1 0 0 0 1\nCELLS " +
+                            std::to_string(count) + " " + std::to_string(5 + 4 * (count - 1)) +
+                            "\n4 0 1 2 3\n" + faces + "CELL_TYPES " + std::to_string(count) + "\n10\n" +
+                            types + "CELL_DATA " + std::to_string(count) +
+                            "\nSCALARS tag int 1\nLOOKUP_TABLE default\n1\n" + tags);
+  };
+  const InputOptions bare = input_of({mesh("bare.vtk", "", 1, "", "")}, FieldKind::kFibre);
+  EXPECT_EQ(readings(bare), 0U);
+  InputOptions faced =
+      input_of({mesh("faced.vtk", "3 0 1 2\n3 1 2 3\n", 3, "5\n5\n", "4\n9\n")}, FieldKind::kFibre);
+  EXPECT_EQ(readings(faced), 1U);
+  faced.kind = FieldKind::kScalar;
+  EXPECT_EQ(readings(faced), 0U) << "no heart";
+  InputOptions asked = bare;
+  asked.surface_markers = "4/9";
+  EXPECT_EQ(code_of(asked), ExitCode::kUsage) << "there are none";
+}
+
 TEST(TimeSteps, GoOnByTimeAndRound) {
   const std::vector<double> times{0.5, 0.0, 2.0, 1.0};
   EXPECT_EQ(step_beside(times, 1, true), 0U);

@@ -76,6 +76,7 @@ TEST(Protocol, InfoComesBackAsItWas) {
   block.bounds.include({-1, 0.1, 1e-300});
   block.arrays.push_back({"v", Association::kCell, 3, ScalarType::kInt16, 24});
   block.not_volume = "is flat";
+  block.faces = true;
   info.blocks = {block, {}};
   const FileInfo decoded = decode_info(encode_info(info));
   EXPECT_EQ(decoded.times, info.times);
@@ -88,6 +89,8 @@ TEST(Protocol, InfoComesBackAsItWas) {
   EXPECT_TRUE(decoded.blocks[1].bounds.empty());
   EXPECT_EQ(decoded.blocks[0].not_volume, "is flat");
   EXPECT_EQ(decoded.blocks[1].not_volume, "");
+  EXPECT_TRUE(decoded.blocks[0].faces);
+  EXPECT_FALSE(decoded.blocks[1].faces);
   EXPECT_EQ(decoded.blocks[0].arrays[0].association, Association::kCell);
   EXPECT_EQ(decoded.blocks[0].arrays[0].type, ScalarType::kInt16);
 }
