@@ -175,7 +175,7 @@ FlowVolume load_flow_volume(Input& input, const std::shared_ptr<const VectorFiel
     if (name == names.front()) {
       volume.voxels.image = std::move(image);
     } else {
-      volume.voxels.secondary.push_back({std::move(image), name});
+      volume.voxels.secondary.push_back(volume_field(std::move(image), name));
     }
   }
   return volume;

@@ -90,12 +90,16 @@ std::vector<std::string> secondary_names(const Input& input, const VolumeOptions
                          });
 }
 
+VolumeField volume_field(std::shared_ptr<const VolumeImage> image, std::string name) {
+  auto window = Late<ValueWindow>::by([image] { return window_of_bulk(*image, 0); });
+  return {.image = std::move(image), .name = std::move(name), .window = std::move(window)};
+}
+
 std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options, Progress* progress,
                                         Resampling* resampling) {
   std::vector<VolumeField> fields;
   for (const std::string& name : secondary_names(input, options)) {
-    const auto image = load_named(input, name, progress, resampling);
-    fields.push_back({.image = image, .name = name, .window = window_of_bulk(*image, 0)});
+    fields.push_back(volume_field(load_named(input, name, progress, resampling), name));
   }
   return fields;
 }
@@ -107,24 +111,33 @@ TangibleVolume load_seen_volume(Input& input, const VolumeOptions& options, Prog
           .secondary = load_secondary(input, options, progress, resampling)};
 }
 
-std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus, int threads) {
-  std::vector<Lens> appearances;
+std::vector<Late<Lens>> lens_appearances(const VolumeView& volume, const std::string& focus, int threads) {
+  std::vector<Late<Lens>> appearances;
   for (std::size_t field = 0; field <= volume.fields.size(); ++field) {
-    Lens& appearance = appearances.emplace_back();
+    Lens appearance;
     appearance.field = field;
     appearance.samples_per_voxel = volume.samples_per_voxel;
     appearance.shading = volume.shading;
-    const VolumeImage& image = *image_of(volume, field);
-    take_transfer(field == 0 || !focus.empty() ? focus_transfer_of(focus, image, threads)
-                                               : volume_transfer_of("", image, threads),
-                  appearance);
+    const std::shared_ptr<const VolumeImage>& image = image_of(volume, field);
+    if (!focus.empty()) {  // which may be refused
+      take_transfer(focus_transfer_of(focus, *image, threads), appearance);
+      appearances.emplace_back(std::move(appearance));
+      continue;
+    }
+    appearances.push_back(Late<Lens>::by([appearance, image, threads] {
+      Lens lens = appearance;
+      take_transfer(
+          lens.field == 0 ? focus_transfer_of("", *image, threads) : volume_transfer_of("", *image, threads),
+          lens);
+      return lens;
+    }));
   }
   return appearances;
 }
 
-void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& appearances,
+void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Late<Lens>>& appearances,
                 int threads) {
-  VolumeParts parts = make_parts(options, appearances.front());
+  VolumeParts parts = make_parts(options, appearances.front().get());
   volume.lenses = std::move(parts.lenses);
   volume.cuts = std::move(parts.cuts);
   for (std::size_t i = 0; i < volume.lenses.size(); ++i) {
@@ -133,8 +146,8 @@ void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vec
                                     [&](const VolumeField& field) { return field.name == parts.fields[i]; });
     if (!lens.cut && found != volume.fields.end()) {
       lens.field = as_size(found - volume.fields.begin()) + 1;
-      lens.transfer = appearances[lens.field].transfer;
-      lens.regions = appearances[lens.field].regions;
+      lens.transfer = appearances[lens.field].get().transfer;
+      lens.regions = appearances[lens.field].get().regions;
     }
     if (parts.transfers[i].empty()) continue;
     take_transfer(volume_transfer_of(parts.transfers[i], *image_of(volume, lens.field), threads), lens);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/late.h"
 #include "common/base/progress.h"
 #include "common/compose/volume_scene.h"
 #include "common/render/volume/volume_view.h"
@@ -37,6 +38,8 @@ void check_file_field(const std::string& name, const std::string& option,
 /// The voxels that FILE or FILE:NAME means. @throws Error, Cancelled.
 [[nodiscard]] std::shared_ptr<const VolumeImage> load_file_field(const std::string& name, Progress* progress);
 
+/// With the window of its bulk (window_of_bulk()), found where a slice asks for it.
+[[nodiscard]] VolumeField volume_field(std::shared_ptr<const VolumeImage> image, std::string name);
 /// Reads their voxels. @throws Error as secondary_names() and of the files; Cancelled.
 [[nodiscard]] std::vector<VolumeField> load_secondary(Input& input, const VolumeOptions& options,
                                                       Progress* progress, Resampling* resampling = nullptr);
@@ -46,15 +49,15 @@ void check_file_field(const std::string& name, const std::string& option,
                                               Resampling* resampling = nullptr);
 
 /// How lenses show each field, by Lens::field: as `--focus-tf` says, of the values of that field; where it
-/// says nothing the context's denser half, and all of another field.
+/// says nothing the context's denser half, and all of another field, found where a lens asks for it.
 /// @param volume has its fields. @throws Error as focus_transfer_of().
-[[nodiscard]] std::vector<Lens> lens_appearances(const VolumeView& volume, const std::string& focus,
-                                                 int threads);
+[[nodiscard]] std::vector<Late<Lens>> lens_appearances(const VolumeView& volume, const std::string& focus,
+                                                       int threads);
 
 /// The lenses and cuts that the options ask for, with the fields and transfer functions that they name.
-/// @param volume has its fields; @param looks of lens_appearances() for it.
+/// @param volume has its fields; @param appearances of lens_appearances() for it.
 /// @throws Error (usage) as make_parts(), and for more transfer functions than a picture can have; of files.
-void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Lens>& appearances,
+void take_parts(VolumeView& volume, const VolumeOptions& options, const std::vector<Late<Lens>>& appearances,
                 int threads);
 
 /// What is told of pictures by value and gradient magnitude.

@@ -218,11 +218,17 @@ ValueWindow window_of_bulk(const VolumeImage& image, int threads) {
   } else if (lower < bulk.lower || bulk.upper < upper) {
     // Its ends are those of bins, up to 256 times as far apart as the values are.
     lower = HUGE_VAL, upper = -HUGE_VAL;
-    for (std::size_t i = 0; i < image.point_count(); ++i) {
-      const double value = image.value(i);
-      if (!(value >= bulk.lower && value <= bulk.upper)) continue;
-      lower = std::min(lower, value), upper = std::max(upper, value);
-    }
+    std::mutex joining;
+    parallel_for(image.point_count(), threads, [&](std::size_t first, std::size_t last) {
+      double least = HUGE_VAL, most = -HUGE_VAL;
+      for (std::size_t i = first; i < last; ++i) {
+        const double value = image.value(i);
+        if (!(value >= bulk.lower && value <= bulk.upper)) continue;
+        least = std::min(least, value), most = std::max(most, value);
+      }
+      const std::lock_guard lock(joining);
+      lower = std::min(lower, least), upper = std::max(upper, most);
+    });
   }
   return {.width = lower < upper ? upper - lower : 1.0, .level = 0.5 * lower + 0.5 * upper};
 }
@@ -376,7 +382,7 @@ VolumeView make_volume_view(const TangibleVolume& shown, const Document& options
   volume.illustrated = options.volume.illustration;
   volume.context_fade = options.volume.context_fade;
   if (!options.volume.lenses.empty() || !options.volume.clips.empty()) {
-    const std::vector<Lens> appearances =
+    const std::vector<Late<Lens>> appearances =
         lens_appearances(volume, options.volume.focus, options.common.threads);
     take_parts(volume, options.volume, appearances, options.common.threads);
     for (Lens& lens : volume.lenses) lens.colored = volume.colored && !lens.cut && lens.field == 0;

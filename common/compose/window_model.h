@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/late.h"
 #include "common/base/progress.h"
 #include "common/field/heart/regions.h"
 #include "common/field/scalar_field.h"
@@ -92,12 +93,12 @@ struct SceneState {
   std::optional<TractView> tracts;           ///< through them
   std::shared_ptr<const BundleSet> bundles;  ///< that the document lists; null: none
   /// How a new lens shows what is in it, by Lens::field; its shape is none. Never empty with a volume.
-  std::vector<Lens> appearances;
+  std::vector<Late<Lens>> appearances;
   /// Whether a volume of scalars is all that there is.
   [[nodiscard]] bool is_volume_alone() const { return volume && !tensors && !probed; }
   /// The one of a field that has none: as around lenses.
   [[nodiscard]] Lens appearance(std::size_t field) const {
-    return field < appearances.size() ? appearances[field] : Lens();
+    return field < appearances.size() ? appearances[field].get() : Lens();
   }
   std::array<std::size_t, kEndCount> ends{};
   std::size_t seeds = 0;  ///< those outside the domain too

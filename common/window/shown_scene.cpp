@@ -158,7 +158,8 @@ ViewEdits edits_of(const SceneView& view) {
   if (edits.color_lens) edits.color_lens->style.array.reset();
   if (edits.volume) {
     edits.volume->image.reset();
-    for (VolumeField& field : edits.volume->fields) field.image.reset();
+    for (VolumeField& field : edits.volume->fields)
+      field = {.image = nullptr, .name = field.name, .window = {}};
     edits.volume->slice_images.clear();
   }
   // The underlay stays: its window is of its own values.

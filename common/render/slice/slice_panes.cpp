@@ -211,7 +211,7 @@ SceneView pane_view(const SceneView& scene, const SlicePanes& panes, const std::
   if (panes.blend > 0.0 && !volume.fields.empty())
     slice.blend = SliceBlend{.image = volume.fields.front().image,
                              .name = std::filesystem::path(volume.fields.front().name).filename().string(),
-                             .window = volume.fields.front().window,
+                             .window = volume.fields.front().window.get(),
                              .opacity = panes.blend};
   // Once is enough.
   view.show_color_bar = scene.show_color_bar && slice.blend && pane == parts.front();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/late.h"
 #include "common/field/transfer/color_transfer.h"
 #include "common/field/transfer/region_transfer.h"
 #include "common/field/value_histogram.h"
@@ -90,9 +91,9 @@ struct CoarserVoxels {
 struct VolumeField {
   std::shared_ptr<const VolumeImage> image;
   std::string name;
-  ValueWindow window;  ///< over which its colours on slices are spread
+  Late<ValueWindow> window;  ///< over which its colours on slices are spread: follows from the image
 
-  bool operator==(const VolumeField&) const = default;
+  bool operator==(const VolumeField& other) const { return image == other.image && name == other.name; }
 };
 inline constexpr std::size_t kMostFields = 4;  ///< of one picture, that of the context included
 

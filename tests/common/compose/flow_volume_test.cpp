@@ -54,6 +54,10 @@ TEST(FlowVolume, IsTheScalarItselfOnARectilinearGridOfUnevenSteps) {
   ASSERT_EQ(volume.taken.size(), 1U) << "the scalar of the file is not taken anew";
   EXPECT_EQ(volume.taken[0].points, Index3(5, 3, 4));
   EXPECT_LT(volume.taken[0].error.worst, 1e-6);
+  const Late<ValueWindow>& window = volume.voxels.secondary[0].window;
+  EXPECT_FALSE(window.made()) << "no slice has asked for it";
+  EXPECT_NEAR(window.get().width, 3.0, 1e-6);
+  EXPECT_NEAR(window.get().level, 2.5, 1e-6);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/error.h"
 #include "common/compose/label_volume.h"
+#include "common/compose/volume_fields.h"
 #include "tests/common/render/volume/sample_volumes.h"
 
 namespace palpate::test {
@@ -32,6 +34,31 @@ TEST(VolumeScene, FewFarValuesDoNotWidenAWindow) {
     numbers[77] = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(window(), (ValueWindow{.width = 8.0, .level = 4.0})) << far;
   }
+}
+
+// Both are found by going through all voxels.
+TEST(VolumeScene, WindowsAndLensesOfOtherFieldsAreFoundWhereTheyAreAskedFor) {
+  const Index3 n(9, 8, 7);
+  std::vector<std::uint8_t> numbers;
+  for (int i = 0; i < n.x * n.y * n.z; ++i) numbers.push_back(static_cast<std::uint8_t>(i % 200));
+  VolumeView view;
+  view.image = make_volume_image(block_of(n, Vec3(1.0), numbers, ScalarType::kUint8), "s", "test");
+  view.fields = {volume_field(view.image, "other")};
+  EXPECT_FALSE(view.fields[0].window.made());
+  const VolumeView copy = view;
+  EXPECT_EQ(copy.fields[0].window.get(), (ValueWindow{.width = 199.0, .level = 99.5}));
+  EXPECT_TRUE(view.fields[0].window.made());
+
+  const std::vector<Late<Lens>> lenses = lens_appearances(view, "", 1);
+  ASSERT_EQ(lenses.size(), 2U);
+  for (std::size_t field = 0; field < 2; ++field) {
+    EXPECT_FALSE(lenses[field].made());
+    EXPECT_EQ(lenses[field].get().field, field);
+  }
+  EXPECT_EQ(lenses[0].get().transfer, default_focus_transfer(*view.image, 1));
+  EXPECT_EQ(lenses[1].get().transfer, default_color_transfer(*view.image, 1));
+  EXPECT_TRUE(lens_appearances(view, "mr", 1)[0].made()) << "words may be refused";
+  EXPECT_THROW((void)lens_appearances(view, "no such", 1), Error);
 }
 
 // Few of the voxels are looked at, but not down the same columns.

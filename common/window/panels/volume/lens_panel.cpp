@@ -39,7 +39,7 @@ void take_appearance(Lens& lens, const Lens& appearance) {
 
 /// Which field a lens shows, and whether by a transfer function of its own. An edit that would take more
 /// transfer functions than a picture can have is taken back.
-void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& appearances,
+void edit_shown(VolumeView& view, std::size_t index, const std::vector<Late<Lens>>& appearances,
                 const std::string& context, CachedHistogram& histograms) {
   const Lens before = view.lenses[index];
   Lens& lens = view.lenses[index];
@@ -50,16 +50,16 @@ void edit_shown(VolumeView& view, std::size_t index, const std::vector<Lens>& ap
         const std::string& name = field == 0 ? context : view.fields[field - 1].name;
         if (!selectable(name.c_str(), lens.field == field) || field >= appearances.size()) continue;
         lens.field = field;
-        take_appearance(lens, appearances[field]);
+        take_appearance(lens, appearances[field].get());
       }
       ImGui::EndCombo();
     }
     hint("the scalar that is seen in the lens");
   }
-  const Lens& appearance = appearances[std::min(lens.field, appearances.size() - 1)];
+  const Late<Lens>& appearance = appearances[std::min(lens.field, appearances.size() - 1)];
   const bool toggled = checkbox("own transfer function", &lens.own_transfer);
   hint("colours and opacities of this lens alone; else those of all lenses, below");
-  if (toggled && !lens.own_transfer) take_appearance(lens, appearance);
+  if (toggled && !lens.own_transfer) take_appearance(lens, appearance.get());
   if (lens.own_transfer) {
     EditedTransfer own{lens.transfer.value_or(ColorTransfer()), lens.regions};
     if (choose_own_transfer("own", own, image_of(view, lens.field), histograms)) {
@@ -91,7 +91,7 @@ void draw_lens_size(Lens& lens, const Box& bounds) {
 }
 
 /// @param coarser what lies outside is of coarser voxels.
-void draw_inside(Lens& lens, const Lens& model, bool coarser) {
+void draw_inside(Lens& lens, const Late<Lens>& model, bool coarser) {
   if (!lens.cut) {
     constexpr double kPlain = 1.0, kMostEnlarged = 8.0, kFewest = 0.5, kMost = 16.0;
     Lens enlarged = lens;
@@ -122,12 +122,12 @@ void draw_inside(Lens& lens, const Lens& model, bool coarser) {
   hint("nothing is drawn in it: one sees what is behind");
   if (toggled && !lens.cut) {
     lens.field = 0;
-    take_appearance(lens, model);
+    take_appearance(lens, model.get());
   }
 }
 
 /// @param unfolded at first; then, whether it is. @param coarser as draw_inside().
-LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfolded, bool coarser) {
+LensWish draw_lens(Lens& lens, const Late<Lens>& model, const Box& bounds, bool& unfolded, bool coarser) {
   unfolded = draw_fold(unfolded);
   if (unfolded) draw_lens_size(lens, bounds);
   ImGui::TextUnformatted(lens.screen ? "on the screen" : kind_of(lens.shape));
@@ -147,10 +147,10 @@ LensWish draw_lens(Lens& lens, const Lens& model, const Box& bounds, bool& unfol
 
 }  // namespace
 
-std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& appearances,
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Late<Lens>>& appearances,
                                            const std::string& context, const Box& bounds,
                                            CachedHistogram& histograms) {
-  const Lens model = appearances.empty() ? Lens() : appearances.front();
+  const Late<Lens> model = appearances.empty() ? Late<Lens>() : appearances.front();
   std::optional<std::size_t> gone, taken;
   constexpr float kRows = 14.0F;
   const bool scrolls = begin_list("lenses", view.lenses.size(), kRows);
@@ -176,9 +176,9 @@ std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<L
   };
   const bool wanted = small_button("+ lens");
   hint("a ball that the mouse moves until it is clicked (L)");
-  if (wanted) add(new_lens(model, 0.5 * (bounds.lower + bounds.upper), bounds));
+  if (wanted) add(new_lens(model.get(), 0.5 * (bounds.lower + bounds.upper), bounds));
   ImGui::SameLine();
-  if (view.lenses.size() < kMostLenses && small_button("+ on the screen")) add(new_screen_lens(model));
+  if (view.lenses.size() < kMostLenses && small_button("+ on the screen")) add(new_screen_lens(model.get()));
   hint("a circle that stays where it is when the volume is turned; the mouse moves it until it is clicked");
   return taken;
 }

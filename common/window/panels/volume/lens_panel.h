@@ -15,7 +15,7 @@ namespace palpate {
 /// scene.
 /// @param context name of the field around lenses. @param histograms for transfer functions of single lenses.
 /// @return the lens that the mouse is to move from now on, a new one among them.
-std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Lens>& appearances,
+std::optional<std::size_t> draw_lens_panel(VolumeView& view, const std::vector<Late<Lens>>& appearances,
                                            const std::string& context, const Box& bounds,
                                            CachedHistogram& histograms);
 
