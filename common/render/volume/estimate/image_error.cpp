@@ -45,6 +45,9 @@ VolumeView finer_view(VolumeView view, int doublings) {
   finer.samples_per_voxel = std::min(finer.samples_per_voxel, kSamples);
   for (Lens& lens : finer.lenses) lens.samples_per_voxel = std::min(lens.samples_per_voxel, kSamples);
   finer.table_entries = std::max(finer.table_entries, kEntries);
+  // Of shorter steps fewer lengths lie as densely; a table of all of them takes 64 MB while the picture rests.
+  const auto group = static_cast<int>(kLengthGroup);
+  finer.table_lengths = std::max(group, (finer.table_lengths >> doublings) / group * group);
   finer.preintegrate = true;
   return finer;
 }
