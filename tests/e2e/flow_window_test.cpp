@@ -167,10 +167,8 @@ class FromFileToLine : public FlowWindow {
     last_ += kPause;
     const WindowResult result = run_flow({});
     EXPECT_TRUE(result.shown) << result.log;
-    EXPECT_TRUE(result.probe.held) << result.log;
-    EXPECT_EQ(result.probe.state, HoldState::kHeld);
     EXPECT_GT(result.view.lines->size(), 0U);
-    expect_kept_helix(result);
+    expect_kept_helix(result);  // which was held: the hand has let go of it since, to save it
     return result;
   }
   /// One line is kept and saved: of u = (-y, x, 0.3), along which the distance from the axis and phi - z / 0.3 stay.

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "common/base/index.h"
-#include "common/field/rest_speed.h"
 #include "common/trace/walk/tet_crossing.h"
 
 namespace palpate {
@@ -215,9 +214,7 @@ std::optional<End> ExactWalk::cross(int face) {
       return std::nullopt;
     }
     const SeamCrossing there = cross_seam(*mesh_, from, face, x, sign_, seams_standing_++);
-    // At a wall that is still the speed dies away: what is left of it there is rounding.
-    if (there.cell == kNoCell)
-      return end_.speed <= kRestPart * cell_.norm * cell_.size ? End::kStagnation : End::kLeftDomain;
+    if (there.cell == kNoCell) return End::kLeftDomain;
     if (there.opposed) return End::kOpposedCells;
     error_.carry([&](const Vec3& e) { return there.carried(e); });
     settle(there.cell, there.x);

@@ -89,10 +89,11 @@ Vec3 within_border(const VectorField& field, const Vec3& x, double inset) noexce
 template <class Ask>
 SampleStatus at_or_within(const VectorField& field, const Vec3& x, const Ask& ask) noexcept {
   SampleStatus status = ask(x);
-  // Frames round: the border of one lies beyond that of another.
+  // Frames round: the border of one lies beyond that of another. A formula may say of its border what holds behind it.
   constexpr double kRounding = 1e-15;
   for (const double inset : {0.0, kRounding, kBorder}) {
     if (status != SampleStatus::kOutside) break;
+    if (inset == 0.0 && field.analytic() != nullptr) continue;
     status = ask(within_border(field, x, inset));
   }
   return status;

@@ -22,7 +22,6 @@
 #include <utility>
 
 #include "common/base/index.h"
-#include "common/field/rest_speed.h"
 #include "common/ode/linear_step.h"
 #include "common/ode/root.h"
 #include "common/ode/step_control.h"
@@ -181,8 +180,8 @@ class FaceWalk final : public LineWalk {
       if (domain_.seam().opposed) return End::kOpposedCells;
     }
     // At a wall that is still the speed dies away, and no line gets through: what is left of it there is rounding.
-    const double change = domain_.size() * LinearStep::row_sum(domain_.gradient(y_).matrix());
-    const bool is_still = glm::length(domain_.velocity(y_).xyz()) <= kRestPart * change;
+    const double speed = glm::length(domain_.velocity(y_).xyz());
+    const bool is_still = speed <= velocity_rounding(domain_.gradient(y_).matrix());
     return is_still ? End::kStagnation : End::kLeftDomain;
   }
 
