@@ -296,8 +296,7 @@ BorderMap::BorderMap(std::span<const std::array<float, 4>> directions,
 BorderVerdict BorderMap::judge(std::span<const Mat3> turns, std::size_t answers) const {
   constexpr double kLeastErrors = 5.0;   // that the borders have to be there by
   constexpr double kLeastBorder = 1e-6;  // their square, a voxel: less is rounding
-  constexpr double kFollowed =
-      0.1;  // B of directions that follow them: heads have 0.11 and more, cords up to 0.1
+  constexpr double kFollowed = 0.1;      // B of directions that follow them
   constexpr double kAcross = 0.15, kAcrossErrors = 4.0;
   constexpr double kAlike = 0.005;  // of B: a later turn has to be better by more
   BorderVerdict verdict;
