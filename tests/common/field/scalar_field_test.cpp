@@ -98,18 +98,17 @@ TEST(ScalarField, VoxelsOfAnyAxesStayWhereTheyLie) {
   for (const Mat3& axes : image_axes()) {
     const Index3 points{4, 3, 5};
     const Vec3 origin{7.0, -20.0, 3.0};
-    std::vector<std::int16_t> values;
+    std::vector<float> values;
     for (int k = 0; k < points.z; ++k) {
       for (int j = 0; j < points.y; ++j) {
-        for (int i = 0; i < points.x; ++i)
-          values.push_back(static_cast<std::int16_t>(1 + 2 * i - 30 * j + 5 * k));
+        for (int i = 0; i < points.x; ++i) values.push_back(static_cast<float>(1 + 2 * i - 30 * j + 5 * k));
       }
     }
     DataSet block;
     block.topology = UniformTopology{points, origin, axes};
-    block.arrays = {make_array("t", Association::kPoint, 1, std::span<const std::int16_t>(values))};
+    block.arrays = {make_array("t", Association::kPoint, 1, std::span<const float>(values))};
     const auto field = make_scalar_field({block}, {"t"}, "test");
-    const auto* kept = std::get_if<std::span<const std::int16_t>>(&field->values().values);
+    const auto* kept = std::get_if<std::span<const float>>(&field->values().values);
     ASSERT_NE(kept, nullptr);
     EXPECT_EQ(static_cast<const void*>(kept->data()), block.arrays.front().bytes.data());
     CellHint hint;

@@ -96,9 +96,9 @@ class FollowedByMouse : public CardiacMouse {
       const Vec3 shown = project(start.view.camera, fibre[(fibre.size() - 1) * n / kSteps],
                                  static_cast<int>(area().width), static_cast<int>(area().height));
       at({.kind = InputKind::kMove, .x = area().left + shown.x, .y = area().top + shown.y});
-      next_ += 5;
+      next_frames(5);
     }
-    next_ += 10;
+    next_frames(10);
     at({.kind = InputKind::kRelease});
     press("Keep line");
     press("Save lines");

@@ -113,7 +113,7 @@ TEST(Heart, HelixMapsAreTheClosedFormsOfFourConventions) {
   const SmoothNormals normals(heart.layer);
   const auto axis = long_axis(*heart.layer);
   ASSERT_TRUE(axis);
-  const std::vector<Vec3>& points = heart.layer->tet_mesh()->points();
+  const auto points = heart.layer->tet_mesh()->points();
   for (int c = 0; c < kAngleConventionCount; ++c) {
     const auto convention = static_cast<AngleConvention>(c);
     const bool leans = convention == AngleConvention::kBayer || convention == AngleConvention::kDoste;

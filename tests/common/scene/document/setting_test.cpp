@@ -41,7 +41,7 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("common", a, b, c, d, e, f, g);
   }
   {
-    const auto& [files, solution, layout, diffusion, refine, series, gaps, left_handed, markers] =
+    const auto& [files, solution, layout, diffusion, refine, series, gaps, left_handed, wall, markers] =
         static_cast<const LoadRequest&>(document.input);
     expect("request", files, solution, refine, series, gaps, markers);
     const auto& [example, field, secondary, time, kind, raw, tensor, cells, directions, regions, paint,
@@ -51,7 +51,7 @@ TEST(Settings, HaveARowForEveryMemberOfADocument) {
     expect("raw", a, b, c, d, e, f);
     const auto& [m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1] = tensor;
     expect("tensor", m, n, o, p, q, r, s, t, u, v, w, x, y, z, z1);
-    (void)layout, (void)diffusion, (void)left_handed, (void)secondary, (void)kind,
+    (void)layout, (void)diffusion, (void)left_handed, (void)wall, (void)secondary, (void)kind,
         (void)remesher;  // what the program makes of the others
   }
   {

@@ -12,7 +12,7 @@
 namespace palpate {
 namespace {
 
-constexpr PictureArea kArea{100.0, 0.0, 400.0, 400.0};
+constexpr PictureArea kWide{100.0, 0.0, 400.0, 400.0};
 
 /// Two squares across the view, at 0.5 and -0.5 towards the viewer; a cut has left the second one alone.
 SceneView cut_view() {
@@ -42,10 +42,10 @@ TEST(ColorLensControl, IsPutOnWhatACutHasLeftOfTheLayer) {
   const Vec3 there = 0.2 * view.camera.axes[0] - 0.3 * view.camera.axes[1] - 0.5 * view.camera.axes[2];
   const Vec3 shown = project(view.camera, there, 400, 400);
   EXPECT_FALSE(
-      control.handle({.kind = InputKind::kMove, .x = kArea.left + shown.x, .y = shown.y}, kArea, view));
+      control.handle({.kind = InputKind::kMove, .x = kWide.left + shown.x, .y = shown.y}, kWide, view));
   EXPECT_LT(glm::distance(view.color_lens->center, there), 1e-9);
   // Beside the layer it stays.
-  EXPECT_FALSE(control.handle({.kind = InputKind::kMove, .x = kArea.left + 1.0, .y = 1.0}, kArea, view));
+  EXPECT_FALSE(control.handle({.kind = InputKind::kMove, .x = kWide.left + 1.0, .y = 1.0}, kWide, view));
   EXPECT_LT(glm::distance(view.color_lens->center, there), 1e-9);
 }
 
