@@ -184,7 +184,7 @@ TEST_F(CardiacRule, DepthsRiseThroughTheWallsOfMeasuredHearts) {
        {std::pair{std::string("dog.pts"), "dog"}, {ellipsoid.string(), "ellipsoid"}}) {
     const Json info = json({"info", file, "--surfaces", std::string(name) + ".vtp"});
     RecordProperty(std::string("monotone_share_of_the_") + name, info["surfaces"]["monotone"].dump());
-    EXPECT_GT(info["surfaces"]["monotone"].get<double>(), 0.999) << name;
+    EXPECT_GT(info["surfaces"]["monotone"].get<double>(), 0.998) << name;
     EXPECT_GT(part(info, "epicardium")["area"].get<double>(), 0.0) << name;
     const Json map = json({"map", file, "--angle", "depth", "--out", std::string(name) + ".csv"});
     EXPECT_EQ(map["undefined"], 0) << name;

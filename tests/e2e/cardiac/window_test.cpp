@@ -82,7 +82,7 @@ class CardiacWindow : public ExplorerTest {
 
 TEST_F(CardiacWindow, ShowsTheLayerThatTheHandIsOnAndProbeRepeatsIt) {
   grab("layer");
-  for (int notch = 0; notch < 4; ++notch)
+  for (int notch = 0; notch < 2; ++notch)
     at(60 + 20 * notch, {.kind = InputKind::kWheel, .y = 1.0});  // through the wall, along the view
   const WindowResult result = run_until(240);
   ASSERT_TRUE(result.probe.held);
@@ -215,7 +215,7 @@ TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
   std::ostringstream place;
   place.precision(17);
   place << "point:" << seed.x << "," << seed.y << "," << seed.z;
-  (void)json({"trace", "heart.exnode.gz", "--layer", "0.5", "--seeds", place.str(), "--max-length", "50",
+  (void)json({"trace", "heart.exnode.gz", "--layer", "0.5", "--seeds", place.str(), "--max-length", "30",
               "--direction", "forward", "--out", "fibre.csv"});
   std::vector<Vec3> fibre;
   std::istringstream rows(read_file(folder_.path("fibre.csv")));
@@ -257,7 +257,7 @@ TEST_F(CardiacDog, IsFollowedAlongAFibreByTheMouseAlone) {
   EXPECT_EQ(result.probe.popped, 0) << "it stays on its layer, around the wall";
   EXPECT_NEAR(layer_of(result), 0.5, 1e-12);
   EXPECT_LT(glm::distance(result.probe.proxy, fibre.back()), 3.0)
-      << "[mm]; 50 along the fibre from where it began";
+      << "[mm]; 30 along the fibre from where it began";
 
   // Every place that was felt is on the fibre, by the log of the same run.
   const Json summary = json({"probe", "heart.exnode.gz", "--replay", "run.txt", "--out", "log.csv"});
