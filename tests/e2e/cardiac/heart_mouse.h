@@ -14,10 +14,12 @@
 
 #include "apps/cardiac/cardiac_model.h"
 #include "apps/cardiac/cardiac_verbs.h"
+#include "common/base/index.h"
 #include "common/cli/command_line.h"
 #include "common/cli/window_touch.h"
 #include "common/compose/appearance.h"
 #include "common/compose/line_view.h"
+#include "common/field/data_set.h"
 #include "common/hand/mode/haptic_mode.h"
 #include "common/window/panels/panel.h"
 #include "common/window/window.h"
@@ -25,6 +27,16 @@
 #include "tests/support/project_folders.h"
 
 namespace palpate::test {
+
+/// The mean of a cell's points.
+inline Vec3 middle_of(const UnstructuredTopology& cells, std::size_t cell) {
+  Vec3 sum{0.0};
+  const std::int64_t first = cells.offsets[cell], end = cells.offsets[cell + 1];
+  for (std::int64_t i = first; i < end; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      sum[axis] += cells.positions.at(as_size(cells.connectivity[as_size(i)]), axis);
+  return sum / static_cast<double>(end - first);
+}
 
 class CardiacMouse : public ExplorerTest {
  protected:

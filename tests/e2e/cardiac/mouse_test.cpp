@@ -157,12 +157,7 @@ void write_in_bath(const fs::path& file) {
   std::vector<Vec3> fibres;
   std::vector<int> regions;
   for (std::size_t c = 0; c < cells.types.size(); ++c) {
-    Vec3 middle{0.0};
-    const std::int64_t first = cells.offsets[c], end = cells.offsets[c + 1];
-    for (std::int64_t i = first; i < end; ++i)
-      for (int axis = 0; axis < 3; ++axis)
-        middle[axis] += cells.positions.at(as_size(cells.connectivity[as_size(i)]), axis) /
-                        static_cast<double>(end - first);
+    const Vec3 middle = middle_of(cells, c);
     const Prolate at = heart.coordinates(middle);
     const bool bath = at.lambda > heart.lambda_outer;
     regions.push_back(bath ? 0 : 1);

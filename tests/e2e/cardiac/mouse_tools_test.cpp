@@ -32,12 +32,7 @@ class HeartToolsByMouse : public CardiacMouse {
     std::vector<Vec3> fibres;
     std::vector<int> region;
     for (std::size_t c = 0; c < cells.types.size(); ++c) {
-      Vec3 middle{0.0};
-      const std::int64_t first = cells.offsets[c], end = cells.offsets[c + 1];
-      for (std::int64_t i = first; i < end; ++i)
-        for (int axis = 0; axis < 3; ++axis)
-          middle[axis] += cells.positions.at(as_size(cells.connectivity[as_size(i)]), axis) /
-                          static_cast<double>(end - first);
+      const Vec3 middle = middle_of(cells, c);
       fibres.push_back(kHeart.fibre(kHeart.coordinates(middle)));
       fibres.back().z *= sign;
       region.push_back(1 + static_cast<int>(c * as_size(regions) / cells.types.size()));
